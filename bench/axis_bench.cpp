@@ -1,6 +1,6 @@
-// One drive of one axis of the MCX314: the virtual chip, which makes it in closed form, and beside it the clocked simulation that verilator
-// makes of tests/verilog/mcx314_axis.v, where it is installed. Before anything is measured both are shown to make the same pulses in the same
-// ticks.
+// One drive of one axis of the MCX314: the virtual chip, which makes it in closed form, and beside it the clocked
+// simulation that verilator makes of tests/verilog/mcx314_axis.v, where it is installed. Before anything is measured
+// both are shown to make the same pulses in the same ticks.
 //
 //   chip       command ─► ramp ─► cruise ─► ramp          a few hundred events, or one batch for each 2,048 pulses that somebody hears
 //   verilator  clock 0 1 0 1 0 1 0 1 0 1 0 1 0 1 ...      10 million clocks of 125 ns for the same 4.5 million pulses
@@ -19,7 +19,8 @@ using benchmark::Counter;
 
 constexpr unsigned axis_x = 1;
 
-/// What two generators of one drive have in common: how many pulses, and their instants from the first one on, added up.
+/// What two generators of one drive have in common: how many pulses, and their instants from the first one on, added
+/// up.
 class Pulses final : public sim::EdgeListener {
   public:
     void edges(const sim::EdgeBatch& batch) override {
@@ -45,7 +46,7 @@ void count_pulses(benchmark::State& state, const Move& move, std::int64_t made) 
     state.counters["each"] = Counter(static_cast<double>(asked), Counter::kIsRate | Counter::kInvert);
 }
 
-// ---- the virtual chip ----------------------------------------------------------------------------------------------------------
+// ---- the virtual chip
 
 /// One drive after the other; the host looks each 10 ms. `heard`: the instant of every pulse is made and handed over.
 void drive(benchmark::State& state, const Move& move, bool heard) {
@@ -70,7 +71,7 @@ BENCHMARK_CAPTURE(drive, servo_s_heard, servo_s, true);
 BENCHMARK_CAPTURE(drive, stepper, stepper, false);
 BENCHMARK_CAPTURE(drive, stepper_heard, stepper, true);
 
-// ---- clocked -------------------------------------------------------------------------------------------------------------------
+// ---- clocked
 
 #ifdef MOTIONRACK_VERILATED
 

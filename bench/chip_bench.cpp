@@ -13,7 +13,7 @@ void count_time(benchmark::State& state, double seconds, double pulses) {
     state.counters["pulses/s"] = Counter(pulses, Counter::kIsRate);
 }
 
-// ---- cruising: four axes at 4 Mpps, nobody listens to pulses -------------------------------------------------------------------
+// ---- cruising: four axes at 4 Mpps, nobody listens to pulses
 
 /// The host looks every `slice`.
 void cruise(benchmark::State& state, Duration slice, bool machines) {
@@ -42,11 +42,12 @@ void cruise_twin(benchmark::State& state) {
     host.twin.run(8'000);
     const std::int64_t begin = host.twin.now(), first = host.twin.count(0);
     for (auto _ : state) host.twin.run(8'000);
-    count_time(state, static_cast<double>(host.twin.now() - begin) / 8e6, 4 * static_cast<double>(host.twin.count(0) - first));
+    count_time(state, static_cast<double>(host.twin.now() - begin) / 8e6,
+               4 * static_cast<double>(host.twin.count(0) - first));
 }
 BENCHMARK(cruise_twin);
 
-// ---- whole moves with their ramps ----------------------------------------------------------------------------------------------
+// ---- whole moves with their ramps
 
 void moves(benchmark::State& state, const Move& move, bool machines) {
     Stage stage(machines);
@@ -118,7 +119,7 @@ BENCHMARK_CAPTURE(speed_steps, t_curve_machines, false, true);
 BENCHMARK_CAPTURE(speed_steps, s_curve, true, false);
 BENCHMARK_CAPTURE(speed_steps, s_curve_machines, true, true);
 
-// ---- every edge listened to and decoded ----------------------------------------------------------------------------------------
+// ---- every edge listened to and decoded
 
 template <class Decoder>
 void count_edges(benchmark::State& state, Stage& stage, std::int64_t before, const std::array<Decoder, 4>& decoders) {
@@ -126,7 +127,8 @@ void count_edges(benchmark::State& state, Stage& stage, std::int64_t before, con
     state.counters["edges/s"] = Counter(static_cast<double>(edges), Counter::kIsRate);
     state.counters["each"] = Counter(static_cast<double>(edges), Counter::kIsRate | Counter::kInvert);
     for (int a = 0; a < 4; ++a)
-        if (decoders[static_cast<std::size_t>(a)].illegal() != 0 || decoders[static_cast<std::size_t>(a)].count() != stage.host.count(a))
+        if (decoders[static_cast<std::size_t>(a)].illegal() != 0 ||
+            decoders[static_cast<std::size_t>(a)].count() != stage.host.count(a))
             state.SkipWithError("an edge was lost");
 }
 
@@ -145,10 +147,14 @@ void edges(benchmark::State& state, const Speeds& speeds) {
     state.counters["sim_s/s"] = Counter(stage.seconds() - begin, Counter::kIsRate);
     count_edges(state, stage, before, decoders);
 }
-constexpr Speeds at_20_kpps{640'000, 1'600, 1'600, 400, 100}, at_100_kpps{640'000, 8'000, 8'000, 400, 100}, at_4_mpps{16'000, 8'000, 8'000, 400, 100},
-    at_3_997_mpps{16'000, 7'993, 7'993, 400, 100};
-void edges_in_batches(benchmark::State& state, const Speeds& speeds) { edges<sim::BatchDecoder>(state, speeds); }
-void edges_one_by_one(benchmark::State& state, const Speeds& speeds) { edges<OneByOne>(state, speeds); }
+constexpr Speeds at_20_kpps{640'000, 1'600, 1'600, 400, 100}, at_100_kpps{640'000, 8'000, 8'000, 400, 100},
+    at_4_mpps{16'000, 8'000, 8'000, 400, 100}, at_3_997_mpps{16'000, 7'993, 7'993, 400, 100};
+void edges_in_batches(benchmark::State& state, const Speeds& speeds) {
+    edges<sim::BatchDecoder>(state, speeds);
+}
+void edges_one_by_one(benchmark::State& state, const Speeds& speeds) {
+    edges<OneByOne>(state, speeds);
+}
 BENCHMARK_CAPTURE(edges_in_batches, 20_kpps, at_20_kpps);
 BENCHMARK_CAPTURE(edges_in_batches, 100_kpps, at_100_kpps);
 BENCHMARK_CAPTURE(edges_in_batches, 4_Mpps, at_4_mpps);
@@ -220,7 +226,7 @@ BENCHMARK_CAPTURE(path_edges, line, line);
 BENCHMARK_CAPTURE(path_edges, arc, arc);
 BENCHMARK_CAPTURE(path_edges, arc_at_constant_vector_speed, arc_at_constant_vector_speed);
 
-// ---- rewinding -----------------------------------------------------------------------------------------------------------------
+// ---- rewinding
 
 void snapshot(benchmark::State& state) {
     Stage stage(true);

@@ -1,4 +1,5 @@
-// The work of the chip's benchmarks: a chip with four axis machines, and drives written to it or to its tick-by-tick twin alike.
+// The work of the chip's benchmarks: a chip with four axis machines, and drives written to it or to its tick-by-tick
+// twin alike.
 #pragma once
 
 #include <array>
@@ -20,7 +21,8 @@ struct Speeds {
     std::int64_t range = 16'000, start = 8'000, speed = 8'000, accel = 400, jerk = 100;
 };
 
-/// Writes them to the axes of `mask`; the axes' A, D and K differ a little, so that their speeds step at different ticks.
+/// Writes them to the axes of `mask`; the axes' A, D and K differ a little, so that their speeds step at different
+/// ticks.
 template <class Host>
 void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
     for (unsigned i = 0; i < 4; ++i) {

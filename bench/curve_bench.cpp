@@ -114,7 +114,8 @@ BENCHMARK_CAPTURE(curve, arcs_of_20_mm, arcs(20));
 void ride(benchmark::State& state, const std::vector<Move>& moves) {
     double cells = 0;
     for (auto _ : state) {
-        Ride ride(machine(), Point{}, [&](const Stretch& stretch) { cells += static_cast<double>(stretch.feed.size()); });
+        Ride ride(machine(), Point{},
+                  [&](const Stretch& stretch) { cells += static_cast<double>(stretch.feed.size()); });
         for (const Move& move : moves) ride.push(move);
         ride.flush();
     }

@@ -1,5 +1,5 @@
-// Frames over Cyclone DDS between two processes of this computer: how many a second, and how old they are when they arrive. Beside it
-// the judge alone.
+// Frames over Cyclone DDS between two processes of this computer: how many a second, and how old they are when they
+// arrive. Beside it the judge alone.
 #include <benchmark/benchmark.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -24,9 +24,10 @@ using namespace motionrack;
 using dds::Frame;
 
 /// The network that does not leave this computer.
-constexpr const char* loopback = "<Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-                                 "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-                                 "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain>";
+constexpr const char* loopback =
+    "<Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain>";
 
 /// Frame `number`, which tells in its first two counts when it left.
 void stamp(Frame& frame, std::uint32_t number, Duration period, std::uint32_t scales) {
@@ -39,7 +40,9 @@ void stamp(Frame& frame, std::uint32_t number, Duration period, std::uint32_t sc
     frame.crc = crc_of(frame);
 }
 
-Instant stamp_of(const Frame& frame) { return Instant{static_cast<std::int64_t>(std::uint64_t{frame.counts[1]} << 32 | frame.counts[0])}; }
+Instant stamp_of(const Frame& frame) {
+    return Instant{static_cast<std::int64_t>(std::uint64_t{frame.counts[1]} << 32 | frame.counts[0])};
+}
 
 /// The other process: publishes each `pace`, or as fast as it can (0), until it is killed.
 [[noreturn]] void publish_forever(const std::string& bus, Duration pace, std::uint32_t scales) {
@@ -52,7 +55,9 @@ Instant stamp_of(const Frame& frame) { return Instant{static_cast<std::int64_t>(
     Frame frame;
     for (std::uint32_t number = 0;; ++number) {
         if (pace != Duration{0})
-            for (const Instant due = pacer.due(std::int64_t{number} * period, dds::monotonic_now()); dds::monotonic_now() < due;) dds::sleep_until(due);
+            for (const Instant due = pacer.due(std::int64_t{number} * period, dds::monotonic_now());
+                 dds::monotonic_now() < due;)
+                dds::sleep_until(due);
         stamp(frame, number, period, scales);
         (*publisher)->publish(frame);
     }
@@ -76,7 +81,9 @@ class OtherProcess {
 };
 
 double percentile(const std::vector<double>& sorted, double part) {
-    return sorted.empty() ? 0 : sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(part * static_cast<double>(sorted.size())))];
+    return sorted.empty() ? 0
+                          : sorted[std::min(sorted.size() - 1,
+                                            static_cast<std::size_t>(part * static_cast<double>(sorted.size())))];
 }
 
 /// Listens until `frames` frames came; their ages in us when they were received, lost ones counted. False if none come.
@@ -84,7 +91,8 @@ bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& 
     while (ages.size() < frames) {
         if (!subscriber.wait(whole_seconds(10))) return false;
         subscriber.poll([&](const dds::Sample& sample, dds::Verdict verdict, Instant received) {
-            if (verdict == dds::Verdict::used && ages.size() < frames) ages.push_back(to_seconds(received - stamp_of(sample.frame)) * 1e6);
+            if (verdict == dds::Verdict::used && ages.size() < frames)
+                ages.push_back(to_seconds(received - stamp_of(sample.frame)) * 1e6);
         });
     }
     return true;
@@ -117,8 +125,20 @@ void network(benchmark::State& state) {
     state.counters["p999_us"] = percentile(ages, 0.999);
     state.counters["max_us"] = ages.empty() ? 0 : ages.back();
 }
-BENCHMARK(network)->ArgNames({"period_us", "scales"})->Args({200, 8})->Args({200, 255})->UseRealTime()->MinTime(10)->Unit(benchmark::kMillisecond);
-BENCHMARK(network)->ArgNames({"period_us", "scales"})->Args({0, 8})->Args({0, 255})->UseRealTime()->MinTime(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(network)
+    ->ArgNames({"period_us", "scales"})
+    ->Args({200, 8})
+    ->Args({200, 255})
+    ->UseRealTime()
+    ->MinTime(10)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(network)
+    ->ArgNames({"period_us", "scales"})
+    ->Args({0, 8})
+    ->Args({0, 255})
+    ->UseRealTime()
+    ->MinTime(3)
+    ->Unit(benchmark::kMillisecond);
 
 /// The CRC included.
 void judging(benchmark::State& state) {

@@ -106,7 +106,8 @@ void compare(benchmark::State& state, std::size_t samples, const Work& work, con
     const auto all = static_cast<double>(samples) * static_cast<double>(state.iterations());
     state.counters["samples/s"] = benchmark::Counter(all, benchmark::Counter::kIsRate);
     state.counters["baseline/s"] = static_cast<double>(samples) / base;
-    state.counters["ratio"] = benchmark::Counter(all * base / static_cast<double>(samples), benchmark::Counter::kIsRate);
+    state.counters["ratio"] =
+        benchmark::Counter(all * base / static_cast<double>(samples), benchmark::Counter::kIsRate);
 }
 
 void one_axis_bytes(benchmark::State& state, const Kernels& kernels) {
@@ -122,7 +123,8 @@ void one_axis_bytes(benchmark::State& state, const Kernels& kernels) {
 
 void one_axis_with_index(benchmark::State& state, const Kernels& kernels) {
     auto stream = stream_of(static_cast<std::size_t>(state.range(0)));
-    for (std::size_t i = 0; i < stream.size(); ++i) stream[i] = static_cast<std::uint8_t>((stream[i] & 3U) | (i % 40'000 < 8 ? 4U : 0U));
+    for (std::size_t i = 0; i < stream.size(); ++i)
+        stream[i] = static_cast<std::uint8_t>((stream[i] & 3U) | (i % 40'000 < 8 ? 4U : 0U));
     const auto work = [&] {
         ChannelDecoder decoder({}, kernels);
         decoder.bytes(stream.data(), stream.size(), {0, 1, 2});
@@ -170,8 +172,9 @@ void reading_alone(benchmark::State& state, const Kernels& kernels) {
 int main(int argc, char** argv) {
     for (const Kernels& kernels : available_kernels()) {
         const auto add = [&](const char* name, auto* function) {
-            return benchmark::RegisterBenchmark((std::string(name) + "/" + kernels.name).c_str(),
-                                                [function, &kernels](benchmark::State& state) { function(state, kernels); });
+            return benchmark::RegisterBenchmark(
+                (std::string(name) + "/" + kernels.name).c_str(),
+                [function, &kernels](benchmark::State& state) { function(state, kernels); });
         };
         // Bytes in the first cache, the second, and memory; of planes, bytes of one line.
         add("one_axis_bytes", one_axis_bytes)->Arg(16 << 10)->Arg(256 << 10)->Arg(64 << 20);

@@ -1,8 +1,9 @@
-// Frames of the grating bus a second of one core: the virtual cards, and beside them the clocked simulation that verilator makes of
-// tests/verilog/grating, where it is installed.
+// Frames of the grating bus a second of one core: the virtual cards, and beside them the clocked simulation that
+// verilator makes of tests/verilog/grating, where it is installed.
 //
-// Eight moving scales, a host and ten slaves, 200 us a period, which is 20,000 clocks of 100 MHz. `frames/s` counts periods, in each of which
-// every card publishes its frame with its CRC; `baseline/s` is the clocked simulation, `ratio` how many times that.
+// Eight moving scales, a host and ten slaves, 200 us a period, which is 20,000 clocks of 100 MHz. `frames/s` counts
+// periods, in each of which every card publishes its frame with its CRC; `baseline/s` is the clocked simulation,
+// `ratio` how many times that.
 #include <benchmark/benchmark.h>
 
 #include <motionrack/cards/grating_bus/test/rig.hpp>
@@ -22,7 +23,7 @@ using namespace grating_bus;
 constexpr int slaves = 10, words = 8, period_clocks = 20'000;
 constexpr Duration period = microseconds(200);
 
-// ---- clocked -------------------------------------------------------------------------------------------------------------------
+// ---- clocked
 
 #ifdef MOTIONRACK_VERILATED
 
@@ -43,7 +44,8 @@ class Clocked {
         }
     }
     std::int64_t frames() const { return frames_; }
-    /// Claims the last frame; whether it is the same on all cards, of that time in clocks, and scale 0 where it must be.
+    /// Claims the last frame; whether it is the same on all cards, of that time in clocks, and scale 0 where it must
+    /// be.
     bool holds_frame_of(std::int64_t clock) {
         system_->claim = 1;
         run(1);
@@ -52,10 +54,14 @@ class Clocked {
             system_->word_asked = static_cast<std::uint8_t>(word);
             system_->eval();
             for (int card = 1; card <= slaves; ++card)
-                if (system_->words_read[card] != system_->words_read[0] || system_->crcs_read[card] != system_->crcs_read[0]) return false;
-            if (word == 0 && system_->words_read[0] != static_cast<std::uint32_t>((clock - 1) * 13'107 / 65'536)) return false;
+                if (system_->words_read[card] != system_->words_read[0] ||
+                    system_->crcs_read[card] != system_->crcs_read[0])
+                    return false;
+            if (word == 0 && system_->words_read[0] != static_cast<std::uint32_t>((clock - 1) * 13'107 / 65'536))
+                return false;
         }
-        return system_->times_read[0] == static_cast<std::uint32_t>(clock * 100) && !system_->conflict && !system_->clk_conflict;
+        return system_->times_read[0] == static_cast<std::uint32_t>(clock * 100) && !system_->conflict &&
+               !system_->clk_conflict;
     }
 
   private:
@@ -72,7 +78,8 @@ void frames_clocked(benchmark::State& state) {
         ++periods;
     }
     if (clocked.frames() != periods) state.SkipWithError("a frame was lost");
-    if (!clocked.holds_frame_of((periods - 1) * period_clocks + 2)) state.SkipWithError("the cards hold other frames than they must");
+    if (!clocked.holds_frame_of((periods - 1) * period_clocks + 2))
+        state.SkipWithError("the cards hold other frames than they must");
     state.counters["frames/s"] = Counter(static_cast<double>(periods), Counter::kIsRate);
     state.counters["clocks/s"] = Counter(static_cast<double>(periods * period_clocks), Counter::kIsRate);
 }
@@ -104,7 +111,7 @@ void count_ratio(benchmark::State&, double) {}
 
 #endif
 
-// ---- the virtual cards ---------------------------------------------------------------------------------------------------------
+// ---- the virtual cards
 
 /// Cards with nobody's ears on; `claims`: each processor claims each frame and looks whether it is sound.
 void frames_of_cards(benchmark::State& state, bool wires_watched, bool claims) {
@@ -121,7 +128,8 @@ void frames_of_cards(benchmark::State& state, bool wires_watched, bool claims) {
     }
     std::vector<std::unique_ptr<Card>> cards;
     for (const CardSettings& settings : crew(slaves, words))
-        cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, settings));
+        cards.push_back(
+            std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, settings));
     watcher.connect();
     kernel.start();
     watcher.watch(wires_watched);
@@ -142,7 +150,8 @@ void frames_of_cards(benchmark::State& state, bool wires_watched, bool claims) {
         const Frame* last = card->last();
         bad += card->frames() != periods || !last || !sound(*last) || !same(*last, *cards[0]->last());
         for (int k = 0; last && k < words; ++k)
-            bad += last->counts[static_cast<std::size_t>(k)] != static_cast<std::uint32_t>(motions[static_cast<std::size_t>(k)]->count(last->instant()));
+            bad += last->counts[static_cast<std::size_t>(k)] !=
+                   static_cast<std::uint32_t>(motions[static_cast<std::size_t>(k)]->count(last->instant()));
     }
     if (bad != 0) state.SkipWithError("the cards hold other frames than they must");
     state.counters["frames/s"] = Counter(static_cast<double>(periods), Counter::kIsRate);

@@ -1,6 +1,6 @@
-// How the work of a rack grows: with the axes of a card, with its cards, with the cards and the scales of a grating bus. The times are of one
-// pulse and of one frame, so that what grows no faster than the work stays the same down a column. Memory is the process' own, so each size is
-// best run alone: --benchmark_filter=^cards/8$
+// How the work of a rack grows: with the axes of a card, with its cards, with the cards and the scales of a grating
+// bus. The times are of one pulse and of one frame, so that what grows no faster than the work stays the same down a
+// column. Memory is the process' own, so each size is best run alone: --benchmark_filter=^cards/8$
 #include <benchmark/benchmark.h>
 
 #include <motionrack/cards/grating_bus/test/rig.hpp>
@@ -17,7 +17,9 @@ using benchmark::Counter;
 class Card : public mcx314::Commands<Card> {
   public:
     Card(sim::Kernel& kernel, const std::string& name) : chip_(kernel, name), machines_(kernel, name, chip_) {}
-    void write(int number, unsigned value) { chip_.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value)); }
+    void write(int number, unsigned value) {
+        chip_.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
+    }
     bool drives() { return (chip_.read(0) & all_axes) != 0; }
 
   private:
@@ -45,7 +47,8 @@ void axes(benchmark::State& state) {
         plus = !plus;
     }
     const auto pulses = static_cast<double>(stage.pulses());
-    if (pulses != static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations())) state.SkipWithError("pulses were lost");
+    if (pulses != static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations()))
+        state.SkipWithError("pulses were lost");
     count(state, "pulses/s", pulses, stage.seconds() - begin);
 }
 BENCHMARK(axes)->DenseRange(1, 4);
@@ -54,7 +57,8 @@ BENCHMARK(axes)->DenseRange(1, 4);
 void cards(benchmark::State& state) {
     sim::Kernel kernel;
     std::vector<std::unique_ptr<Card>> all;
-    for (std::int64_t i = 0; i < state.range(0); ++i) all.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(i))));
+    for (std::int64_t i = 0; i < state.range(0); ++i)
+        all.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(i))));
     kernel.start();
     for (const auto& card : all) prepare(*card, stepper);
     mcx314::outside::advance(kernel, milliseconds(1));
@@ -66,13 +70,15 @@ void cards(benchmark::State& state) {
             while (card->drives()) mcx314::outside::advance(kernel, milliseconds(10));
         plus = !plus;
     }
-    const double pulses = 4.0 * static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations());
+    const double pulses =
+        4.0 * static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations());
     count(state, "pulses/s", pulses, to_seconds(kernel.now() - begin));
     state.counters["snapshot_bytes"] = static_cast<double>(kernel.snapshot().bytes.size());
 }
 BENCHMARK(cards)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32);
 
-/// Frames of a grating bus with so many slaves and so many scales, nobody looking; one of `each` is a frame of one card.
+/// Frames of a grating bus with so many slaves and so many scales, nobody looking; one of `each` is a frame of one
+/// card.
 void frames(benchmark::State& state) {
     const auto slaves = static_cast<int>(state.range(0)), scales = static_cast<int>(state.range(1));
     grating_bus::Crate crate(grating_bus::crew(slaves, scales), scales, {}, false);
@@ -80,9 +86,16 @@ void frames(benchmark::State& state) {
     for (auto _ : state) crate.run_to(++periods * microseconds(200) - microseconds(100));
     for (const auto& card : crate.cards)
         if (card->frames() != periods) state.SkipWithError("a frame was lost");
-    count(state, "frames/s", static_cast<double>(periods) * static_cast<double>(crate.cards.size()), to_seconds(crate.kernel.now() - Instant{0}));
+    count(state, "frames/s", static_cast<double>(periods) * static_cast<double>(crate.cards.size()),
+          to_seconds(crate.kernel.now() - Instant{0}));
 }
-BENCHMARK(frames)->ArgNames({"slaves", "scales"})->Args({1, 8})->Args({2, 8})->Args({5, 8})->Args({10, 8})->Args({20, 8});
+BENCHMARK(frames)
+    ->ArgNames({"slaves", "scales"})
+    ->Args({1, 8})
+    ->Args({2, 8})
+    ->Args({5, 8})
+    ->Args({10, 8})
+    ->Args({20, 8});
 BENCHMARK(frames)->ArgNames({"slaves", "scales"})->Args({10, 1})->Args({10, 64})->Args({10, 255});
 
 }  // namespace

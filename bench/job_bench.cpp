@@ -68,8 +68,12 @@ void run(benchmark::State& state, const std::string& program) {
     state.counters["segments/s"] = Counter(segments, Counter::kIsRate);
 }
 
-void run_example_part(benchmark::State& state) { run(state, text_of("examples/02_part/part.ngc")); }
-void run_20000_short_lines(benchmark::State& state) { run(state, short_lines()); }
+void run_example_part(benchmark::State& state) {
+    run(state, text_of("examples/02_part/part.ngc"));
+}
+void run_20000_short_lines(benchmark::State& state) {
+    run(state, short_lines());
+}
 BENCHMARK(run_example_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(run_20000_short_lines)->Unit(benchmark::kMillisecond);
 
@@ -88,8 +92,12 @@ void rewind(benchmark::State& state, bool back) {
     }
     state.counters["bytes"] = static_cast<double>(taken.bytes.size());
 }
-void snapshot_of_a_rack(benchmark::State& state) { rewind(state, false); }
-void restore_of_a_rack(benchmark::State& state) { rewind(state, true); }
+void snapshot_of_a_rack(benchmark::State& state) {
+    rewind(state, false);
+}
+void restore_of_a_rack(benchmark::State& state) {
+    rewind(state, true);
+}
 BENCHMARK(snapshot_of_a_rack);
 BENCHMARK(restore_of_a_rack);
 

@@ -15,13 +15,17 @@ namespace {
 
 using benchmark::Counter;
 
-std::string scratch(const std::string& name) { return (std::filesystem::temp_directory_path() / ("motionrack_bench_" + std::to_string(::getpid()) + "_" + name)).string(); }
+std::string scratch(const std::string& name) {
+    return (std::filesystem::temp_directory_path() / ("motionrack_bench_" + std::to_string(::getpid()) + "_" + name))
+        .string();
+}
 
 trace::RecordingHead head() {
     trace::RecordingHead out;
     out.sample_period = milliseconds(1);
     out.axes.push_back({"X", "mm", false, 640, 800, 0, 0, 300, 50, 1000});
-    out.signals = {{"X.steps", "axes/x/steps", trace::SignalKind::steps, "step", 0}, {"X.encoder", "axes/x/encoder", trace::SignalKind::counts, "count", 0}};
+    out.signals = {{"X.steps", "axes/x/steps", trace::SignalKind::steps, "step", 0},
+                   {"X.encoder", "axes/x/encoder", trace::SignalKind::counts, "count", 0}};
     return out;
 }
 
@@ -47,7 +51,8 @@ void write_events(benchmark::State& state) {
     const std::string path = scratch("w.h5");
     for (auto _ : state)
         if (!write(path)) return state.SkipWithError("the recording cannot be written");
-    state.counters["each"] = Counter(static_cast<double>(events), Counter::kIsIterationInvariantRate | Counter::kInvert);
+    state.counters["each"] =
+        Counter(static_cast<double>(events), Counter::kIsIterationInvariantRate | Counter::kInvert);
     state.counters["bytes/event"] = static_cast<double>(std::filesystem::file_size(path)) / static_cast<double>(events);
     std::filesystem::remove(path);
 }
@@ -60,7 +65,8 @@ void compare_events(benchmark::State& state) {
         const auto diff = trace::diff_files(path, path);
         if (!diff || !diff->same()) return state.SkipWithError("a recording differs from itself");
     }
-    state.counters["each"] = Counter(static_cast<double>(events), Counter::kIsIterationInvariantRate | Counter::kInvert);
+    state.counters["each"] =
+        Counter(static_cast<double>(events), Counter::kIsIterationInvariantRate | Counter::kInvert);
     std::filesystem::remove(path);
 }
 BENCHMARK(compare_events)->Unit(benchmark::kMillisecond);
@@ -82,7 +88,8 @@ void run_example_part(benchmark::State& state) {
     double written = 0;
     for (auto _ : state) {
         auto job = rack::RecordedJob::create(request, watchers);
-        if (!job || !(*job)->run(nullptr, {}).ended || !(*job)->finish()) return state.SkipWithError("the example cannot be run");
+        if (!job || !(*job)->run(nullptr, {}).ended || !(*job)->finish())
+            return state.SkipWithError("the example cannot be run");
         written = static_cast<double>((*job)->events());
     }
     if (written > 0) state.counters["events"] = written;

@@ -71,7 +71,10 @@ Counted read_pictures(std::uint16_t port, const Load& load) {
             fmt::print(stderr, "client {} was not let in\n", i);
             std::exit(1);
         }
-        client.say({{"id", 1}, {"subscribe", {{"channels", {"X.commanded", "Y.commanded", "Z.commanded", "A.commanded", "X.speed"}}, {"rate_hz", load.rate_hz}}}});
+        client.say({{"id", 1},
+                    {"subscribe",
+                     {{"channels", {"X.commanded", "Y.commanded", "Z.commanded", "A.commanded", "X.speed"}},
+                      {"rate_hz", load.rate_hz}}}});
     }
     std::vector<pollfd> ready;
     for (const server::WebClient& client : clients) ready.push_back({client.descriptor(), POLLIN, 0});
@@ -105,7 +108,8 @@ std::unique_ptr<server::ServedRack> serve() {
     settings.server.limits.requests_at_once = 1e6;
     auto served = server::ServedRack::open(*rack::read_rack_text(rack_text).config, std::move(settings));
     if (served) (void)(*served)->machine().enable(true);
-    const Result<void> begun = served ? (*served)->machine().begin_program(job(), "load") : tl::unexpected<Error>(served.error());
+    const Result<void> begun =
+        served ? (*served)->machine().begin_program(job(), "load") : tl::unexpected<Error>(served.error());
     if (begun) return std::move(*served);
     fmt::print(stderr, "{}\n", begun.error().text());
     std::exit(1);
@@ -114,14 +118,19 @@ std::unique_ptr<server::ServedRack> serve() {
 void tell(const operate::Pacer& pacer) {
     const operate::Lateness& late = pacer.lateness();
     const auto ms = [](Duration duration) { return to_seconds(duration) * 1000; };
-    fmt::print("slices          {}\nlateness p50    {:.3f} ms\nlateness p99    {:.3f} ms\nlateness p99.9  {:.3f} ms\nlateness max    {:.3f} ms\nlost            {:.3f} ms\n", late.count(),
-               ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.greatest()), ms(pacer.lost()));
+    fmt::print(
+        "slices          {}\nlateness p50    {:.3f} ms\nlateness p99    {:.3f} ms\nlateness p99.9  {:.3f} ms\nlateness "
+        "max    {:.3f} ms\nlost            {:.3f} ms\n",
+        late.count(), ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.greatest()),
+        ms(pacer.lost()));
 }
 
 double processor_seconds(int who) {
     rusage usage = {};
     ::getrusage(who, &usage);
-    const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6; };
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -154,7 +163,9 @@ int main(int argc, char** argv) {
     Counted counted;
     std::int32_t line = 0;
     std::thread waiter([&] {
-        if (::write(to_child[1], &port, sizeof port) != sizeof port || ::read(from_child[0], &counted, sizeof counted) != sizeof counted) counted = {};
+        if (::write(to_child[1], &port, sizeof port) != sizeof port ||
+            ::read(from_child[0], &counted, sizeof counted) != sizeof counted)
+            counted = {};
         line = served->panel().picture()->status().line;
         served->machine().quit();
     });
@@ -163,11 +174,14 @@ int main(int argc, char** argv) {
     waiter.join();
     ::waitpid(child, nullptr, 0);
     fmt::print("clients         {} at {:g} Hz, {:.1f} s\n", load.clients, load.rate_hz, counted.seconds);
-    fmt::print("pictures        {:.0f} a second, {} of {} lost, {:.1f} MB/s, {} clients gone\n", static_cast<double>(counted.pictures) / counted.seconds, counted.lost,
-               counted.pictures + counted.lost, static_cast<double>(counted.bytes) / counted.seconds * 1e-6, counted.gone);
+    fmt::print("pictures        {:.0f} a second, {} of {} lost, {:.1f} MB/s, {} clients gone\n",
+               static_cast<double>(counted.pictures) / counted.seconds, counted.lost, counted.pictures + counted.lost,
+               static_cast<double>(counted.bytes) / counted.seconds * 1e-6, counted.gone);
     tell(served->pacer());
     fmt::print("driven          {} lines\n", line);
-    fmt::print("processor       {:.0f} % of one core served, {:.0f} % read\n", 100 * processor_seconds(RUSAGE_SELF) / counted.seconds, 100 * processor_seconds(RUSAGE_CHILDREN) / counted.seconds);
+    fmt::print("processor       {:.0f} % of one core served, {:.0f} % read\n",
+               100 * processor_seconds(RUSAGE_SELF) / counted.seconds,
+               100 * processor_seconds(RUSAGE_CHILDREN) / counted.seconds);
     fmt::print("memory          {:.1f} MB at most served\n", peak_megabytes());
     return 0;
 }

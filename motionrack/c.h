@@ -19,9 +19,10 @@
  *     mr_read16(rack, "c1", 0x0c, &low);      // RR6: 100
  *     mr_rack_close(rack);
  *
- * Errors. Every function that returns int returns MR_OK (0) or one of the codes below, and mr_last_error() then tells in
- * a sentence what was wrong, what the limits are and what was (not) done. After an error the rack is as it was before
- * the call. A null pointer is MR_BAD_CALL; a pointer to something else, or to a rack that was closed, is not noticed.
+ * Errors. Every function that returns int returns MR_OK (0) or one of the codes below, and mr_last_error() then tells
+ * in a sentence what was wrong, what the limits are and what was (not) done. After an error the rack is as it was
+ * before the call. A null pointer is MR_BAD_CALL; a pointer to something else, or to a rack that was closed, is not
+ * noticed.
  *
  * Threads. A rack belongs to one thread at a time: let no two calls with the same rack overlap. Different racks know
  * nothing of each other and may run in different threads at once. mr_last_error() is kept for each thread.
@@ -66,68 +67,70 @@ typedef struct mr_rack mr_rack;
  * follows every pulse (X Y Z A at the channels x y z u of an mcx314: 1000 pulses and 1000 encoder counts a mm or
  * degree), no switches, all inputs inactive. *out is set to NULL if it fails.
  * MR_BAD_CALL, MR_BAD_INPUT, MR_IO, MR_INTERNAL. */
-MR_API int mr_rack_open(const char *toml_path_or_text, mr_rack **out);
+MR_API int mr_rack_open(const char* toml_path_or_text, mr_rack** out);
 
 /* Ends a rack and frees it; a recording that runs is ended first. NULL: nothing is done. */
-MR_API void mr_rack_close(mr_rack *rack);
+MR_API void mr_rack_close(mr_rack* rack);
 
 /* The sentence of the last error in this thread, "" if there was none. Valid until the next error in this thread. */
-MR_API const char *mr_last_error(void);
+MR_API const char* mr_last_error(void);
 
 /* ---- Time ---- */
 
 /* Lets the world run for ns nanoseconds: 0 .. 1,000,000,000,000,000 (11.5 days) a call, 14 years in all.
  * MR_BAD_CALL, MR_REFUSED. */
-MR_API int mr_advance_ns(mr_rack *rack, uint64_t ns);
+MR_API int mr_advance_ns(mr_rack* rack, uint64_t ns);
 
 /* The rack's time since it was opened, in whole ns. 0 for NULL. */
-MR_API uint64_t mr_now_ns(const mr_rack *rack);
+MR_API uint64_t mr_now_ns(const mr_rack* rack);
 
 /* ---- The host's bus ---- */
 
 /* One access of the host to a card, with all its effects, as on the real bus: 8 bits for cards with byte ports (as IN
- * and OUT), 16 or 32 bits for cards with registers of that width (an mcx314: 16, or 8 where its section of the rack file
- * says bus = "8-bit"). `offset` is the byte offset of the register (the port's
- * number), as the card's reference page lists them; of an ioflex02, which shares its bus with others, base_address of
- * the rack file and that offset. An access takes bus_access_ns of the rack file (250 ns if it says
- * none): virtual time passes before the card sees it. `value` is left alone if it fails.
- * MR_BAD_CALL (null, no such card), MR_REFUSED (the card's bus is of another width; nothing at that offset). */
-MR_API int mr_read8(mr_rack *rack, const char *card, uint32_t port, uint8_t *value);
-MR_API int mr_write8(mr_rack *rack, const char *card, uint32_t port, uint8_t value);
-MR_API int mr_read16(mr_rack *rack, const char *card, uint32_t offset, uint16_t *value);
-MR_API int mr_write16(mr_rack *rack, const char *card, uint32_t offset, uint16_t value);
-MR_API int mr_read32(mr_rack *rack, const char *card, uint32_t offset, uint32_t *value);
-MR_API int mr_write32(mr_rack *rack, const char *card, uint32_t offset, uint32_t value);
+ * and OUT), 16 or 32 bits for cards with registers of that width (an mcx314: 16, or 8 where its section of the rack
+ * file says bus = "8-bit"). `offset` is the byte offset of the register (the port's number), as the card's reference
+ * page lists them; of an ioflex02, which shares its bus with others, base_address of the rack file and that offset. An
+ * access takes bus_access_ns of the rack file (250 ns if it says none): virtual time passes before the card sees it.
+ * `value` is left alone if it fails. MR_BAD_CALL (null, no such card), MR_REFUSED (the card's bus is of another width;
+ * nothing at that offset). */
+MR_API int mr_read8(mr_rack* rack, const char* card, uint32_t port, uint8_t* value);
+MR_API int mr_write8(mr_rack* rack, const char* card, uint32_t port, uint8_t value);
+MR_API int mr_read16(mr_rack* rack, const char* card, uint32_t offset, uint16_t* value);
+MR_API int mr_write16(mr_rack* rack, const char* card, uint32_t offset, uint16_t value);
+MR_API int mr_read32(mr_rack* rack, const char* card, uint32_t offset, uint32_t* value);
+MR_API int mr_write32(mr_rack* rack, const char* card, uint32_t offset, uint32_t value);
 
 /* A register or value of a card by its name, without any effect; it takes no time.
- *   "RR0"        as the card's reference page names it; one that exists once an axis is that of the axis whose registers
+ *   "RR0"        as the card's reference page names it; one that exists once an axis is that of the axis whose
+ * registers
  *                the bus shows
  *   "x.RR1"      that of one axis, whatever the bus shows; also what was written: "x.WR2", "x.P", and counters: "x.LP",
  *                "x.EP", and "x.CV", "x.CA", the present speed and acceleration, in the card's units
  * Counters and positions are signed: cast *value to int64_t. An unknown name is told the ones that there are.
  * MR_BAD_CALL. */
-MR_API int mr_peek(mr_rack *rack, const char *card, const char *register_name, uint64_t *value);
+MR_API int mr_peek(mr_rack* rack, const char* card, const char* register_name, uint64_t* value);
 
 /* ---- Wires ---- */
 
-/* Wires are called CARD.PIN ("c1.xlmtp"), NAME.END for the ends of an axis' parts ("X.limit_plus"), or "estop" (low while
- * the button is pressed); the page of the rack file lists pins and ends. A digital wire is 0 or 1: the line's level, so
- * that an input which acts at Low reads 0 while it acts. An analog wire is its value in SI units; one that carries a
- * number (an rtc5's xout, yout, mcbsp) is that number. */
+/* Wires are called CARD.PIN ("c1.xlmtp"), NAME.END for the ends of an axis' parts ("X.limit_plus"), or "estop" (low
+ * while the button is pressed); the page of the rack file lists pins and ends. A digital wire is 0 or 1: the line's
+ * level, so that an input which acts at Low reads 0 while it acts. An analog wire is its value in SI units; one that
+ * carries a number (an rtc5's xout, yout, mcbsp) is that number. */
 
 /* The level of a wire. MR_BAD_CALL (null, no such wire). */
-MR_API int mr_wire_get(mr_rack *rack, const char *wire, double *value);
+MR_API int mr_wire_get(mr_rack* rack, const char* wire, double* value);
 
 /* Drives a wire from outside, from this instant on: 0 or 1 for a digital one. What drove it before is cut off until the
  * wire is released: value NAN. Inputs of cards, switches, the index track and estop can be driven. The two inputs of an
- * encoder (xeca, xecb) are taken over together: the encoder is cut off, the other input keeps the level that it had, and
- * the card counts what the inputs do until both are released; its counter goes on from where it is.
- * MR_BAD_CALL (null, no such wire), MR_REFUSED (an output; another value). */
-MR_API int mr_wire_set(mr_rack *rack, const char *wire, double value);
+ * encoder (xeca, xecb) are taken over together: the encoder is cut off, the other input keeps the level that it had,
+ * and the card counts what the inputs do until both are released; its counter goes on from where it is. MR_BAD_CALL
+ * (null, no such wire), MR_REFUSED (an output; another value). */
+MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
 
 /* ---- The machine ---- */
 
-/* What is true of a part, whatever any counter says: "X.position_mm". The quantities of an axis (mm or deg by its kind):
+/* What is true of a part, whatever any counter says: "X.position_mm". The quantities of an axis (mm or deg by its
+ * kind):
  *   position_mm       where the table is
  *   speed_mm_s        how fast the rotor moves the table, signed
  *   position_pulses   the rotor in microsteps from where it stood at the start
@@ -171,13 +174,13 @@ MR_API int mr_wire_set(mr_rack *rack, const char *wire, double value);
  *   points            points of marks that are kept
  *   lost_points       points beyond greatest_points
  * An unknown name is told the ones that there are. MR_BAD_CALL. */
-MR_API int mr_part_get(mr_rack *rack, const char *part_dot_quantity, double *value);
+MR_API int mr_part_get(mr_rack* rack, const char* part_dot_quantity, double* value);
 
 /* Pushes a part by hand: position_mm (position_deg) and position_pulses can be set. A motor in step goes to the nearest
  * place of the same electrical phase, a multiple of four full steps away, as a real one under current does; so read the
  * quantity to see where it came to. Of a belt or table speed_mm_s (speed_deg_s) can be set.
  * MR_BAD_CALL; MR_REFUSED (cannot be set; no number; more than 10,000,000 microsteps away). */
-MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double value);
+MR_API int mr_part_set(mr_rack* rack, const char* part_dot_quantity, double value);
 
 /* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X")
  * or, for the last three and those of an encoder's tracks, a belt or table by its name.
@@ -205,32 +208,32 @@ MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double valu
  *   drive.profile            it goes as its rack file says again
  *   sender.silent            no word comes; 0 mends it
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
-MR_API int mr_fault(mr_rack *rack, const char *fault, const char *target);
+MR_API int mr_fault(mr_rack* rack, const char* fault, const char* target);
 
 /* ---- The whole world ---- */
 
-/* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The same
- * calls from here on do the same in both. A recording stays with the first. *copy is set to NULL if it fails.
+/* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The
+ * same calls from here on do the same in both. A recording stays with the first. *copy is set to NULL if it fails.
  * MR_BAD_CALL, MR_INTERNAL. */
-MR_API int mr_snapshot(mr_rack *rack, mr_rack **copy);
+MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);
 
-/* Equal worlds have equal hashes: time, cards, wires, parts and the history of the wires. How the time was cut into calls
- * of mr_advance_ns does not matter. A recording may be seen in it (pins that cards drive on demand are driven for it),
- * so compare worlds that were recorded alike. 0 for NULL. */
-MR_API uint64_t mr_state_hash(const mr_rack *rack);
+/* Equal worlds have equal hashes: time, cards, wires, parts and the history of the wires. How the time was cut into
+ * calls of mr_advance_ns does not matter. A recording may be seen in it (pins that cards drive on demand are driven for
+ * it), so compare worlds that were recorded alike. 0 for NULL. */
+MR_API uint64_t mr_state_hash(const mr_rack* rack);
 
 /* ---- Recordings ---- */
 
-/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli; unit of time 100 ns) or *.csv (time_s,
- * signal, value: each change a line). `signals`: patterns with * and ?, separated by blanks or commas ("X.* c1.xlmtp");
- * NULL or "": every wire, the pulses of each axis (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b) and the card's
- * counters (c1.xlp, c1.xep), these once a millisecond. Pins that a card drives on demand (c1.xpp) are recorded if a
- * pattern names them. One recording at a time.
- * MR_BAD_CALL (null, no signal fits), MR_REFUSED (another ending, .h5 among them; one runs already), MR_IO. */
-MR_API int mr_trace_start(mr_rack *rack, const char *path, const char *signals);
+/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli; unit of time 100 ns) or *.csv
+ * (time_s, signal, value: each change a line). `signals`: patterns with * and ?, separated by blanks or commas ("X.*
+ * c1.xlmtp"); NULL or "": every wire, the pulses of each axis (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b)
+ * and the card's counters (c1.xlp, c1.xep), these once a millisecond. Pins that a card drives on demand (c1.xpp) are
+ * recorded if a pattern names them. One recording at a time. MR_BAD_CALL (null, no signal fits), MR_REFUSED (another
+ * ending, .h5 among them; one runs already), MR_IO. */
+MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
 
 /* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole). */
-MR_API int mr_trace_stop(mr_rack *rack);
+MR_API int mr_trace_stop(mr_rack* rack);
 
 #ifdef __cplusplus
 }

@@ -27,7 +27,8 @@ std::string contents(const fs::path& path) {
 class Page {
   public:
     /// `title`: first lines; `api`: what stands before each function.
-    Page(const std::string& header, std::string title, std::string api) : title_(std::move(title)), api_(std::move(api)) {
+    Page(const std::string& header, std::string title, std::string api)
+        : title_(std::move(title)), api_(std::move(api)) {
         std::istringstream in(header);
         for (std::string line; std::getline(in, line);) take(line);
         end_declaration();
@@ -46,7 +47,8 @@ class Page {
             add_comment(line.substr(3));
         } else if (inside_) {
             add_comment(line.substr(std::min<std::size_t>(line.size(), line == " */" ? 1 : 3)));
-        } else if (line.empty() || line[0] == '#' || line.rfind("extern", 0) == 0 || (line == "}" && declaration_.empty())) {
+        } else if (line.empty() || line[0] == '#' || line.rfind("extern", 0) == 0 ||
+                   (line == "}" && declaration_.empty())) {
             end_declaration();
         } else {
             declaration_ += (line.rfind(api_, 0) == 0 ? line.substr(api_.size()) : line) + "\n";
@@ -91,7 +93,8 @@ class Page {
 };
 
 /// A page of docs/reference is what the header makes of it.
-void is_made_from(const std::string& page, const std::string& header, const std::string& title, const std::string& api) {
+void is_made_from(const std::string& page, const std::string& header, const std::string& title,
+                  const std::string& api) {
     std::string text = Page(contents(root / header), title, api).text();
     while (text.size() > 1 && text[text.size() - 2] == '\n') text.pop_back();
     if (text == contents(root / "docs/reference" / page)) return;
@@ -101,11 +104,15 @@ void is_made_from(const std::string& page, const std::string& header, const std:
 }
 
 TEST(CReference, ThePagesAreMadeFromTheHeaders) {
-    is_made_from("c.md", "motionrack/c.h", "# The C interface\n\n`motionrack/c.h`, as a page: this one is made from it.\n\n", "MR_API ");
-    is_made_from("flex2pos.md", "motionrack/flex2pos.h",
-                 "# The IOFLEX02's function library in C\n\n`motionrack/flex2pos.h`, as a page: this one is made from it.\n\n", "MR_API ");
+    is_made_from("c.md", "motionrack/c.h",
+                 "# The C interface\n\n`motionrack/c.h`, as a page: this one is made from it.\n\n", "MR_API ");
+    is_made_from(
+        "flex2pos.md", "motionrack/flex2pos.h",
+        "# The IOFLEX02's function library in C\n\n`motionrack/flex2pos.h`, as a page: this one is made from it.\n\n",
+        "MR_API ");
     is_made_from("mcx314lib.md", "motionrack/frontends/mcx314lib/mcx314lib.h",
-                 "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n", "MCX314_API ");
+                 "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n",
+                 "MCX314_API ");
     is_made_from("rtc5sim.md", "motionrack/frontends/rtc5sim/rtc5sim.h",
                  "# The RTC5's commands in C\n\n`rtc5sim.h`, as a page: this one is made from it.\n\n", "RTC5_API ");
 }

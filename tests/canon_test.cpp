@@ -21,9 +21,12 @@ TEST_F(CanonCommand, PrintsOneCallALine) {
     const std::regex call(R"([A-Z][A-Z0-9_]*\(.*\))");
     std::istringstream lines(ran.out);
     for (std::string line; std::getline(lines, line);) EXPECT_TRUE(std::regex_match(line, call)) << line;
-    EXPECT_THAT(ran.out, HasSubstr("\nSET_G5X_OFFSET(1, 1.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\nSET_XY_ROTATION(90.0000)\n"
-                                   "STRAIGHT_TRAVERSE(2.5000, 5.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"));
-    EXPECT_THAT(motionrack("canon --numbered part.ngc").out, HasSubstr("    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"));
+    EXPECT_THAT(
+        ran.out,
+        HasSubstr("\nSET_G5X_OFFSET(1, 1.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\nSET_XY_ROTATION(90.0000)\n"
+                  "STRAIGHT_TRAVERSE(2.5000, 5.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"));
+    EXPECT_THAT(motionrack("canon --numbered part.ngc").out,
+                HasSubstr("    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"));
 }
 
 TEST_F(CanonCommand, SaysByItsExitCodeThatAProgramIsRefused) {
@@ -43,7 +46,8 @@ TEST_F(CanonCommand, TakesAToolTable) {
     write("tools.tbl", "T2 P1 Z12.5 D6 ;end mill\n");
     const Ran ran = motionrack("canon part.ngc -t tools.tbl --machine");
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_THAT(ran.out, HasSubstr("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 12.5000, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)"));
+    EXPECT_THAT(ran.out,
+                HasSubstr("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 12.5000, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)"));
     EXPECT_THAT(ran.out, HasSubstr("STRAIGHT_TRAVERSE(0.0000, 0.0000, 13.5000"));
     EXPECT_NE(motionrack("canon part.ngc").code, 0);
     EXPECT_EQ(motionrack("check part.ngc --tools tools.tbl").code, 0);
@@ -62,7 +66,8 @@ TEST_F(CanonCommand, FindsSubprogramsBesideTheProgram) {
     write("parts/hole.ngc", "o<hole> sub\nG0 X#1\no<hole> endsub\n");
     const Ran ran = motionrack("run parts/part.ngc --no-report");
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_THAT(motionrack("canon - < parts/part.ngc").out, HasSubstr("came without a folder in which another file could have it"));
+    EXPECT_THAT(motionrack("canon - < parts/part.ngc").out,
+                HasSubstr("came without a folder in which another file could have it"));
     std::filesystem::remove(folder / "parts/hole.ngc");
     EXPECT_THAT(motionrack("canon parts/part.ngc").out, HasSubstr("beside it is not there"));
 }

@@ -1,5 +1,5 @@
-// Encoders in recordings: what `motionrack trace` writes, `motionrack decode` counts, as the job's summary and as sigrok-cli; and
-// the page on it shows what its commands print.
+// Encoders in recordings: what `motionrack trace` writes, `motionrack decode` counts, as the job's summary and as
+// sigrok-cli; and the page on it shows what its commands print.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +23,9 @@ struct Ran {
 /// A folder that commands run in, gone afterwards.
 class Decode : public testing::Test {
   protected:
-    Decode() : folder_(fs::temp_directory_path() / ("motionrack_decode_" + std::to_string(::getpid()))) { fs::create_directories(folder_); }
+    Decode() : folder_(fs::temp_directory_path() / ("motionrack_decode_" + std::to_string(::getpid()))) {
+        fs::create_directories(folder_);
+    }
     ~Decode() override { fs::remove_all(folder_); }
 
     /// What `command` prints, errors and warnings too.
@@ -32,13 +34,16 @@ class Decode : public testing::Test {
         std::FILE* pipe = ::popen(("cd '" + folder_.string() + "' && ( " + command + " ) 2>&1").c_str(), "r");
         if (!pipe) return ran;
         std::array<char, 4096> buffer{};
-        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), got);
+        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+            ran.out.append(buffer.data(), got);
         const int status = ::pclose(pipe);
         ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
         return ran;
     }
     Ran motionrack(const std::string& arguments) const { return run(MOTIONRACK_PROGRAM " " + arguments); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
     nlohmann::json json_of(const std::string& arguments) const {
         const Ran ran = motionrack(arguments);
         EXPECT_EQ(ran.code, 0) << ran.out;
@@ -64,14 +69,17 @@ TEST_F(Decode, CountsWhatTheJobsSummarySays) {
         moved += channel["up"].get<int>() > 0;
     }
     EXPECT_EQ(moved, 2) << "up: X and Y; Z goes down";
-    EXPECT_NEAR(decoded["last_s"].get<double>(), summary["seconds"].get<double>(), 1e-4) << "it ends with the look after the job";
+    EXPECT_NEAR(decoded["last_s"].get<double>(), summary["seconds"].get<double>(), 1e-4)
+        << "it ends with the look after the job";
 }
 
 TEST_F(Decode, AgreesWithSigrokAndReadsItsFiles) {
     if (!has_sigrok()) GTEST_SKIP() << "sigrok-cli is not installed: apt-get install sigrok-cli";
     write("move.ngc", "G21 G90\nG1 X0.2 Y0.1 F600\nG1 X0.05\nM2\n");
-    ASSERT_EQ(motionrack("trace move.ngc move.vcd --timescale-ns 1000 --signals 'X.enc_?' --signals 'Y.enc_?' -q").code, 0);
-    const Ran told = run("sigrok-cli -I vcd -i move.vcd -P graycode:d0=X_enc_a:d1=X_enc_b -A graycode=count 2>/dev/null | tail -n 1");
+    ASSERT_EQ(motionrack("trace move.ngc move.vcd --timescale-ns 1000 --signals 'X.enc_?' --signals 'Y.enc_?' -q").code,
+              0);
+    const Ran told = run(
+        "sigrok-cli -I vcd -i move.vcd -P graycode:d0=X_enc_a:d1=X_enc_b -A graycode=count 2>/dev/null | tail -n 1");
     const std::size_t colon = told.out.find(": ");
     ASSERT_NE(colon, std::string::npos) << told.out;
     const int counts = std::atoi(told.out.c_str() + colon + 2);
@@ -79,7 +87,10 @@ TEST_F(Decode, AgreesWithSigrokAndReadsItsFiles) {
     // sigrok tells each place when it is left: the last one told is one step before the end.
     EXPECT_EQ(from_vcd["channels"][0]["counts"], 40);
     EXPECT_EQ(counts - 1, 40);
-    ASSERT_EQ(run("sigrok-cli -I vcd -i move.vcd -O csv -o move.csv && sigrok-cli -I vcd -i move.vcd -O binary -o move.bin").code, 0);
+    ASSERT_EQ(
+        run("sigrok-cli -I vcd -i move.vcd -O csv -o move.csv && sigrok-cli -I vcd -i move.vcd -O binary -o move.bin")
+            .code,
+        0);
     const auto from_csv = json_of("decode move.csv --json --channel X=X_enc_a,X_enc_b --channel Y=Y_enc_a,Y_enc_b");
     const auto from_raw = json_of("decode move.bin --json --channel X=0,1 --channel Y=2,3");
     for (std::size_t i = 0; i < 2; ++i)
@@ -93,8 +104,17 @@ TEST_F(Decode, EndsWithACodeAndASentence) {
     write("back.csv", "t,a,b\n0,0,0\n2,1,0\n1,1,1\n3,0,0\n");
     write("cut.csv", "t,a,b\n0,0,0\n2,1,0\n3,");
     write("raw.bin", "abc");
-    const std::pair<const char*, int> commands[] = {{"back.csv", 2}, {"cut.csv", 2}, {"raw.bin", 2}, {"none.vcd", 5}, {".", 5}, {"raw.bin --sample-rate fast", 2},
-                                                    {"cut.csv --window-ms 0", 1}, {"cut.csv --format xml", 1}, {"cut.csv --window-ms 1e30", 3}, {"cut.csv --channel q", 2}, {"--signals cut.csv", 0}};
+    const std::pair<const char*, int> commands[] = {{"back.csv", 2},
+                                                    {"cut.csv", 2},
+                                                    {"raw.bin", 2},
+                                                    {"none.vcd", 5},
+                                                    {".", 5},
+                                                    {"raw.bin --sample-rate fast", 2},
+                                                    {"cut.csv --window-ms 0", 1},
+                                                    {"cut.csv --format xml", 1},
+                                                    {"cut.csv --window-ms 1e30", 3},
+                                                    {"cut.csv --channel q", 2},
+                                                    {"--signals cut.csv", 0}};
     for (const auto& [arguments, code] : commands) {
         const Ran ran = motionrack(std::string("decode ") + arguments);
         EXPECT_EQ(ran.code, code) << arguments << "\n" << ran.out;

@@ -1,18 +1,19 @@
-// The same program gives the same history: on every compiler and optimisation level, beside other racks, and while it is watched.
+// The same program gives the same history: on every compiler and optimisation level, beside other racks, and while it
+// is watched.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <array>
 #include <filesystem>
-#include <fmt/format.h>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
 #include <string>
-#include <thread>
-#include <vector>
 #include <tests/determinism/histories.hpp>
 #include <tests/text_of.hpp>
+#include <thread>
+#include <vector>
 
 namespace motionrack::rack {
 namespace {
@@ -49,12 +50,14 @@ History run(const std::string& program, const std::string& vcd = {}) {
 // tests/determinism/matrix asks the same of other compilers, levels and CPUs.
 TEST(Determinism, ExamplesHaveTheHistoryOfEveryOtherBuild) {
     EXPECT_EQ(example_histories(root), text_of(root / "tests/golden/trace/examples.txt"))
-        << "If the machine was meant to do something else than before, put the new lines into tests/golden/trace/examples.txt.";
+        << "If the machine was meant to do something else than before, put the new lines into "
+           "tests/golden/trace/examples.txt.";
 }
 
 TEST(Determinism, RacksHaveTheHistoryOfEveryOtherBuild) {
     EXPECT_EQ(rack_histories(root), text_of(root / "tests/golden/trace/racks.txt"))
-        << "If the machine was meant to do something else than before, put the new lines into tests/golden/trace/racks.txt.";
+        << "If the machine was meant to do something else than before, put the new lines into "
+           "tests/golden/trace/racks.txt.";
 }
 
 TEST(Determinism, RacksInOneProcessDoNotKnowEachOther) {

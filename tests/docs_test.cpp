@@ -10,8 +10,8 @@
 #include <regex>
 #include <sstream>
 #include <string>
-#include <vector>
 #include <tests/text_of.hpp>
+#include <vector>
 
 namespace motionrack {
 namespace {
@@ -36,9 +36,12 @@ std::vector<std::string> code_of(const fs::path& page, const std::string& langua
     std::vector<std::string> out;
     bool inside = false;
     for (const std::string& line : lines_of(text_of(page))) {
-        if (inside && line == "```") inside = false;
-        else if (inside) out.back() += line + "\n";
-        else if (line == "```" + language) inside = true, out.emplace_back();
+        if (inside && line == "```")
+            inside = false;
+        else if (inside)
+            out.back() += line + "\n";
+        else if (line == "```" + language)
+            inside = true, out.emplace_back();
     }
     return out;
 }
@@ -56,8 +59,10 @@ std::string anchor_of(const std::string& heading) {
     std::string out;
     for (const char c : heading.substr(heading.find_first_not_of("# "))) {
         const auto letter = static_cast<unsigned char>(c);
-        if (std::isalnum(letter) || c == '-' || c == '_') out += static_cast<char>(std::tolower(letter));
-        else if (c == ' ') out += '-';
+        if (std::isalnum(letter) || c == '-' || c == '_')
+            out += static_cast<char>(std::tolower(letter));
+        else if (c == ' ')
+            out += '-';
     }
     return out;
 }
@@ -93,7 +98,8 @@ TEST(Docs, LinksLeadSomewhere) {
             if (target.rfind("http", 0) == 0) continue;
             const fs::path file = target.empty() ? page : page.parent_path() / target;
             EXPECT_TRUE(fs::exists(file)) << page << " links to " << target;
-            EXPECT_TRUE(anchor.empty() || has_heading(file, anchor)) << page << " links to #" << anchor << " in " << file;
+            EXPECT_TRUE(anchor.empty() || has_heading(file, anchor))
+                << page << " links to #" << anchor << " in " << file;
             ++links;
         }
     }

@@ -1,5 +1,6 @@
 // Every example does what its folder says: the same output, the same exit code.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <array>
 #include <cstdio>
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
 #include <tests/text_of.hpp>
 
 using motionrack::text_of;
@@ -24,7 +24,8 @@ Ran run(const std::filesystem::path& folder, const std::string& command) {
     std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && ( " + command + " ) 2>/dev/null").c_str(), "r");
     if (!pipe) return ran;
     std::array<char, 4096> buffer{};
-    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), got);
+    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        ran.out.append(buffer.data(), got);
     const int status = ::pclose(pipe);
     ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return ran;
@@ -51,7 +52,9 @@ TEST_P(Example, PrintsWhatItsFolderSays) {
     EXPECT_EQ(printed, text_of(folder / "expected.txt"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Folders, Example, testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit", "08_homing", "11_carriage", "16_probe"));
+INSTANTIATE_TEST_SUITE_P(Folders, Example,
+                         testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit",
+                                         "08_homing", "11_carriage", "16_probe"));
 
 TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
     const Ran ran = run(examples, MOTIONRACK_LIBRARY_EXAMPLE);
@@ -92,10 +95,12 @@ TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
 
 TEST(Examples, TheCarriageInCppPrintsAndDrawsWhatItsPageShows) {
     const auto picture = std::filesystem::temp_directory_path() / "motionrack_carriage_test.svg";
-    const Ran ran = run(examples / "11_carriage", MOTIONRACK_CARRIAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
+    const Ran ran =
+        run(examples / "11_carriage", MOTIONRACK_CARRIAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "11_carriage" / "expected_cpp.txt"));
-    EXPECT_EQ(text_of(picture), text_of(examples / "11_carriage" / "carriage.svg")) << "make it anew: example_carriage machine.toml carriage.svg";
+    EXPECT_EQ(text_of(picture), text_of(examples / "11_carriage" / "carriage.svg"))
+        << "make it anew: example_carriage machine.toml carriage.svg";
     std::filesystem::remove(picture);
 }
 
@@ -104,19 +109,24 @@ TEST(Examples, TheStagePrintsAndDrawsWhatItsPageShows) {
     const Ran ran = run(examples / "13_stage", MOTIONRACK_STAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "13_stage" / "expected.txt"));
-    EXPECT_EQ(text_of(picture), text_of(examples / "13_stage" / "stage.svg")) << "make it anew: example_stage machine.toml stage.svg";
+    EXPECT_EQ(text_of(picture), text_of(examples / "13_stage" / "stage.svg"))
+        << "make it anew: example_stage machine.toml stage.svg";
     std::filesystem::remove(picture);
 }
 
 TEST(Examples, ThePascalUnitRunsItsSourcesExampleAndCalibratesFourAxes) {
     const auto program = [](const char* name) {
-        return std::string("LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/") + name + "/" + name + "'";
+        return std::string("LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/") +
+               name + "/" + name + "'";
     };
     const Ran good = run(examples, program("init"));
     EXPECT_EQ(good.code, 0);
     EXPECT_EQ(good.out, "Result 0\n");
-    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=racks/single.toml " + program("init")).out, "Chyba inicializace desky: 2Result 2\n") << "a rack without the card";
-    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=no_such.toml " + program("init")).out, "Chyba inicializace desky: 2Result 2\n");
+    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=racks/single.toml " + program("init")).out,
+              "Chyba inicializace desky: 2Result 2\n")
+        << "a rack without the card";
+    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=no_such.toml " + program("init")).out,
+              "Chyba inicializace desky: 2Result 2\n");
     EXPECT_EQ(run(examples, program("calibrate")).out, text_of(examples / "12_pascal" / "expected.txt"));
 }
 
@@ -128,7 +138,8 @@ TEST(Examples, TheBuiltInExampleIsThePart) {
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
     for (const char* command :
-         {"run", "home", "check", "new", "describe", "trace", "canon", "plan", "sweep", "sweep-worker", "bench", "completion", "manual", "registers", "mark", "calibrate scale", "calibrate rotary", "calibrate lag"}) {
+         {"run", "home", "check", "new", "describe", "trace", "canon", "plan", "sweep", "sweep-worker", "bench",
+          "completion", "manual", "registers", "mark", "calibrate scale", "calibrate rotary", "calibrate lag"}) {
         const Ran help = run(examples, std::string(MOTIONRACK_PROGRAM) + " " + command + " --help");
         EXPECT_EQ(help.code, 0) << command;
         EXPECT_NE(help.out.find("Example: "), std::string::npos) << command;
@@ -147,7 +158,8 @@ TEST(CommandLine, ExitCodesTellWhatWentWrong) {
 
 /// What a run with these options prints, errors and warnings included.
 Ran run_with(const std::string& options) {
-    return run(examples, std::string(MOTIONRACK_PROGRAM) + " run 01_first_move/first_move.ngc --no-report -q " + options + " 2>&1");
+    return run(examples, std::string(MOTIONRACK_PROGRAM) + " run 01_first_move/first_move.ngc --no-report -q " +
+                             options + " 2>&1");
 }
 
 TEST(CommandLine, FaultsHappenAtTheirInstantAndEventsAreWritten) {
@@ -172,11 +184,13 @@ TEST(CommandLine, FaultsThatCannotHappenAreRefusedBeforeAnythingMoves) {
         const char* option;
         const char* said;
     };
-    for (const Case& c : {Case{"X.limit_plus=0", "needs its time"}, Case{"X.limit_plus=0@1", "needs its time"}, Case{"@1s", "neither"},
-                          Case{"X.limit_plus=0@-1s", "needs its time"}, Case{"X.limit_plus=nan@1e99s", "needs its time"},
-                          Case{"X.limit_plus=high@1s", "0, 1 or release"}, Case{"X.limit_plus=2@1s", "0 or 1"},
-                          Case{"X.limitplus=0@1s", "did you mean 'X.limit_plus'?"}, Case{"Q.motor.stall@1s", "X, Y, Z, A"},
-                          Case{"X.motor.stal@1s", "motor.stall"}, Case{"motion.xpp=1@1s", "output"}, Case{"A.limit_plus.stuck_open@1s", "Axis A"}}) {
+    for (const Case& c :
+         {Case{"X.limit_plus=0", "needs its time"}, Case{"X.limit_plus=0@1", "needs its time"}, Case{"@1s", "neither"},
+          Case{"X.limit_plus=0@-1s", "needs its time"}, Case{"X.limit_plus=nan@1e99s", "needs its time"},
+          Case{"X.limit_plus=high@1s", "0, 1 or release"}, Case{"X.limit_plus=2@1s", "0 or 1"},
+          Case{"X.limitplus=0@1s", "did you mean 'X.limit_plus'?"}, Case{"Q.motor.stall@1s", "X, Y, Z, A"},
+          Case{"X.motor.stal@1s", "motor.stall"}, Case{"motion.xpp=1@1s", "output"},
+          Case{"A.limit_plus.stuck_open@1s", "Axis A"}}) {
         const Ran refused = run_with(std::string("--fault '") + c.option + "'");
         EXPECT_TRUE(refused.code == 2 || refused.code == 3) << c.option << ": " << refused.code;
         EXPECT_NE(refused.out.find(c.said), std::string::npos) << refused.out;
@@ -189,7 +203,8 @@ TEST(CommandLine, InterruptedItStopsAlongThePathAndKeepsTheReport) {
     std::filesystem::create_directories(folder);
     std::filesystem::remove(folder / "report.html");
     // A program that goes on for hours of virtual time; `timeout` sends the interrupt.
-    const Ran ran = run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; timeout -s INT 2 " + std::string(MOTIONRACK_PROGRAM) +
+    const Ran ran = run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; timeout -s INT 2 " +
+                                    std::string(MOTIONRACK_PROGRAM) +
                                     " run long.ngc --stream; code=$?; rm -f long.ngc; exit $code");
     EXPECT_TRUE(ran.code == 124 || ran.code == 130) << ran.code;  // timeout reports its own code
     EXPECT_NE(ran.out.find("Stopped on request in line"), std::string::npos) << ran.out;

@@ -18,9 +18,11 @@ TEST_F(FramesPage, ShowsWhatItsCommandsPrint) {
     ASSERT_GE(codes.size(), 4u);
     EXPECT_EQ(codes["frames examples/grating_bus/crate.toml --for 0.05 --picture frame.svg"], 0);
     EXPECT_EQ(text_of(folder / "frame.svg"), text_of(root / "docs/pictures/grating_frame.svg"))
-        << "make it anew: motionrack frames examples/grating_bus/crate.toml --for 0.05 --picture docs/pictures/grating_frame.svg";
+        << "make it anew: motionrack frames examples/grating_bus/crate.toml --for 0.05 --picture "
+           "docs/pictures/grating_frame.svg";
     EXPECT_EQ(text_of(folder / "three.svg"), text_of(root / "docs/pictures/grating_three_hosts.svg"))
-        << "make it anew: motionrack frames examples/grating_bus/three_hosts.toml --for 0.05 --picture docs/pictures/grating_three_hosts.svg";
+        << "make it anew: motionrack frames examples/grating_bus/three_hosts.toml --for 0.05 --picture "
+           "docs/pictures/grating_three_hosts.svg";
 }
 
 TEST_F(FramesPage, HostAndSlavesAgreeAndThreeHostsDoNot) {
@@ -35,7 +37,8 @@ TEST_F(FramesPage, HostAndSlavesAgreeAndThreeHostsDoNot) {
 TEST_F(FramesPage, WavesHaveStatesAndLinesOfEveryBit) {
     ASSERT_EQ(motionrack("frames examples/grating_bus/crate.toml --for 0.001 -q --vcd f.vcd").code, 0);
     const std::string vcd = text_of(folder / "f.vcd");
-    for (const char* signal : {"wire 1 ", "bus_clk", "bus_hold", "bus_read_n", "bus_addr0", "bus_data31", "wire 4 ", "c1_state", "wire 32 ", "bus_data", "b1100 "})
+    for (const char* signal : {"wire 1 ", "bus_clk", "bus_hold", "bus_read_n", "bus_addr0", "bus_data31", "wire 4 ",
+                               "c1_state", "wire 32 ", "bus_data", "b1100 "})
         EXPECT_THAT(vcd, HasSubstr(signal));
 }
 
@@ -47,7 +50,8 @@ TEST_F(FramesPage, WrongOptionsAndRacksAreRefused) {
     EXPECT_THAT(motionrack("frames examples/grating_bus/crate.toml --fault bus.nix=1@0.1s").out, HasSubstr("bus.nix"));
     const Ran refused = motionrack("frames examples/grating_bus/crate.toml --for 0.02 --fault c2.late=-5@0.01s");
     EXPECT_EQ(refused.code, 0) << "the run goes on without it";
-    EXPECT_THAT(refused.out, HasSubstr("the fault c2.late=-5@0.01s was refused: c2 cannot have the fault late with the value -5"));
+    EXPECT_THAT(refused.out,
+                HasSubstr("the fault c2.late=-5@0.01s was refused: c2 cannot have the fault late with the value -5"));
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(HomingPage, ShowsTheseProgramsAndNoOthers) {
     const std::string own = text_of(root / "tests/homing_page_test.cpp");
     int blocks = 0;
     const std::string text = page();
-    for (std::size_t at = text.find("```cpp\n"); at != std::string::npos; at = text.find("```cpp\n", at + 7), ++blocks) {
+    for (std::size_t at = text.find("```cpp\n"); at != std::string::npos;
+         at = text.find("```cpp\n", at + 7), ++blocks) {
         std::istringstream code(text.substr(at + 7, text.find("```", at + 7) - at - 7));
         for (std::string line; std::getline(code, line);) {
             if (!line.empty()) {

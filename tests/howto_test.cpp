@@ -17,7 +17,8 @@ std::string printed_by(const std::string& command) {
     std::FILE* pipe = ::popen(command.c_str(), "r");
     if (!pipe) return out;
     std::array<char, 4096> buffer{};
-    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), got);
+    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        out.append(buffer.data(), got);
     ::pclose(pipe);
     return out;
 }
@@ -43,18 +44,21 @@ TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
     const fs::path picture = fs::temp_directory_path() / ("motionrack_howto_" + name + ".svg");
     const std::string printed = printed_by(MOTIONRACK_MCX314_EXAMPLE " " + name + " '" + picture.string() + "'");
     EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
-    EXPECT_NE(text_of(root / "examples/mcx314" / (name + ".cpp")).find(indented(code_of(page), "    ")), std::string::npos)
+    EXPECT_NE(text_of(root / "examples/mcx314" / (name + ".cpp")).find(indented(code_of(page), "    ")),
+              std::string::npos)
         << "the page's program is not that of examples/mcx314/" << name << ".cpp";
-    EXPECT_NE(page.find("](../../pictures/mcx314_" + name + ".svg)"), std::string::npos) << "the page does not show its picture";
+    EXPECT_NE(page.find("](../../pictures/mcx314_" + name + ".svg)"), std::string::npos)
+        << "the page does not show its picture";
     EXPECT_EQ(text_of(root / "docs/pictures" / ("mcx314_" + name + ".svg")), text_of(picture))
         << "make it anew: example_mcx314 " << name << " docs/pictures/mcx314_" << name << ".svg";
     fs::remove(picture);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, HowTo,
-                         testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour", "bit_pattern"));
+                         testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour",
+                                         "bit_pattern"));
 
-// ---- IOFLEX02 --------------------------------------------------------------------------------------------------------
+// ---- IOFLEX02
 
 class Ioflex02HowTo : public testing::TestWithParam<const char*> {};
 
@@ -63,15 +67,18 @@ TEST_P(Ioflex02HowTo, ShowsTheProgramAndItsOutput) {
     ASSERT_FALSE(page.empty());
     const std::string printed = printed_by(MOTIONRACK_IOFLEX02_EXAMPLE " " + name);
     EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
-    EXPECT_NE(text_of(root / "examples/ioflex02" / (name + ".cpp")).find(indented(code_of(page), "    ")), std::string::npos)
+    EXPECT_NE(text_of(root / "examples/ioflex02" / (name + ".cpp")).find(indented(code_of(page), "    ")),
+              std::string::npos)
         << "the page's program is not that of examples/ioflex02/" << name << ".cpp";
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Ioflex02HowTo, testing::Values("calibrate", "speed", "broken_line", "lathe"));
 
-// ---- DataBoard 4002 --------------------------------------------------------------------------------------------------
+// ---- DataBoard 4002
 
-std::string databoard_page(const std::string& name) { return text_of(root / "docs/howto/databoard4002" / (name + ".md")); }
+std::string databoard_page(const std::string& name) {
+    return text_of(root / "docs/howto/databoard4002" / (name + ".md"));
+}
 
 /// Runs `program` with the name of a picture that it makes; the page must show what it prints and that picture.
 void shows(const std::string& name, const std::string& program, const std::string& printer) {
@@ -82,7 +89,8 @@ void shows(const std::string& name, const std::string& program, const std::strin
     const std::string printed = printer.empty() ? drawn : printed_by(printer);
     ASSERT_FALSE(printed.empty());
     EXPECT_NE(page.find("prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
-    EXPECT_NE(page.find("](../../pictures/databoard4002_" + name + ".svg)"), std::string::npos) << "the page does not show its picture";
+    EXPECT_NE(page.find("](../../pictures/databoard4002_" + name + ".svg)"), std::string::npos)
+        << "the page does not show its picture";
     EXPECT_EQ(text_of(root / "docs/pictures" / ("databoard4002_" + name + ".svg")), text_of(picture))
         << "make it anew: " << program << " docs/pictures/databoard4002_" << name << ".svg";
     fs::remove(picture);

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdlib>
 #include <functional>
-
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <string>
@@ -48,8 +47,8 @@ inline Done drive(const RackConfig& config, const std::string& program, const st
     return done;
 }
 
-/// `jump`: times the start speed that an axis' speed may change by at once; 0: not looked at, where pieces are so short that a pulse
-/// more or less in one is itself a jump of its mean rate.
+/// `jump`: times the start speed that an axis' speed may change by at once; 0: not looked at, where pieces are so short
+/// that a pulse more or less in one is itself a jump of its mean rate.
 inline void expect_limits(const JobOutcome& outcome, double jump = 1.15) {
     EXPECT_TRUE(outcome.position_trusted);
     for (const AxisOutcome& axis : outcome.axes) {

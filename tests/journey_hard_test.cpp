@@ -12,11 +12,15 @@
 namespace motionrack::rack {
 namespace {
 
-RackConfig router() { return *read_rack_text(*rack_template("router")).config; }
+RackConfig router() {
+    return *read_rack_text(*rack_template("router")).config;
+}
 
 /// A rack with a job on it, started.
 struct Running {
-    explicit Running(const RackConfig& config, const JobSettings& settings) : rack(config), job(rack, settings) { rack.start(); }
+    explicit Running(const RackConfig& config, const JobSettings& settings) : rack(config), job(rack, settings) {
+        rack.start();
+    }
     Rack rack;
     Job job;
 };
@@ -92,7 +96,8 @@ void act_out(Rack& rack, const std::vector<sim::Input>& inputs, Instant from, In
 }
 
 TEST(Journey, RewoundInTheMiddleItRunsToTheSameEnd) {
-    const JobSettings settings = settings_of("G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG2 X30 Y20 I6 J0 Z75\nG0 X0 Y0\nM2\n");
+    const JobSettings settings =
+        settings_of("G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG2 X30 Y20 I6 J0 Z75\nG0 X0 Y0\nM2\n");
     Running original(router(), settings);
     ASSERT_TRUE(original.job.run().ended);
     const std::vector<sim::Input> inputs = original.rack.input_log().inputs();
@@ -116,7 +121,9 @@ TEST(Journey, RewoundInTheMiddleItRunsToTheSameEnd) {
     EXPECT_EQ(kernel.trace_hash(), history);
     EXPECT_EQ(kernel.state_hash(), state_at_end);
     for (int channel = 0; channel < 4; ++channel)
-        EXPECT_EQ(again.rack.cards().front()->motion()->pulse_counter(channel), original.rack.cards().front()->motion()->pulse_counter(channel)) << channel;
+        EXPECT_EQ(again.rack.cards().front()->motion()->pulse_counter(channel),
+                  original.rack.cards().front()->motion()->pulse_counter(channel))
+            << channel;
 }
 
 TEST(Journey, AHundredThousandShortLinesEndExactly) {
@@ -127,7 +134,8 @@ TEST(Journey, AHundredThousandShortLinesEndExactly) {
     double angle = 0;
     for (int i = 1; i <= count; ++i, angle = 62.83185307179586 * i / count) {
         const double radius = 40 + 8 * std::sin(5 * angle);
-        std::snprintf(line, sizeof line, "X%.3f Y%.3f\n", 110 + radius * std::cos(angle), 100 + radius * std::sin(angle));
+        std::snprintf(line, sizeof line, "X%.3f Y%.3f\n", 110 + radius * std::cos(angle),
+                      100 + radius * std::sin(angle));
         program += i == 1 ? std::string("G1 ") + line : line;
     }
     program += "G0 X0 Y0\nM2\n";

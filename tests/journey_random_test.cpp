@@ -12,7 +12,9 @@ namespace motionrack::rack {
 namespace {
 
 /// The rounding to pulses, the chip's half pulse and the whole centre of an arc; and what chords leave out.
-double most_beside(const test::RandomProgram& program) { return 3.0 / 640 + (program.chords ? 0.0021 : 0); }
+double most_beside(const test::RandomProgram& program) {
+    return 3.0 / 640 + (program.chords ? 0.0021 : 0);
+}
 
 /// Drives them one after the other; returns how many the reader took (an arc may bulge beyond the travel).
 int drive_random(const std::string& profile, test::ProgramSize size) {
@@ -37,11 +39,16 @@ int drive_random(const std::string& profile, test::ProgramSize size) {
 }
 
 class JourneyAtRandom : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(With, JourneyAtRandom, testing::Values("trapezoid", "jerk_limited"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(With, JourneyAtRandom, testing::Values("trapezoid", "jerk_limited"),
+                         [](const auto& info) { return std::string(info.param); });
 
-TEST_P(JourneyAtRandom, BigMovesEndExactlyStayOnTheirPathAndKeepTheLimits) { EXPECT_GT(drive_random(GetParam(), test::ProgramSize::big), 10); }
+TEST_P(JourneyAtRandom, BigMovesEndExactlyStayOnTheirPathAndKeepTheLimits) {
+    EXPECT_GT(drive_random(GetParam(), test::ProgramSize::big), 10);
+}
 
-TEST_P(JourneyAtRandom, SmallMovesEndExactlyStayOnTheirPathAndKeepTheLimits) { EXPECT_GT(drive_random(GetParam(), test::ProgramSize::small), 10); }
+TEST_P(JourneyAtRandom, SmallMovesEndExactlyStayOnTheirPathAndKeepTheLimits) {
+    EXPECT_GT(drive_random(GetParam(), test::ProgramSize::small), 10);
+}
 
 TEST_P(JourneyAtRandom, BigAndSmallMovesMixedEndExactlyStayOnTheirPathAndKeepTheLimits) {
     EXPECT_GT(drive_random(GetParam(), test::ProgramSize::mixed), 10);
@@ -61,7 +68,8 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed) + "\n" + program.text);
         const double at = 0.3 + static_cast<double>(seed % 37);
         std::atomic<bool> stop{false};
-        const Done done = drive(config, program.text, &stop, [&](const Rack& rack) { stop = to_seconds(rack.kernel().now()) >= at; });
+        const Done done =
+            drive(config, program.text, &stop, [&](const Rack& rack) { stop = to_seconds(rack.kernel().now()) >= at; });
         expect_limits(done.outcome, program.chords ? 1.6 : 1.15);
         EXPECT_LE(done.outcome.worst.mm, most_beside(program)) << "line " << done.outcome.worst.line;
         if (done.outcome.ended) continue;
@@ -77,12 +85,15 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
 /// X, Y, Z and A in each line.
 std::string four_axes(std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    const auto somewhere = [&](double low, double high) { return low + (high - low) * static_cast<double>(random() % 10'000) / 10'000; };
+    const auto somewhere = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() % 10'000) / 10'000;
+    };
     std::string out = "G21 G90 G94 G64 P0.05 F1200\n";
     double a = 0;
     for (int i = 0; i < 40; ++i) {
         a += somewhere(-40, 40);
-        out += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} A{:.3f}\n", somewhere(90, 110), somewhere(90, 110), somewhere(50, 70), a);
+        out += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} A{:.3f}\n", somewhere(90, 110), somewhere(90, 110),
+                           somewhere(50, 70), a);
     }
     return out + "M2\n";
 }

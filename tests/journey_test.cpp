@@ -1,15 +1,17 @@
 // The first journey, whole: G-code in, pulses on the card, the machine where it should be.
+#include "journey.hpp"
+
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/wave_recorder.hpp>
-
-#include "journey.hpp"
 
 namespace motionrack::rack {
 namespace {
 
 TEST(Journey, FourAxesTogetherEndExactly) {
-    const Done done = drive(router(), "G21 G90 F1500\nG0 X100 Y100 Z40\nG1 X120 Y110 Z30 A90\nG1 X100 Y100 Z40 A-45\nG2 X100 Y100 Z35 I10 J0 A180 P2\nM2\n");
+    const Done done = drive(router(),
+                            "G21 G90 F1500\nG0 X100 Y100 Z40\nG1 X120 Y110 Z30 A90\nG1 X100 Y100 Z40 A-45\nG2 X100 "
+                            "Y100 Z35 I10 J0 A180 P2\nM2\n");
     expect_exact(done.outcome, 0);
     EXPECT_DOUBLE_EQ(done.outcome.axes[3].real_end, 180.0);
     EXPECT_LE(done.outcome.worst.mm, 0.01);
@@ -22,15 +24,19 @@ TEST(Journey, ASteeredAxisThatIsThenInterpolatedEndsExactly) {
 }
 
 TEST(Journey, ASteeredAxisThatTurnsRoundEndsExactly) {
-    const Done done = drive(router(),
-                            "G21 G90\nG0 X150 Y100 Z40\nG2 X149.169 Y101.298 Z50.522 A-5.12 R1.281 F2032\nG1 X75.358 Y82.564 A-89.69 F2698\n"
-                            "G3 X233.471 Y146.362 Z24.944 A86.80 R254.569 F111\nG1 X233.123 Y144.372 Z51.462 A67.19 F485\nM2\n");
+    const Done done =
+        drive(router(),
+              "G21 G90\nG0 X150 Y100 Z40\nG2 X149.169 Y101.298 Z50.522 A-5.12 R1.281 F2032\nG1 X75.358 Y82.564 A-89.69 "
+              "F2698\n"
+              "G3 X233.471 Y146.362 Z24.944 A86.80 R254.569 F111\nG1 X233.123 Y144.372 Z51.462 A67.19 F485\nM2\n");
     expect_exact(done.outcome, 0);
     EXPECT_NEAR(done.outcome.axes[3].real_end, 67.19, 1e-9);
 }
 
 TEST(Journey, AHelixBeforeACornerSlowsDownForIt) {
-    const Done done = drive(router(), "G21 G90 G64 P0.005\nG0 X150 Y100 Z40\nG2 X120 Y110 Z30 R40 F4000\nG1 X150 Y100 F4000\nG3 X140 Y90 Z35 R20\nG1 X160\nM2\n");
+    const Done done = drive(router(),
+                            "G21 G90 G64 P0.005\nG0 X150 Y100 Z40\nG2 X120 Y110 Z30 R40 F4000\nG1 X150 Y100 F4000\nG3 "
+                            "X140 Y90 Z35 R20\nG1 X160\nM2\n");
     expect_exact(done.outcome, 0);
     EXPECT_LE(done.outcome.worst.mm, 0.007);
 }
@@ -103,13 +109,15 @@ TEST(Journey, WhatCameFromOutsideReplaysToTheSameHistory) {
     Job watcher(replayed, same);  // the same devices in the same order
     replayed.start();
     sim::RegisterDevice& card = *replayed.cards().front()->registers();
-    sim::replay(replayed.kernel(), recorded.input_log().inputs(), recorded.kernel().now(), [&card](const sim::Input& input) {
-        if (input.kind == sim::InputKind::register_write) card.write(input.offset, input.value);
-        if (input.kind == sim::InputKind::register_read) card.read(input.offset);
-    });
+    sim::replay(replayed.kernel(), recorded.input_log().inputs(), recorded.kernel().now(),
+                [&card](const sim::Input& input) {
+                    if (input.kind == sim::InputKind::register_write) card.write(input.offset, input.value);
+                    if (input.kind == sim::InputKind::register_read) card.read(input.offset);
+                });
     EXPECT_EQ(replayed.kernel().trace_hash(), recorded.kernel().trace_hash());
     for (int channel = 0; channel < 4; ++channel)
-        EXPECT_EQ(replayed.cards().front()->motion()->pulse_counter(channel), recorded.cards().front()->motion()->pulse_counter(channel));
+        EXPECT_EQ(replayed.cards().front()->motion()->pulse_counter(channel),
+                  recorded.cards().front()->motion()->pulse_counter(channel));
 }
 
 }  // namespace

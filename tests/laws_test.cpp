@@ -1,4 +1,5 @@
-// The laws of the house: who may include whom, how long a file may be, what must not appear in rooms that are deterministic.
+// The laws of the house: who may include whom, how long a file may be, what must not appear in rooms that are
+// deterministic.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -83,24 +84,29 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"rtc5/model", {"base", "sim", "rtc5/map"}},
     {"rtc5/driver", {"base", "rtc5/map"}},
     {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
-    {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
-              "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model",
-              "grating_bus/map", "grating_bus/model", "grating_bus/processor", "rtc5/map", "rtc5/model"}},
+    {"rack",
+     {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
+      "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model",
+      "grating_bus/map", "grating_bus/model", "grating_bus/processor", "rtc5/map", "rtc5/model"}},
     {"mark", {"base", "sim", "parts", "control", "trace", "rack", "rtc5/map", "rtc5/model"}},
     {"sweep", {"base", "control", "trace", "rack", "authority"}},
     {"nats", {"base", "sweep"}},
     {"journal", {"base"}},
     {"operate", {"base", "control", "rack", "live", "journal"}},
     {"authority", {"base"}},
-    {"panel", {"base", "sim", "control", "rack", "operate", "authority", "journal", "mark", "databoard4002/map", "rtc5/map"}},
+    {"panel",
+     {"base", "sim", "control", "rack", "operate", "authority", "journal", "mark", "databoard4002/map", "rtc5/map"}},
     {"grbl", {"base", "control", "rack", "operate"}},
     {"calls", {"base"}},
-    {"frontends", {"base", "calls", "journal", "operate", "authority", "panel", "grbl", "mark", "sweep", "nats", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
+    {"frontends",
+     {"base", "calls", "journal", "operate", "authority", "panel", "grbl", "mark", "sweep", "nats", "live", "control",
+      "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "calls", "rack", "mcx314/map", "mcx314/driver"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
-    {"python", {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver",
-                "rtc5/model"}},
+    {"python",
+     {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/driver", "ioflex02/driver",
+      "grating_bus/model", "grating_bus/driver", "rtc5/model"}},
 };
 
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
@@ -131,11 +137,13 @@ TEST(Laws, FilesAreSmall) {
 }
 
 TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
-    const std::regex forbidden(R"(steady_clock|system_clock|sleep_for|usleep|std::rand\b|fast-math|march=native|std::sin\(|std::cos\(|std::atan2|std::pow\(|std::exp\()");
+    const std::regex forbidden(
+        R"(steady_clock|system_clock|sleep_for|usleep|std::rand\b|fast-math|march=native|std::sin\(|std::cos\(|std::atan2|std::pow\(|std::exp\()");
     for (const char* folder : {"motionrack/base", "motionrack/sim", "motionrack/cards", "motionrack/control"})
         for (const fs::path& path : sources(folder)) {
             if (path.string().find("/test/") != std::string::npos) continue;
-            for (const std::string& line : lines_of(path)) EXPECT_FALSE(std::regex_search(line, forbidden)) << path << ": " << line;
+            for (const std::string& line : lines_of(path))
+                EXPECT_FALSE(std::regex_search(line, forbidden)) << path << ": " << line;
         }
 }
 
@@ -143,9 +151,11 @@ TEST(Laws, NothingIsLeftForLater) {
     const std::regex later(std::string("TO") + "DO|FIX" + "ME");
     for (const char* folder : {"motionrack", "python", "tests", "bench", "examples"})
         for (const fs::path& path : sources(folder))
-            for (const std::string& line : lines_of(path)) EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
+            for (const std::string& line : lines_of(path))
+                EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
     for (const fs::path& path : page_sources())
-        for (const std::string& line : lines_of(path)) EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
+        for (const std::string& line : lines_of(path))
+            EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
 }
 
 TEST(Laws, JourneysNameWhatExists) {
@@ -158,10 +168,13 @@ TEST(Laws, JourneysNameWhatExists) {
         for (auto it = std::sregex_iterator(line.begin(), line.end(), name); it != std::sregex_iterator(); ++it) {
             const std::string full = (*it)[1];
             const std::string last = full.substr(full.rfind(':') == std::string::npos ? 0 : full.rfind(':') + 1);
-            EXPECT_NE(all.find(last), std::string::npos) << "journeys.md names " << full << ", which is not in the code";
+            EXPECT_NE(all.find(last), std::string::npos)
+                << "journeys.md names " << full << ", which is not in the code";
             if (full.find("::") != std::string::npos) {
                 const std::string before = full.substr(0, full.rfind("::"));
-                EXPECT_NE(all.find(before.substr(before.rfind(':') == std::string::npos ? 0 : before.rfind(':') + 1)), std::string::npos) << full;
+                EXPECT_NE(all.find(before.substr(before.rfind(':') == std::string::npos ? 0 : before.rfind(':') + 1)),
+                          std::string::npos)
+                    << full;
             }
             ++names;
         }

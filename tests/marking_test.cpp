@@ -46,10 +46,16 @@ TEST_F(MarkCommand, ItsPageShowsWhatItsCommandsPrint) {
 TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
     const std::map<std::string, int> codes = run_page("examples/marking/README.md");
     ASSERT_EQ(codes.size(), 8u);
-    for (const auto& [arguments, code] : codes) EXPECT_EQ(code, arguments.find("serial") != std::string::npos ? 4 : 0) << arguments;
-    for (const char* name : {"serial", "dial", "long", "speed_encoder", "speed_simulated", "mcbsp_late", "mcbsp_offset"})
-        EXPECT_EQ(text_of(folder / fmt::format("{}.svg", name)), text_of(root / fmt::format("examples/marking/pictures/{}.svg", name)))
-            << fmt::format("make it anew: motionrack mark examples/marking/{0}.toml --picture examples/marking/pictures/{0}.svg", name);
+    for (const auto& [arguments, code] : codes)
+        EXPECT_EQ(code, arguments.find("serial") != std::string::npos ? 4 : 0) << arguments;
+    for (const char* name :
+         {"serial", "dial", "long", "speed_encoder", "speed_simulated", "mcbsp_late", "mcbsp_offset"})
+        EXPECT_EQ(text_of(folder / fmt::format("{}.svg", name)),
+                  text_of(root / fmt::format("examples/marking/pictures/{}.svg", name)))
+            << fmt::format(
+                   "make it anew: motionrack mark examples/marking/{0}.toml --picture "
+                   "examples/marking/pictures/{0}.svg",
+                   name);
 }
 
 TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheSpeedThatFits) {
@@ -63,7 +69,8 @@ TEST_F(MarkCommand, WritesPicturesOfBothKindsAndAPage) {
     const Ran ran = motionrack("mark examples/marking/square.toml --picture a.svg --picture b.png --report c.html");
     EXPECT_EQ(ran.code, 0) << ran.out;
     EXPECT_THAT(ran.out, HasSubstr("written: a.svg, b.png, c.html\n"));
-    const std::string svg = text_of(folder / "a.svg"), png = text_of(folder / "b.png"), page = text_of(folder / "c.html");
+    const std::string svg = text_of(folder / "a.svg"), png = text_of(folder / "b.png"),
+                      page = text_of(folder / "c.html");
     int width = 0, height = 0;
     ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox=\"0 0 "), "viewBox=\"0 0 %d %d", &width, &height), 2);
     ASSERT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
@@ -172,7 +179,8 @@ TEST_F(MarkCommand, SaysBeforeTheRunThatAFileCannotBeWritten) {
 TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
     write("mark.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M0 0L9 9'/></svg>");
     write("job.toml", "[drawing]\nsvg = 'mark.svg'\n");
-    for (const char* outputs : {"", "--picture mark.svg", "--picture ''  --report job.toml", "--picture a.svg --report a.svg", "--picture a.svg --picture ./a.svg"}) {
+    for (const char* outputs : {"", "--picture mark.svg", "--picture ''  --report job.toml",
+                                "--picture a.svg --report a.svg", "--picture a.svg --picture ./a.svg"}) {
         const Ran ran = motionrack(std::string("mark job.toml -q ") + outputs);
         EXPECT_EQ(ran.code, 2) << outputs;
         EXPECT_THAT(ran.out, HasSubstr("it would be overwritten")) << outputs;
@@ -191,15 +199,21 @@ TEST_F(MarkCommand, SaysThatADrawingIsOutsideTheField) {
 }
 
 TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {
-    write("job.toml", "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nspeed_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = 'encoder'\n");
+    write("job.toml",
+          "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nspeed_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = "
+          "'encoder'\n");
     const Ran ran = motionrack("mark job.toml -q --picture ''");
     EXPECT_THAT(ran.out, testing::Not(HasSubstr("speed profile"))) << ran.out;
 }
 
 TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
-    write("long.toml", "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 2\n[belt]\nspeed_mm_s = 0.1\n[fly]\nmode = 'encoder'\n[galvo]\nideal = false\n");
+    write("long.toml",
+          "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 2\n[belt]\nspeed_mm_s = 0.1\n[fly]\nmode "
+          "= 'encoder'\n[galvo]\nideal = false\n");
     // A terminal of its own, so that there is somebody to show progress to.
-    EXPECT_THAT(shell("script -qec 'timeout --foreground -s INT 2 " MOTIONRACK_PROGRAM " mark long.toml' /dev/null").out, HasSubstr(" %  marking"));
+    EXPECT_THAT(
+        shell("script -qec 'timeout --foreground -s INT 2 " MOTIONRACK_PROGRAM " mark long.toml' /dev/null").out,
+        HasSubstr(" %  marking"));
     const Ran stopped = shell("timeout -s INT 0.3 " MOTIONRACK_PROGRAM " mark long.toml --report r.html");
     EXPECT_TRUE(stopped.code == 124 || stopped.code == 130) << stopped.code << stopped.out;
     EXPECT_THAT(stopped.out, HasSubstr("Stopped; nothing was written."));
@@ -213,9 +227,13 @@ TEST_F(MarkCommand, CalibratesOrSaysWhyNot) {
         int code;
         const char* said;
     };
-    for (const Case& c : {Case{"scale --readings 5 5 --distance 50", 3, "readings"}, Case{"scale --readings 1 2 --distance 0", 3, "distance"}, Case{"scale --readings 1 --distance 5", 1, "--readings"},
-                          Case{"scale --readings 1 nan --distance 5", 3, ""}, Case{"rotary --marks 0 0 0 1 1 100 2 2 200", 3, "line"}, Case{"rotary --marks 1 2 3", 1, "--marks"},
-                          Case{"lag --speeds 100 100 --shifts 0.1 0.2", 3, "speed"}, Case{"lag --speeds 100 500 --shifts 0.1 -9", 3, ""}, Case{"", 1, "subcommand"}}) {
+    for (const Case& c :
+         {Case{"scale --readings 5 5 --distance 50", 3, "readings"},
+          Case{"scale --readings 1 2 --distance 0", 3, "distance"},
+          Case{"scale --readings 1 --distance 5", 1, "--readings"}, Case{"scale --readings 1 nan --distance 5", 3, ""},
+          Case{"rotary --marks 0 0 0 1 1 100 2 2 200", 3, "line"}, Case{"rotary --marks 1 2 3", 1, "--marks"},
+          Case{"lag --speeds 100 100 --shifts 0.1 0.2", 3, "speed"},
+          Case{"lag --speeds 100 500 --shifts 0.1 -9", 3, ""}, Case{"", 1, "subcommand"}}) {
         const Ran ran = motionrack(std::string("calibrate ") + c.arguments);
         EXPECT_EQ(ran.code, c.code) << c.arguments << ": " << ran.out;
         EXPECT_THAT(ran.out, HasSubstr(c.said)) << c.arguments;

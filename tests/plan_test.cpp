@@ -17,9 +17,12 @@ using testing::HasSubstr;
 
 class PlanCommand : public InFolder {};
 
-TEST_F(PlanCommand, PageShowsWhatItPrints) { EXPECT_EQ(run_page("docs/howto/plan.md").size(), 1u); }
+TEST_F(PlanCommand, PageShowsWhatItPrints) {
+    EXPECT_EQ(run_page("docs/howto/plan.md").size(), 1u);
+}
 
-/// Each shape: the page's row is what is planned, no axis is asked too much, and it takes no longer than with exact stops.
+/// Each shape: the page's row is what is planned, no axis is asked too much, and it takes no longer than with exact
+/// stops.
 TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
     const std::string page = text_of(root / "docs/howto/plan.md");
     int shapes = 0;
@@ -27,16 +30,18 @@ TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
         const Ran ran = motionrack("plan --json examples/plan/" + entry.path().filename().string());
         ASSERT_EQ(ran.code, 0) << ran.out;
         const auto plan = nlohmann::json::parse(ran.out);
-        const double stopping = plan["stopping"]["seconds"], trapezoids = plan["trapezoids"]["seconds"], limited = plan["jerk_limited"]["seconds"],
-                     bound = plan["bound"]["seconds"];
+        const double stopping = plan["stopping"]["seconds"], trapezoids = plan["trapezoids"]["seconds"],
+                     limited = plan["jerk_limited"]["seconds"], bound = plan["bound"]["seconds"];
         EXPECT_LE(limited, stopping) << entry.path();
         EXPECT_GE(limited, bound) << entry.path();
         double peak = 0;
         for (const auto& axis : plan["axes"])
-            for (const char* part : {"of_speed", "of_accel", "of_jerk"}) peak = std::max(peak, axis[part].get<double>());
+            for (const char* part : {"of_speed", "of_accel", "of_jerk"})
+                peak = std::max(peak, axis[part].get<double>());
         EXPECT_LE(peak, 1 + 1e-6) << entry.path();
         std::array<char, 200> row{};
-        std::snprintf(row.data(), row.size(), "| %.3f s | %.3f s | %.3f s | %.3f s | %.1f %% |", stopping, trapezoids, limited, bound, 100 * peak);
+        std::snprintf(row.data(), row.size(), "| %.3f s | %.3f s | %.3f s | %.3f s | %.1f %% |", stopping, trapezoids,
+                      limited, bound, 100 * peak);
         EXPECT_THAT(page, HasSubstr(row.data())) << entry.path();
         ++shapes;
     }
@@ -49,7 +54,8 @@ TEST_F(PlanCommand, DrawsThePicturesOfItsPage) {
         const std::string name = "plan_" + shape + ".svg", command = "plan examples/plan/" + shape + ".ngc --picture ";
         ASSERT_EQ(motionrack(command + name).code, 0) << shape;
         EXPECT_THAT(page, HasSubstr("](../pictures/" + name + ")"));
-        EXPECT_EQ(text_of(folder / name), text_of(root / "docs/pictures" / name)) << "make it anew: motionrack " << command << "docs/pictures/" << name;
+        EXPECT_EQ(text_of(folder / name), text_of(root / "docs/pictures" / name))
+            << "make it anew: motionrack " << command << "docs/pictures/" << name;
     }
 }
 
@@ -65,7 +71,8 @@ TEST_F(PlanCommand, DrawsAnythingThatCanBePlanned) {
         const std::string svg = text_of(folder / (std::string(program) + ".svg"));
         EXPECT_THAT(svg, testing::StartsWith("<svg xmlns="));
         EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
-        EXPECT_THAT(svg, testing::Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""), HasSubstr("inf,")))) << program;
+        EXPECT_THAT(svg, testing::Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""), HasSubstr("inf,"))))
+            << program;
     }
     EXPECT_NE(motionrack("plan rotary.ngc --picture no/such/folder.svg").code, 0);
 }

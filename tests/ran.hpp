@@ -34,7 +34,8 @@ class InFolder : public testing::Test {
         std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && " + line + " 2>&1").c_str(), "r");
         if (!pipe) return ran;
         std::array<char, 4096> buffer{};
-        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), got);
+        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+            ran.out.append(buffer.data(), got);
         const int status = ::pclose(pipe);
         if (WIFEXITED(status)) ran.code = WEXITSTATUS(status);
         return ran;
@@ -45,7 +46,8 @@ class InFolder : public testing::Test {
         const std::string page = text_of(root / path), begin = "```\n$ motionrack ";
         std::map<std::string, int> codes;
         for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
-            const std::size_t command = at + begin.size(), end_of_line = page.find('\n', command), end = page.find("```", end_of_line);
+            const std::size_t command = at + begin.size(), end_of_line = page.find('\n', command),
+                              end = page.find("```", end_of_line);
             const std::string arguments = page.substr(command, end_of_line - command);
             const Ran ran = motionrack(arguments);
             EXPECT_EQ(ran.out, page.substr(end_of_line + 1, end - end_of_line - 1)) << arguments;
@@ -53,10 +55,13 @@ class InFolder : public testing::Test {
         }
         return codes;
     }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name, std::ios::binary) << text; }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name, std::ios::binary) << text;
+    }
 
     const std::filesystem::path root = MOTIONRACK_SOURCE_DIR;
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("motionrack_test_" + std::to_string(::getpid()));
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("motionrack_test_" + std::to_string(::getpid()));
 };
 
 }  // namespace motionrack

@@ -1,11 +1,12 @@
 // Random part programs of all kinds for a router with X Y Z and a rotary axis A, always within its travel.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
 #include <random>
 #include <string>
 
@@ -29,11 +30,13 @@ class ProgramMaker {
     RandomProgram make() {
         out_ = {};
         axes_ = 1 + pick(4);
-        out_.text = fmt::format("G21 G90 G17 {}\nG0 X150 Y100 Z40\n", std::array{"G61", "G61.1", "G64 P0.05", "G64 P0.005"}[pick(4)]);
+        out_.text = fmt::format("G21 G90 G17 {}\nG0 X150 Y100 Z40\n",
+                                std::array{"G61", "G61.1", "G64 P0.05", "G64 P0.005"}[pick(4)]);
         at_ = {150, 100, 40, 0};
         const int moves = size_ == ProgramSize::tiny ? 60 : 25;
         for (int i = 0; i < moves; ++i) {
-            reach_ = size_ == ProgramSize::mixed ? std::array{100.0, 2.0}[pick(2)] : std::array{100.0, 2.0, 0.05}[static_cast<int>(size_)];
+            reach_ = size_ == ProgramSize::mixed ? std::array{100.0, 2.0}[pick(2)]
+                                                 : std::array{100.0, 2.0, 0.05}[static_cast<int>(size_)];
             const int kind = pick(40);
             if (kind == 0)
                 out_.text += fmt::format("G4 P{:.3f}\n", number(0, 0.05));
@@ -49,7 +52,9 @@ class ProgramMaker {
 
   private:
     int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-    double number(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+    double number(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+    }
     static double rounded(double x) { return std::round(x * 1000) / 1000; }
     double feed() { return std::round(std::exp(number(std::log(100.0), std::log(6000.0)))); }
 
@@ -69,7 +74,8 @@ class ProgramMaker {
         out_.text += rapid ? fmt::format("G0{}\n", words) : fmt::format("G1{} F{}\n", words, feed());
     }
 
-    /// By its radius, so that it is always possible; the whole circle around the chord's middle stays within the travel.
+    /// By its radius, so that it is always possible; the whole circle around the chord's middle stays within the
+    /// travel.
     void add_curve() {
         const int plane = axes_ < 3 ? 0 : pick(4) < 3 ? 0 : 1 + pick(2);
         const int first = std::array{0, 2, 1}[plane], second = std::array{1, 0, 2}[plane], third = 3 - first - second;
@@ -80,7 +86,8 @@ class ProgramMaker {
         const double radius = rounded(half * number(1.02, 3) + 0.002);
         // R > 0: at most half a turn, bulging by less than the half chord; R < 0: more than half a turn.
         const bool most = half < 5 && pick(3) == 0;
-        out_.text += fmt::format("G{} G{} {}{:.3f} {}{:.3f}", 17 + plane, 2 + pick(2), "XYZ"[first], a, "XYZ"[second], b);
+        out_.text +=
+            fmt::format("G{} G{} {}{:.3f} {}{:.3f}", 17 + plane, 2 + pick(2), "XYZ"[first], a, "XYZ"[second], b);
         at_[first] = a;
         at_[second] = b;
         if (axes_ > 2 && pick(3) == 0) {

@@ -1,4 +1,5 @@
-// Recordings of whole runs: every pulse with its tick, the same page again, the same run again bit for bit, whatever came from outside.
+// Recordings of whole runs: every pulse with its tick, the same page again, the same run again bit for bit, whatever
+// came from outside.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,13 +18,16 @@ namespace {
 
 using testing::HasSubstr;
 
-const char* const program = "G21 G90 G64 P0.05 F1800\nG1 X12 Y8 Z78 A10\nG2 X16 Y12 I4 J0\nG1 X30\nG4 P0.05\nG0 X0 Y0 Z80 A0\nM2\n";
+const char* const program =
+    "G21 G90 G64 P0.05 F1800\nG1 X12 Y8 Z78 A10\nG2 X16 Y12 I4 J0\nG1 X30\nG4 P0.05\nG0 X0 Y0 Z80 A0\nM2\n";
 
-JobRequest request_for(const std::string& text, const std::vector<std::string>& faults = {}, const std::vector<std::string>& orders = {}, const std::string& profile = "trapezoid") {
+JobRequest request_for(const std::string& text, const std::vector<std::string>& faults = {},
+                       const std::vector<std::string>& orders = {}, const std::string& profile = "trapezoid") {
     JobRequest request;
     request.rack_text = *rack_template("router");
     const std::string usual = "profile = \"trapezoid\"";
-    if (const std::size_t at = request.rack_text.find(usual); at != std::string::npos) request.rack_text.replace(at, usual.size(), "profile = \"" + profile + "\"");
+    if (const std::size_t at = request.rack_text.find(usual); at != std::string::npos)
+        request.rack_text.replace(at, usual.size(), "profile = \"" + profile + "\"");
     request.rack_file = "router.toml";
     request.config = *read_rack_text(request.rack_text, request.rack_file).config;
     EXPECT_EQ(request.config.controller.profile, profile);
@@ -44,7 +48,8 @@ class ARecordedRun : public InFolder {
         auto job = RecordedJob::create(request, {name.empty() ? std::string() : at(name), {}});
         EXPECT_TRUE(job) << job.error().text();
         std::atomic<bool> stop{false};
-        const JobOutcome outcome = (*job)->run(&stop, [&](const JobProgress& progress) { stop = stop_s >= 0 && progress.seconds >= stop_s; });
+        const JobOutcome outcome =
+            (*job)->run(&stop, [&](const JobProgress& progress) { stop = stop_s >= 0 && progress.seconds >= stop_s; });
         const Result<void> done = (*job)->finish();
         EXPECT_TRUE(done) << done.error().text();
         return outcome;
@@ -147,15 +152,19 @@ TEST_F(ARecordedRun, IsTheSameAgain) {
 TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         const JobRequest request = request_for(program, {"X.motor.push=64@0.9s", "Y.encoder.broken_a@1.1s"},
-                                               {"feed=0.5@0.2s", "hold@0.45s", "resume@0.8s", "rapid=0.3@0.85s", "feed=1.7@1s", "hold@1.2s", "resume@1.25s"}, profile);
-        const JobOutcome outcome = record(request, "a.h5"), plain = record(request_for(program, {}, {}, profile), "plain.h5");
+                                               {"feed=0.5@0.2s", "hold@0.45s", "resume@0.8s", "rapid=0.3@0.85s",
+                                                "feed=1.7@1s", "hold@1.2s", "resume@1.25s"},
+                                               profile);
+        const JobOutcome outcome = record(request, "a.h5"),
+                         plain = record(request_for(program, {}, {}, profile), "plain.h5");
         ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
         const auto reader = trace::RecordingReader::open(at("a.h5"));
         for (const auto& [when, speed] : read<double>(*reader, "X.speed"))
             if (Instant{when} > milliseconds(700) && Instant{when} < milliseconds(800)) {
                 EXPECT_EQ(speed, 0) << "held, at " << when;
             }
-        for (std::size_t i = 0; i < plain.axes.size(); ++i) EXPECT_EQ(outcome.axes[i].pulse_position, plain.axes[i].pulse_position) << i;
+        for (std::size_t i = 0; i < plain.axes.size(); ++i)
+            EXPECT_EQ(outcome.axes[i].pulse_position, plain.axes[i].pulse_position) << i;
         expect_same_again("a.h5");
         EXPECT_FALSE(trace::diff_files(at("a.h5"), at("plain.h5"))->same());
     }
@@ -171,7 +180,8 @@ TEST_F(ARecordedRun, IsTheSameAgainWhenTheMachineStoppedIt) {
 TEST_F(ARecordedRun, IsTheSameAgainWhenSomebodyStoppedIt) {
     for (const double stop_s : {0.2, 0.63}) {
         for (const bool live : {false, true}) {
-            const JobRequest request = request_for(program, {}, live ? std::vector<std::string>{"feed=0.8@0.1s"} : std::vector<std::string>{});
+            const JobRequest request =
+                request_for(program, {}, live ? std::vector<std::string>{"feed=0.8@0.1s"} : std::vector<std::string>{});
             const JobOutcome outcome = record(request, "a.h5", stop_s);
             ASSERT_FALSE(outcome.ended);
             EXPECT_EQ(outcome.ended.error().trouble, Trouble::stopped);
@@ -222,17 +232,19 @@ TEST_F(ARecordedRun, RefusesOrdersThatAreNone) {
         const auto plan = OrderPlan::create(rack, *orders);
         return plan ? std::string() : plan.error().message;
     };
-    for (const char* order : {"hold", "hold@", "hold@-1s", "hold@1", "hold=1@1s", "feed@1s", "feed=0@1s", "feed=2.1@1s", "rapid=1.1@1s", "feed=nan@1s", "go@1s", "hold@1s"})
+    for (const char* order : {"hold", "hold@", "hold@-1s", "hold@1", "hold=1@1s", "feed@1s", "feed=0@1s", "feed=2.1@1s",
+                              "rapid=1.1@1s", "feed=nan@1s", "go@1s", "hold@1s"})
         EXPECT_THAT(refused(order), HasSubstr("Nothing was moved")) << order;
     EXPECT_THAT(refused("hold@1s"), HasSubstr("for ever"));
 }
 
-// ---- the program ------------------------------------------------------------------------------------------------------
+// ---- the program
 
 class Recordings : public InFolder {};
 
 TEST_F(Recordings, MakeThePageThatTheRunMade) {
-    const Ran ran = motionrack("run examples/02_part/part.ngc -q --record a.h5 --report run.html --csv run.csv --events run_events.csv");
+    const Ran ran = motionrack(
+        "run examples/02_part/part.ngc -q --record a.h5 --report run.html --csv run.csv --events run_events.csv");
     ASSERT_EQ(ran.code, 0) << ran.out;
     ASSERT_EQ(motionrack("report a.h5 --report again.html --csv again.csv --events again_events.csv").code, 0);
     EXPECT_EQ(text_of(folder / "run.html"), text_of(folder / "again.html"));
@@ -246,8 +258,13 @@ TEST_F(Recordings, MakeThePageThatTheRunMade) {
 
 TEST_F(Recordings, AreComparedAndRunAgainWithTheirExitCodes) {
     ASSERT_EQ(motionrack("run examples/01_first_move/first_move.ngc -q --no-report --record a.h5 --vcd a.vcd").code, 0);
-    ASSERT_EQ(motionrack("run examples/01_first_move/first_move.ngc -q --no-report --record b.h5 --vcd b.vcd --at feed=0.9@0.2s").code, 0);
-    const Ran same = motionrack("replay a.h5"), differ = motionrack("diff a.h5 b.h5"), waves = motionrack("diff a.vcd b.vcd"), json = motionrack("diff a.h5 b.h5 --json");
+    ASSERT_EQ(
+        motionrack(
+            "run examples/01_first_move/first_move.ngc -q --no-report --record b.h5 --vcd b.vcd --at feed=0.9@0.2s")
+            .code,
+        0);
+    const Ran same = motionrack("replay a.h5"), differ = motionrack("diff a.h5 b.h5"),
+              waves = motionrack("diff a.vcd b.vcd"), json = motionrack("diff a.h5 b.h5 --json");
     EXPECT_EQ(same.code, 0);
     EXPECT_THAT(same.out, HasSubstr("the same bit for bit"));
     EXPECT_EQ(motionrack("diff a.h5 a.h5").code, 0);
@@ -269,8 +286,9 @@ TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
     write("a.ngc", "G1 X1 F600\n");
     write("r.toml", *rack::rack_template("router"));
     ASSERT_EQ(motionrack("run a.ngc -q --no-report --record a.h5").code, 0);
-    for (const char* command : {"run a.ngc --record a.ngc", "run a.ngc --report ./a.ngc", "run a.ngc --rack r.toml --csv r.toml", "run a.ngc --record x.h5 --vcd x.h5",
-                                "report a.h5 --report a.h5"}) {
+    for (const char* command :
+         {"run a.ngc --record a.ngc", "run a.ngc --report ./a.ngc", "run a.ngc --rack r.toml --csv r.toml",
+          "run a.ngc --record x.h5 --vcd x.h5", "report a.h5 --report a.h5"}) {
         const Ran refused = motionrack(command);
         EXPECT_EQ(refused.code, 3) << command;
         EXPECT_THAT(refused.out, HasSubstr("Nothing was done")) << command;
@@ -293,7 +311,9 @@ TEST_F(Recordings, DoWhatTheirPageSays) {
     write("part.ngc", text_of(root / "examples/01_first_move/first_move.ngc"));
     motionrack("run part.ngc -q --no-report --record before.h5 --at feed=1@0.2s");
     motionrack("run part.ngc -q --no-report --record after.h5 --at feed=0.9@0.2s");
-    motionrack("run part.ngc -q --no-report --record held.h5 --at hold@0.3s --at resume@0.5s --fault Y.motor.lose_steps=64@0.6s");
+    motionrack(
+        "run part.ngc -q --no-report --record held.h5 --at hold@0.3s --at resume@0.5s --fault "
+        "Y.motor.lose_steps=64@0.6s");
     std::map<std::string, int> codes = run_page("docs/howto/recordings.md");
     EXPECT_EQ(codes.size(), 4u);
     EXPECT_EQ(codes["diff before.h5 after.h5"], 6);
@@ -303,26 +323,29 @@ TEST_F(Recordings, DoWhatTheirPageSays) {
 TEST_F(Recordings, OpenInPython) {
     if (shell("/usr/bin/python3 -c 'import h5py'").code != 0) GTEST_SKIP() << "python3-h5py is not installed";
     ASSERT_EQ(motionrack("run examples/01_first_move/first_move.ngc -q --no-report --record a.h5").code, 0);
-    write("look.py", "import h5py, numpy\n"
-                     "f = h5py.File('a.h5')\n"
-                     "t, d = f['axes/x/steps/time'], f['axes/x/steps/direction']\n"
-                     "assert f.attrs['format'].decode() == 'motionrack recording'\n"
-                     "assert t.attrs['unit'].decode() == 's' and t.attrs['scale'] == 1e-10\n"
-                     "assert len(t) == len(d) > 1000 and (numpy.diff(t[:]) > 0).all()\n"
-                     "last = f['samples/x/commanded'][-1] - f['axes/x'].attrs['origin']\n"
-                     "assert abs(d[:].sum() / f['axes/x'].attrs['pulses_per_unit'] - last) < 1e-9\n"
-                     "assert f['samples/x/position'].attrs['unit'].decode() == 'mm'\n"
-                     "assert b'G' in f['run/program'][0] and b'[axis.X]' in f['run/rack'][0]\n"
-                     "assert f['outcome'].attrs['ended'].decode() == 'yes'\n"
-                     "print('good')\n");
+    write("look.py",
+          "import h5py, numpy\n"
+          "f = h5py.File('a.h5')\n"
+          "t, d = f['axes/x/steps/time'], f['axes/x/steps/direction']\n"
+          "assert f.attrs['format'].decode() == 'motionrack recording'\n"
+          "assert t.attrs['unit'].decode() == 's' and t.attrs['scale'] == 1e-10\n"
+          "assert len(t) == len(d) > 1000 and (numpy.diff(t[:]) > 0).all()\n"
+          "last = f['samples/x/commanded'][-1] - f['axes/x'].attrs['origin']\n"
+          "assert abs(d[:].sum() / f['axes/x'].attrs['pulses_per_unit'] - last) < 1e-9\n"
+          "assert f['samples/x/position'].attrs['unit'].decode() == 'mm'\n"
+          "assert b'G' in f['run/program'][0] and b'[axis.X]' in f['run/rack'][0]\n"
+          "assert f['outcome'].attrs['ended'].decode() == 'yes'\n"
+          "print('good')\n");
     EXPECT_EQ(shell("/usr/bin/python3 look.py").out, "good\n");
 }
 
 TEST_F(Recordings, OpenInOctave) {
     if (shell("octave-cli --version").code != 0) GTEST_SKIP() << "Octave is not installed";
     ASSERT_EQ(motionrack("run examples/01_first_move/first_move.ngc -q --no-report --record a.h5").code, 0);
-    const Ran ran = shell("octave-cli -q --no-window-system --eval \"f = load('a.h5'); t = f.axes.x.steps.time; assert(numel(t) > 1000); assert(all(diff(double(t(:))) > 0)); "
-                          "assert(abs(f.samples.x.position(end)) < 1e4); printf('good\\n');\"");
+    const Ran ran = shell(
+        "octave-cli -q --no-window-system --eval \"f = load('a.h5'); t = f.axes.x.steps.time; assert(numel(t) > 1000); "
+        "assert(all(diff(double(t(:))) > 0)); "
+        "assert(abs(f.samples.x.position(end)) < 1e4); printf('good\\n');\"");
     EXPECT_THAT(ran.out, HasSubstr("good\n"));
 }
 

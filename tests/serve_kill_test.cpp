@@ -1,5 +1,5 @@
-// What is left of a run that was killed: nothing that was acknowledged is lost, and the next run knows what ran, where, and that no position
-// is to be trusted.
+// What is left of a run that was killed: nothing that was acknowledged is lost, and the next run knows what ran, where,
+// and that no position is to be trusted.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -58,8 +58,9 @@ class Served {
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
     bool send(const std::string& method, const std::string& name, const std::string& body) const {
-        const std::string text = method + " /api/" + name + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
-                                 "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+        const std::string text =
+            method + " /api/" + name + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
+            "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
         return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
     }
     /// The body of the next answer; discarded if the server is gone.
@@ -69,10 +70,13 @@ class Served {
             if (::recv(socket_, &c, 1, 0) != 1) return json(json::value_t::discarded);
         const std::size_t at = text.find("Content-Length: ");
         std::string body(at == std::string::npos ? 0 : std::stoul(text.substr(at + 16)), '\0');
-        if (::recv(socket_, body.data(), body.size(), MSG_WAITALL) != static_cast<ssize_t>(body.size())) return json(json::value_t::discarded);
+        if (::recv(socket_, body.data(), body.size(), MSG_WAITALL) != static_cast<ssize_t>(body.size()))
+            return json(json::value_t::discarded);
         return json::parse(body, nullptr, false);
     }
-    json post(const std::string& name, const json& fields = json::object()) { return send("POST", name, fields.dump()) ? answer() : json(json::value_t::discarded); }
+    json post(const std::string& name, const json& fields = json::object()) {
+        return send("POST", name, fields.dump()) ? answer() : json(json::value_t::discarded);
+    }
     json status() {
         const json all = send("GET", "status", "") ? answer() : json(json::value_t::discarded);
         return all.is_object() ? all.value("status", json()) : json();
@@ -101,10 +105,13 @@ class AServedRack : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
-        write("table.toml", "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_mm = 1000\n");
+        write("table.toml",
+              "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_mm "
+              "= 1000\n");
     }
     std::vector<std::string> arguments() const {
-        return {(folder / "table.toml").string(), "--port", "0", "--no-pairing", "--journal", journal(), "--users", (folder / "users.json").string()};
+        return {(folder / "table.toml").string(), "--port", "0", "--no-pairing", "--journal", journal(), "--users",
+                (folder / "users.json").string()};
     }
     std::string journal() const { return (folder / "table.journal").string(); }
     std::vector<std::string> entries(const std::string& kind) const {
@@ -129,7 +136,9 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
     const std::uint32_t seed = std::random_device{}();
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    const auto among = [&](int least, int greatest) { return std::uniform_int_distribution<int>(least, greatest)(random); };
+    const auto among = [&](int least, int greatest) {
+        return std::uniform_int_distribution<int>(least, greatest)(random);
+    };
     std::vector<std::string> acknowledged;
     std::string ran;
     for (int kill = 0; kill < 100; ++kill) {
@@ -147,10 +156,12 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
         make_ready(served);
         const std::string name = "kill_" + std::to_string(kill) + ".ngc";
         ran.clear();
-        if (served.post("begin", {{"name", name}, {"text", long_way}}).contains("done")) acknowledged.push_back(ran = name);
+        if (served.post("begin", {{"name", name}, {"text", long_way}}).contains("done"))
+            acknowledged.push_back(ran = name);
         for (int order = among(0, 12); order > 0; --order) {
             const double feed = 0.5 + 0.00001 * static_cast<double>(acknowledged.size());
-            if (served.post("set_overrides", {{"feed", feed}}).contains("done")) acknowledged.push_back(json(feed).dump());
+            if (served.post("set_overrides", {{"feed", feed}}).contains("done"))
+                acknowledged.push_back(json(feed).dump());
         }
         // Half of the kills come while an order is on its way.
         if (among(0, 1) == 1) (void)served.send("POST", "set_overrides", json{{"feed", 1.5}}.dump());

@@ -1,8 +1,7 @@
-// A program that comes line by line, held, slowed and let go on at random instants: it ends where it would have ended, on its path, within
-// all limits. MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many.
-#include <motionrack/control/stream.hpp>
-
+// A program that comes line by line, held, slowed and let go on at random instants: it ends where it would have ended,
+// on its path, within all limits. MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many.
 #include <cstdlib>
+#include <motionrack/control/stream.hpp>
 #include <random>
 #include <vector>
 
@@ -25,7 +24,8 @@ struct Watched {
     double tolerance = 0;  ///< how far corners may be cut
     std::function<void()> on_slice;
 
-    explicit Watched(const RackConfig& config) : rack(config), monitor(rack.kernel(), watched_axes(rack), milliseconds(1), 1'000'000) {
+    explicit Watched(const RackConfig& config)
+        : rack(config), monitor(rack.kernel(), watched_axes(rack), milliseconds(1), 1'000'000) {
         rack.start();
         axes = *rack.path_axes();
         control::StreamSettings settings;
@@ -35,7 +35,8 @@ struct Watched {
         stream = std::make_unique<Stream>(*axes, host(), settings);
         stream->on_move([this](const control::Move& move, const control::Point& start) {
             programmed.push_back(control::geometry_of(move, start));
-            if (rack.config().jerk_limited() && move.path == control::PathControl::continuous) tolerance = std::max(tolerance, move.tolerance_mm);
+            if (rack.config().jerk_limited() && move.path == control::PathControl::continuous)
+                tolerance = std::max(tolerance, move.tolerance_mm);
         });
         rack.set_stop_flag(stream->stop_flag());
         rack.on_slice(milliseconds(1), [this] {
@@ -52,7 +53,8 @@ struct Watched {
         for (const Sample& sample : monitor.samples()) {
             double nearest = 1e9;
             for (const control::Geometry& path : programmed)
-                nearest = std::min(nearest, control::distance_to(path, sample.position[0], sample.position[1], sample.position[2]));
+                nearest = std::min(
+                    nearest, control::distance_to(path, sample.position[0], sample.position[1], sample.position[2]));
             worst = std::max(worst, nearest);
         }
         return worst;
@@ -66,7 +68,8 @@ struct Watched {
             EXPECT_LE(top.top_speed, limits.max_speed * 1.001) << i;
             EXPECT_LE(top.top_accel, limits.max_accel * 1.02) << i;
             EXPECT_LE(top.top_jump, limits.start_speed * jump) << i;
-            EXPECT_EQ(axis.turned_by().count(rack.kernel().now()), axis.machine->rotor().count(rack.kernel().now())) << i;
+            EXPECT_EQ(axis.turned_by().count(rack.kernel().now()), axis.machine->rotor().count(rack.kernel().now()))
+                << i;
         }
     }
 };
@@ -75,14 +78,17 @@ class AStream : public testing::TestWithParam<const char*> {};
 class AStreamDisturbedAtRandom : public AStream {};
 
 const auto profiles = testing::Values("trapezoid", "jerk_limited");
-std::string name_of(const testing::TestParamInfo<const char*>& info) { return info.param; }
+std::string name_of(const testing::TestParamInfo<const char*>& info) {
+    return info.param;
+}
 INSTANTIATE_TEST_SUITE_P(With, AStream, profiles, name_of);
 INSTANTIATE_TEST_SUITE_P(With, AStreamDisturbedAtRandom, profiles, name_of);
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> out;
     std::size_t begin = 0;
-    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) out.push_back(text.substr(begin, end - begin));
+    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+        out.push_back(text.substr(begin, end - begin));
     return out;
 }
 
@@ -98,7 +104,8 @@ void drive_all(Watched& w, const std::string& program, const std::function<void(
         }
         const Result<StreamState> state = w.stream->drive(next < lines.size());
         ASSERT_TRUE(state) << state.error().text();
-        if (*state == StreamState::waiting || *state == StreamState::held || *state == StreamState::paused) w.host().pass(milliseconds(1));
+        if (*state == StreamState::waiting || *state == StreamState::held || *state == StreamState::paused)
+            w.host().pass(milliseconds(1));
         if (between) between();
     }
 }
@@ -125,28 +132,41 @@ void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize s
     const auto chance = [&](int n) { return random() % static_cast<unsigned>(n) == 0; };
     int holds = 0;
     w.on_slice = [&] {
-        if (chance(150)) w.stream->set_overrides(static_cast<double>(1 + random() % 200) / 100, static_cast<double>(25 + random() % 76) / 100);
+        if (chance(150))
+            w.stream->set_overrides(static_cast<double>(1 + random() % 200) / 100,
+                                    static_cast<double>(25 + random() % 76) / 100);
         if (chance(200) && holds < 40) w.stream->hold(), ++holds;
-        if ((w.stream->state() == StreamState::held || w.stream->state() == StreamState::paused) && chance(20)) w.stream->resume();
+        if ((w.stream->state() == StreamState::held || w.stream->state() == StreamState::paused) && chance(20))
+            w.stream->resume();
     };
     drive_all(w, program.text);
     w.expect_limits(size == test::ProgramSize::tiny ? 1000 : program.chords ? 1.6 : 1.15);
     EXPECT_LE(w.worst_deviation(), w.tolerance + 3.5 / 640 + (program.chords ? 0.0021 : 0));
     for (std::size_t i = 0; i < program.end.size(); ++i) {
         const RunningAxis& axis = w.rack.axes()[i];
-        EXPECT_NEAR(axis.machine->position(w.rack.kernel().now()), program.end[i], 0.51 / axis.config.pulses_per_unit()) << i;
+        EXPECT_NEAR(axis.machine->position(w.rack.kernel().now()), program.end[i], 0.51 / axis.config.pulses_per_unit())
+            << i;
     }
 }
 
 void disturb_many(const std::string& profile, test::ProgramSize size) {
     const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 10);
-    for (std::uint64_t seed = first; seed < first + count && !testing::Test::HasFailure(); ++seed) disturb(profile, seed, size);
+    for (std::uint64_t seed = first; seed < first + count && !testing::Test::HasFailure(); ++seed)
+        disturb(profile, seed, size);
 }
 
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigMoves) { disturb_many(GetParam(), test::ProgramSize::big); }
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInSmallMoves) { disturb_many(GetParam(), test::ProgramSize::small); }
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigAndSmallMoves) { disturb_many(GetParam(), test::ProgramSize::mixed); }
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) { disturb_many(GetParam(), test::ProgramSize::tiny); }
+TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigMoves) {
+    disturb_many(GetParam(), test::ProgramSize::big);
+}
+TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInSmallMoves) {
+    disturb_many(GetParam(), test::ProgramSize::small);
+}
+TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigAndSmallMoves) {
+    disturb_many(GetParam(), test::ProgramSize::mixed);
+}
+TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) {
+    disturb_many(GetParam(), test::ProgramSize::tiny);
+}
 
 TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     Watched w(router(GetParam()));
@@ -237,7 +257,8 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
         Watched w(router(GetParam()));
         std::vector<double> at;
         w.stream->on_event([&](const control::gcode::Step& step) {
-            if (step.kind == control::gcode::StepKind::output) at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
+            if (step.kind == control::gcode::StepKind::output)
+                at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
         });
         double slowest = 1e9;
         w.on_slice = [&] {

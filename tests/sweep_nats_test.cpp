@@ -1,4 +1,5 @@
-// A sweep over several processes through a real nats-server: the same table as on one machine, though a worker is killed on the way.
+// A sweep over several processes through a real nats-server: the same table as on one machine, though a worker is
+// killed on the way.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
@@ -63,9 +64,13 @@ class NatsSweep : public InFolder {
         ::setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
         if (shell("command -v nats-server").code != 0) GTEST_SKIP() << "nats-server is not installed";
         start_server("-1");
-        write("part.ngc", "G21 G90 G64 P{TOLERANCE}\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\n");
-        write("sweep.toml", "[sweep]\nprogram = \"part.ngc\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 12 }\n"
-                            "text.TOLERANCE = [0.01, 0.05, 0.1, 0.2]\nfault = [\"\", \"X.limit_plus=0@500ms\"]\n");
+        write("part.ngc",
+              "G21 G90 G64 P{TOLERANCE}\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\nG1 X40 Y20 F3000\nX80 Y0\nX120 "
+              "Y40\nG0 X0 Y0\n");
+        write(
+            "sweep.toml",
+            "[sweep]\nprogram = \"part.ngc\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 12 }\n"
+            "text.TOLERANCE = [0.01, 0.05, 0.1, 0.2]\nfault = [\"\", \"X.limit_plus=0@500ms\"]\n");
     }
     void TearDown() override {
         server_.reset();
@@ -73,20 +78,28 @@ class NatsSweep : public InFolder {
     }
     /// `port`: -1 is a free one, which the server tells in a file.
     void start_server(const std::string& port) {
-        server_ = std::make_unique<Process>(folder, "nats-server -js -sd store -a 127.0.0.1 -p " + port + " --ports_file_dir .", "server.txt");
-        while (server_->runs() && text_of(folder / "server.txt").find("Server is ready") == std::string::npos) {}
+        server_ = std::make_unique<Process>(
+            folder, "nats-server -js -sd store -a 127.0.0.1 -p " + port + " --ports_file_dir .", "server.txt");
+        while (server_->runs() && text_of(folder / "server.txt").find("Server is ready") == std::string::npos) {
+        }
         ASSERT_TRUE(server_->runs()) << text_of(folder / "server.txt");
         if (port != "-1") return;
         while (url_.empty() && server_->runs())
             for (const auto& entry : std::filesystem::directory_iterator(folder))
                 if (entry.path().extension() == ".ports")
-                    if (const auto json = nlohmann::json::parse(text_of(entry.path()), nullptr, false); json.is_object() && json.contains("nats")) url_ = json["nats"][0];
+                    if (const auto json = nlohmann::json::parse(text_of(entry.path()), nullptr, false);
+                        json.is_object() && json.contains("nats"))
+                        url_ = json["nats"][0];
     }
     std::string port() const { return url_.substr(url_.rfind(':') + 1); }
     std::unique_ptr<Process> worker(const std::string& name, const std::string& more = "") const {
-        return std::make_unique<Process>(folder, MOTIONRACK_PROGRAM " sweep-worker --nats " + url_ + " --jobs 1 " + more, name + ".txt");
+        return std::make_unique<Process>(
+            folder, MOTIONRACK_PROGRAM " sweep-worker --nats " + url_ + " --jobs 1 " + more, name + ".txt");
     }
-    std::unique_ptr<Process> gatherer(const std::string& more = "") const { return std::make_unique<Process>(folder, MOTIONRACK_PROGRAM " sweep sweep.toml -o out.csv --nats " + url_ + " " + more, "gatherer.txt"); }
+    std::unique_ptr<Process> gatherer(const std::string& more = "") const {
+        return std::make_unique<Process>(
+            folder, MOTIONRACK_PROGRAM " sweep sweep.toml -o out.csv --nats " + url_ + " " + more, "gatherer.txt");
+    }
     std::size_t rows() const {
         const std::string text = text_of(folder / "out.csv.part");
         const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -105,11 +118,15 @@ class NatsSweep : public InFolder {
 
 TEST_F(NatsSweep, IsTheSameTableThoughAWorkerIsKilledInTheMiddle) {
     // Points that take long, so that a worker is killed in the middle of one.
-    write("part.ngc", "G21 G90 G64 P{TOLERANCE}\no100 repeat [40]\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\no100 endrepeat\n");
-    write("sweep.toml", "[sweep]\nprogram = \"part.ngc\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 5 }\ntext.TOLERANCE = [0.01, 0.1]\n");
+    write("part.ngc",
+          "G21 G90 G64 P{TOLERANCE}\no100 repeat [40]\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\no100 endrepeat\n");
+    write("sweep.toml",
+          "[sweep]\nprogram = \"part.ngc\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 5 "
+          "}\ntext.TOLERANCE = [0.01, 0.1]\n");
     auto gather = gatherer();
     auto one = worker("one"), two = worker("two"), three = worker("three");
-    while (gather->runs() && rows() < 3) {}
+    while (gather->runs() && rows() < 3) {
+    }
     EXPECT_EQ(two->end(SIGKILL), -SIGKILL) << said("two");
     EXPECT_EQ(gather->wait(), 0) << said("gatherer");
     EXPECT_THAT(said("gatherer"), HasSubstr("10 points: "));
@@ -123,7 +140,8 @@ TEST_F(NatsSweep, IsTheSameTableThoughAWorkerIsKilledInTheMiddle) {
 TEST_F(NatsSweep, AWorkerThatStandsStillIsReplacedAndItsLateRowChangesNothing) {
     auto gather = gatherer();
     auto one = worker("one"), two = worker("two");
-    while (gather->runs() && rows() < 10) {}
+    while (gather->runs() && rows() < 10) {
+    }
     two->signal(SIGSTOP);
     EXPECT_EQ(gather->wait(), 0) << said("gatherer");
     const std::string whole = local_table();
@@ -137,7 +155,8 @@ TEST_F(NatsSweep, AWorkerThatStandsStillIsReplacedAndItsLateRowChangesNothing) {
 TEST_F(NatsSweep, GathererAndServerMayBeKilledToo) {
     auto gather = gatherer();
     auto one = worker("one"), two = worker("two");
-    while (gather->runs() && rows() < 10) {}
+    while (gather->runs() && rows() < 10) {
+    }
     EXPECT_EQ(gather->end(SIGKILL), -SIGKILL) << said("gatherer");
     server_->end(SIGKILL);
     start_server(port());
@@ -150,7 +169,8 @@ TEST_F(NatsSweep, GathererAndServerMayBeKilledToo) {
 TEST_F(NatsSweep, RowsThatCameWhileNobodyGatheredAreTaken) {
     auto gather = gatherer();
     auto one = worker("one");
-    while (gather->runs() && rows() < 3) {}
+    while (gather->runs() && rows() < 3) {
+    }
     EXPECT_EQ(gather->end(SIGINT), 130);
     EXPECT_THAT(said("gatherer"), HasSubstr("the same command goes on"));
     one.reset();

@@ -1,5 +1,5 @@
-// `motionrack sweep`: its page and its examples, the same table whatever the threads and however often it was killed, and every refusal
-// with its place.
+// `motionrack sweep`: its page and its examples, the same table whatever the threads and however often it was killed,
+// and every refusal with its place.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +16,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* rack_text = "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_mm = 300\n[axis.X.switches]\nlimit_plus_mm = 302\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n";
+constexpr const char* rack_text =
+    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_mm = "
+    "300\n[axis.X.switches]\nlimit_plus_mm = 302\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n";
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::istringstream in(text);
@@ -31,22 +33,27 @@ class SweepCommand : public InFolder {
         InFolder::SetUp();
         write("rack.toml", rack_text);
         write("part.ngc", "G21 G90 G64 P{TOLERANCE}\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\n");
-        write("sweep.toml", "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 8 }\n"
-                            "text.TOLERANCE = [0.01, 0.05, 0.1, 0.2]\nfault = [\"\", \"X.limit_plus=0@500ms\"]\n");
+        write("sweep.toml",
+              "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, "
+              "to = 4000, steps = 8 }\n"
+              "text.TOLERANCE = [0.01, 0.05, 0.1, 0.2]\nfault = [\"\", \"X.limit_plus=0@500ms\"]\n");
     }
-    /// A sweep in the background that gets a signal once it has so many rows. Its exit code, or minus the signal; what it said is in said.txt.
+    /// A sweep in the background that gets a signal once it has so many rows. Its exit code, or minus the signal; what
+    /// it said is in said.txt.
     int signal_after(int signal, const std::string& arguments, std::size_t rows) const {
         const pid_t child = ::fork();
         if (child == 0) {
             const int said = ::open((folder / "said.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
             ::dup2(said, 1);
             ::dup2(said, 2);
-            if (::chdir(folder.c_str()) == 0) ::execl("/bin/sh", "sh", "-c", ("exec " MOTIONRACK_PROGRAM " sweep " + arguments).c_str(), nullptr);
+            if (::chdir(folder.c_str()) == 0)
+                ::execl("/bin/sh", "sh", "-c", ("exec " MOTIONRACK_PROGRAM " sweep " + arguments).c_str(), nullptr);
             ::_exit(127);
         }
         int status = 0;
         bool ended = false;
-        while (!ended && lines_of(text_of(folder / "out.csv.part")).size() <= rows) ended = ::waitpid(child, &status, WNOHANG) != 0;
+        while (!ended && lines_of(text_of(folder / "out.csv.part")).size() <= rows)
+            ended = ::waitpid(child, &status, WNOHANG) != 0;
         if (!ended) {
             ::kill(child, signal);
             ::waitpid(child, &status, 0);
@@ -67,7 +74,8 @@ TEST_F(SweepCommand, PageShowsWhatItPrintsAndDraws) {
     for (const std::string name : {"acceleration", "tolerance", "chance"}) {
         const std::string picture = "sweep_" + name + ".svg";
         EXPECT_THAT(page, HasSubstr("](../pictures/" + picture + ")"));
-        EXPECT_EQ(text_of(folder / picture), text_of(root / "docs/pictures" / picture)) << "make it anew: motionrack sweep examples/sweep/" << name << ".toml --picture docs/pictures/" << picture;
+        EXPECT_EQ(text_of(folder / picture), text_of(root / "docs/pictures" / picture))
+            << "make it anew: motionrack sweep examples/sweep/" << name << ".toml --picture docs/pictures/" << picture;
     }
 }
 
@@ -76,7 +84,8 @@ TEST_F(SweepCommand, GivesTheSameTableWhateverTheThreadsAndTheKills) {
     ASSERT_EQ(lines_of(whole).size(), 65u);
     EXPECT_EQ(table("sweep.toml -o out.csv --jobs 2 --fresh"), whole);
     std::filesystem::remove(folder / "out.csv");
-    for (const std::size_t rows : {3, 20, 21, 40}) EXPECT_EQ(signal_after(SIGKILL, "sweep.toml -o out.csv --jobs 2", rows), -SIGKILL);
+    for (const std::size_t rows : {3, 20, 21, 40})
+        EXPECT_EQ(signal_after(SIGKILL, "sweep.toml -o out.csv --jobs 2", rows), -SIGKILL);
     EXPECT_FALSE(std::filesystem::exists(folder / "out.csv"));
     // A row that was cut off by a full disk or a power cut is made again.
     std::ofstream(folder / "out.csv.part", std::ios::app) << "0123456789abcdef0123456789abcdef,63,4000,0.2,,ok,1.0";
@@ -94,14 +103,18 @@ TEST_F(SweepCommand, GivesTheSameHdf5FileToo) {
     const Ran again = motionrack("sweep sweep.toml -o a.h5");
     EXPECT_THAT(again.out, HasSubstr("64 of 64 points were done before"));
     EXPECT_EQ(text_of(folder / "a.h5"), text_of(folder / "b.h5"));
-    const Ran read = shell("/usr/bin/python3 -c \"import h5py; f=h5py.File('a.h5'); print(len(f['key']), f['time_s'].attrs['unit'].decode(), f['text.TOLERANCE'][3], f['ended'][0].decode())\"");
+    const Ran read = shell(
+        "/usr/bin/python3 -c \"import h5py; f=h5py.File('a.h5'); print(len(f['key']), "
+        "f['time_s'].attrs['unit'].decode(), f['text.TOLERANCE'][3], f['ended'][0].decode())\"");
     EXPECT_EQ(read.out, "64 s 0.05 ok\n");
 }
 
 TEST_F(SweepCommand, TellsWhatRunTells) {
     const std::string csv = table("sweep.toml -o out.csv");
     const std::vector<std::string> lines = lines_of(csv);
-    EXPECT_THAT(lines[0], HasSubstr("key,point,axis.X.max_accel_mm_s2,text.TOLERANCE,fault,ended,time_s,worst_deviation_mm,x_top_speed_mm_s,x_top_accel_mm_s2,x_lost_pulses,x_rest_error_mm,y_top_speed"));
+    EXPECT_THAT(lines[0],
+                HasSubstr("key,point,axis.X.max_accel_mm_s2,text.TOLERANCE,fault,ended,time_s,worst_deviation_mm,x_top_"
+                          "speed_mm_s,x_top_accel_mm_s2,x_lost_pulses,x_rest_error_mm,y_top_speed"));
     EXPECT_THAT(lines[0], Not(HasSubstr("z_top")));
     write("same.ngc", "G21 G90 G64 P0.05\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\n");
     shell("sed -i 's/max_mm = 300/max_mm = 300\\nmax_accel_mm_s2 = 500/' rack.toml");
@@ -126,7 +139,8 @@ TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
 
 TEST_F(SweepCommand, EndsOnRequestAndSaysHowToGoOn) {
     EXPECT_EQ(signal_after(SIGINT, "examples/sweep/chance.toml -o out.csv --jobs 1", 5), 130);
-    EXPECT_THAT(text_of(folder / "said.txt"), HasSubstr(" of 120 points are done and kept in out.csv.part; the same command goes on with the rest."));
+    EXPECT_THAT(text_of(folder / "said.txt"),
+                HasSubstr(" of 120 points are done and kept in out.csv.part; the same command goes on with the rest."));
     EXPECT_EQ(motionrack("sweep examples/sweep/chance.toml -o out.csv -q").code, 0);
     EXPECT_EQ(lines_of(text_of(folder / "out.csv")).size(), 121u);
 }
@@ -147,8 +161,11 @@ TEST_F(SweepCommand, RefusesBadFilesWithTheirPlaceBeforeAnythingRuns) {
              Case{"axis.X.max_mm = { from = 100, to = 200 }", "bad.toml:5:17", "has no steps"},
              Case{"axis.X.max_mm = { from = 100, to = 100, steps = 2 }", "bad.toml:5:36", "are both 100"},
              Case{"axis.X.max_mm = { from = 100, to = nan, steps = 2 }", "bad.toml:5:36", "nan"},
-             Case{"axis.X.microsteps = { from = 4, to = 6, steps = 9, whole = true }", "bad.toml:5:49", "only 3 whole numbers"},
-             Case{"axis.X.max_mm = { from = 100, to = 200, steps = 400 }\naxis.Y.max_mm = { from = 100, to = 200, steps = 400 }", "bad.toml:4:", "160000 points"},
+             Case{"axis.X.microsteps = { from = 4, to = 6, steps = 9, whole = true }", "bad.toml:5:49",
+                  "only 3 whole numbers"},
+             Case{"axis.X.max_mm = { from = 100, to = 200, steps = 400 }\naxis.Y.max_mm = { from = 100, to = 200, "
+                  "steps = 400 }",
+                  "bad.toml:4:", "160000 points"},
              Case{"axis.X.max_mm = []", "bad.toml:5:17", "has no values"},
              Case{"axis.X.max_mm = [[1]]", "bad.toml:5:18", "an array in its list"},
              Case{"fault = [\"X.limit_plus=0\"]", "bad.toml:5:10", "needs its time"},
@@ -160,7 +177,8 @@ TEST_F(SweepCommand, RefusesBadFilesWithTheirPlaceBeforeAnythingRuns) {
              Case{"", "bad.toml:4:2", "Nothing is varied"},
          }) {
         write("good.ngc", "G21 G90\nG1 X10 F600\n");
-        write("bad.toml", std::string("[sweep]\nprogram = \"good.ngc\"\nrack = \"rack.toml\"\n[vary]\n") + c.vary + "\n");
+        write("bad.toml",
+              std::string("[sweep]\nprogram = \"good.ngc\"\nrack = \"rack.toml\"\n[vary]\n") + c.vary + "\n");
         const Ran ran = motionrack("sweep bad.toml -o out.csv");
         EXPECT_EQ(ran.code, 2) << c.vary;
         EXPECT_THAT(ran.out, HasSubstr(c.place)) << c.vary;
@@ -181,7 +199,8 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
     refused("[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\nthreads = 3\n" + vary, 2, "bad.toml:4:1");
     refused("[sweep]\nprogram = \"part.ngc\"\npoints = 3\n" + vary, 2, "bad.toml:3:10");
     refused("[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\n" + vary, 2, "needs points");
-    refused("[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\npoints = 1000000\n" + vary, 2, "outside its range 1 .. 100000");
+    refused("[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\npoints = 1000000\n" + vary, 2,
+            "outside its range 1 .. 100000");
     refused("[sweep]\nrack = \"rack.toml\"\n" + vary, 2, "has no program");
     refused("[swep]\n" + vary, 2, "did you mean 'sweep'?");
     refused("[sweep\n", 2, "bad.toml:1:");
@@ -190,7 +209,8 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
     write("wrong.toml", std::string(rack_text) + "max_mmm = 3\n");
     refused("[sweep]\nprogram = \"part.ngc\"\nrack = \"wrong.toml\"\n" + vary, 2, "wrong.toml:12:1");
     refused("[sweep]\nprogram = \"part.ngc\"\n[vary]\ntext.TOLERANCE = [0.1, \"wide\"]\n", 2, "part.ngc:1:");
-    refused("[sweep]\nprogram = \"part.ngc\"\n[vary]\ntext.TOLERANCE = [0.1, \"wide\"]\n", 2, "(with TOLERANCE = wide)");
+    refused("[sweep]\nprogram = \"part.ngc\"\n[vary]\ntext.TOLERANCE = [0.1, \"wide\"]\n", 2,
+            "(with TOLERANCE = wide)");
     write("far.ngc", "G21 G90 G64 P{TOLERANCE}\nG1 X4000 F600\n");
     refused("[sweep]\nprogram = \"far.ngc\"\nrack = \"rack.toml\"\n" + vary, 3, "far.ngc:2:");
     EXPECT_EQ(motionrack("sweep sweep.toml -o sweep.toml").code, 3);
@@ -205,14 +225,17 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
 
 TEST_F(SweepCommand, RowsTellWhatWentWrongInAPoint) {
     // The travel of one point is too short for the program: that is a result.
-    write("travel.toml", "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_mm = [100, 300]\ntext.TOLERANCE = 0.1\nfault = [\"\", \"X.motor.lose_steps=64@500ms\"]\n");
+    write("travel.toml",
+          "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_mm = [100, 300]\ntext.TOLERANCE = "
+          "0.1\nfault = [\"\", \"X.motor.lose_steps=64@500ms\"]\n");
     const std::string csv = table("travel.toml -o out.csv --picture out.svg");
     const std::vector<std::string> lines = lines_of(csv);
     ASSERT_EQ(lines.size(), 5u);
     EXPECT_THAT(lines[1], HasSubstr(",100,0.1,,refused,,,"));
     EXPECT_THAT(lines[3], HasSubstr(",300,0.1,,ok,"));
     EXPECT_THAT(lines[4], HasSubstr(",300,0.1,X.motor.lose_steps=64@500ms,lost_steps,"));
-    EXPECT_THAT(text_of(folder / "out.svg"), Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""), HasSubstr("inf,"))));
+    EXPECT_THAT(text_of(folder / "out.svg"),
+                Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""), HasSubstr("inf,"))));
 }
 
 }  // namespace

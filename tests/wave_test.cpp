@@ -1,5 +1,6 @@
 // What a job records as waves, counted by a stranger: sigrok-cli reads the VCD file of a run.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -11,7 +12,6 @@
 #include <motionrack/rack/wave_recorder.hpp>
 #include <set>
 #include <sstream>
-#include <unistd.h>
 
 namespace motionrack::rack {
 namespace {
@@ -33,8 +33,10 @@ int last_number(const std::string& path, const std::string& decoder, const std::
 }
 
 TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
-    if (std::system("sigrok-cli --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "sigrok-cli is not installed: apt-get install sigrok-cli";
-    const std::string path = (std::filesystem::temp_directory_path() / ("motionrack_wave_" + std::to_string(::getpid()) + ".vcd")).string();
+    if (std::system("sigrok-cli --version >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "sigrok-cli is not installed: apt-get install sigrok-cli";
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("motionrack_wave_" + std::to_string(::getpid()) + ".vcd")).string();
     const std::string program = "G21 G90\nG1 X2 Y1 F600\nG1 X0.5\nM2\n";
     JobOutcome outcome;
     {
@@ -57,7 +59,8 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
     // 2 mm there and 1.5 mm back: 640 pulses and 800 encoder counts a millimetre.
     EXPECT_EQ(outcome.axes[0].pulses_sent, 2240);
     EXPECT_EQ(last_number(path, "counter:data=X_step:data_edge=rising", "counter=edge_count"), 2240);
-    EXPECT_EQ(last_number(path, "stepper_motor:step=X_step:dir=X_dir", "stepper_motor=position"), 321) << "told when it is left";
+    EXPECT_EQ(last_number(path, "stepper_motor:step=X_step:dir=X_dir", "stepper_motor=position"), 321)
+        << "told when it is left";
     EXPECT_EQ(outcome.axes[0].counts_read, 400);
     EXPECT_EQ(last_number(path, "graycode:d0=X_enc_a:d1=X_enc_b", "graycode=count"), 401);
     std::filesystem::remove(path);

@@ -1,4 +1,5 @@
-/* Drives a card from C: a move by register writes, a limit switch hit by hand, and what would have happened without it. */
+/* Drives a card from C: a move by register writes, a limit switch hit by hand, and what would have happened without it.
+ */
 #include <math.h>
 #include <motionrack/c.h>
 #include <stdio.h>
@@ -11,21 +12,21 @@ static void must(int code) {
 }
 
 /* A data command of the MCX314: the value in WR7, WR6, then the command with the axis in WR0. */
-static void command(mr_rack *rack, unsigned axes, unsigned code, uint32_t value) {
+static void command(mr_rack* rack, unsigned axes, unsigned code, uint32_t value) {
     must(mr_write16(rack, "c1", 0x0e, (uint16_t)(value >> 16)));
     must(mr_write16(rack, "c1", 0x0c, (uint16_t)(value & 0xffff)));
     must(mr_write16(rack, "c1", 0x00, (uint16_t)(axes << 8 | code)));
 }
 
-static void tell(mr_rack *rack, const char *who) {
+static void tell(mr_rack* rack, const char* who) {
     uint64_t status = 0, pulses = 0, counts = 0;
     double position = 0;
     must(mr_peek(rack, "c1", "x.RR1", &status));
     must(mr_peek(rack, "c1", "x.LP", &pulses));
     must(mr_peek(rack, "c1", "x.EP", &counts));
     must(mr_part_get(rack, "X.position_mm", &position));
-    printf("%s: %lld pulses, %lld counts, the table is at %.3f mm%s\n", who, (long long)pulses, (long long)counts, position,
-           (status & 0x1000) != 0 ? ", stopped by the + limit" : "");
+    printf("%s: %lld pulses, %lld counts, the table is at %.3f mm%s\n", who, (long long)pulses, (long long)counts,
+           position, (status & 0x1000) != 0 ? ", stopped by the + limit" : "");
 }
 
 int main(void) {

@@ -1,12 +1,12 @@
-/* A program for the MCX314's function library: sets the parameters of X, drives there and back, and shows its counters as the
- * window of such a program does. */
+/* A program for the MCX314's function library: sets the parameters of X, drives there and back, and shows its counters
+ * as the window of such a program does. */
 #include <mcx314lib.h>
 #include <stdio.h>
 
 enum { X = 1 };
 
 /* What would be a message box. */
-static void on_error(const char *sentence, void *user) {
+static void on_error(const char* sentence, void* user) {
     (void)user;
     printf("error: %s\n", sentence);
 }
@@ -26,9 +26,9 @@ static void watch(void) {
 
 int main(void) {
     mcx314_on_error(on_error, NULL);
-    SetPulseMode(X, 1);  /* pulse and direction */
-    SetRange(800000);    /* multiple 10 */
-    HLMTSig(1, X);       /* limit switches stop decelerating */
+    SetPulseMode(X, 1); /* pulse and direction */
+    SetRange(800000);   /* multiple 10 */
+    HLMTSig(1, X);      /* limit switches stop decelerating */
     LPS(X, 0);
     EPS(X, 0);
     AutoDec();

@@ -1,4 +1,5 @@
-/* An old host program on the DataBoard 4002: the maker's demonstration in BASIC, line by line, on a machine in software.
+/* An old host program on the DataBoard 4002: the maker's demonstration in BASIC, line by line, on a machine in
+ * software.
  *
  *   BASIC:  OUT 3,ASCII("G")     here:  out(C2, 'G')      the number behind a function is its line in the listing
  *           INP(1) AND 128              in(STAT) & 128
@@ -8,10 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* ---- the machine: two functions for the ports, one for the time -------------------------------------------------------------- */
+/* ---- the machine: two functions for the ports, one for the time
+ * -------------------------------------------------------------- */
 
-static mr_rack *rack;
-static FILE *record;
+static mr_rack* rack;
+static FILE* record;
 static uint64_t recorded_ns;
 static uint64_t switch_ns; /* when somebody presses or releases the switch of the right end stop; 0: never */
 static int pressed;
@@ -22,9 +24,11 @@ static void must(int code) {
     exit(1);
 }
 
-static double seconds(void) { return (double)mr_now_ns(rack) * 1e-9; }
+static double seconds(void) {
+    return (double)mr_now_ns(rack) * 1e-9;
+}
 
-static double quantity(const char *name) {
+static double quantity(const char* name) {
     double value = 0;
     must(mr_part_get(rack, name, &value));
     return value;
@@ -41,7 +45,8 @@ static double sign(void) {
 static void pass_ms(unsigned ms) {
     while (ms-- > 0) {
         if (record != NULL && mr_now_ns(rack) >= recorded_ns) {
-            fprintf(record, "%.3f,%.0f,%.1f\n", seconds(), quantity("c1.position_counts"), quantity("c1.fout_hz") * sign());
+            fprintf(record, "%.3f,%.0f,%.1f\n", seconds(), quantity("c1.position_counts"),
+                    quantity("c1.fout_hz") * sign());
             recorded_ns = mr_now_ns(rack) + 99500000;
         }
         must(mr_advance_ns(rack, 1000000));
@@ -66,7 +71,8 @@ static int in(uint32_t port) {
     return value;
 }
 
-/* ---- the program ------------------------------------------------------------------------------------------------------------- */
+/* ---- the program
+ * ------------------------------------------------------------------------------------------------------------- */
 
 enum { DATA = 0, CS = 1, C1 = 2, C2 = 3, C3 = 4, C4 = 5, STAT = 1 }; /* 4140 */
 
@@ -74,7 +80,7 @@ enum { DATA = 0, CS = 1, C1 = 2, C2 = 3, C3 = 4, C4 = 5, STAT = 1 }; /* 4140 */
 static void wait_ready(void) {
     int looks;
     for (looks = 0; looks != 100; ++looks)
-        if (in(STAT) & 128) return;
+        if (in(STAT)&128) return;
     printf("FATAL ERROR !! UNIT NEVER READY !\n");
     exit(1);
 }
@@ -127,7 +133,7 @@ static void store_slope(int slope) {
 }
 
 /* FNGoPosition, 1860 */
-static void go_position(const char *name, int position) {
+static void go_position(const char* name, int position) {
     const double from = seconds();
     int event = 0;
     strobe_out(C2, 'P');
@@ -138,7 +144,7 @@ static void go_position(const char *name, int position) {
     (void)strobe_in(DATA);  /* gets rid of old events */
     strobe_out(C2, 'G');
     while ((event & 1) == 0) {
-        while ((in(STAT) & 2) == 0) {
+        while ((in(STAT)&2) == 0) {
         }
         strobe_out(C4, 1 + 32);
         event = strobe_in(DATA);
@@ -153,7 +159,9 @@ static void go_position(const char *name, int position) {
 }
 
 /* FNQuit, 2620: the user presses a key after three seconds */
-static void wait_for_key(void) { pass_ms(3000); }
+static void wait_for_key(void) {
+    pass_ms(3000);
+}
 
 /* FNInitdemo, 4080 */
 static void init(void) {
@@ -182,7 +190,7 @@ static void one_round(void) {
     wait_for_key();
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
     must(mr_rack_open("card.c1 = \"databoard4002\"", &rack));
     if (argc > 1 && (record = fopen(argv[1], "w")) == NULL) return 1;
     init();

@@ -1,5 +1,5 @@
-// A transfer carriage by the card's own commands: A to C fast and held there, C gently to B, back to A at limited speed. Then once more
-// with an end stop whose contact opens on the way, and once with the emergency button.
+// A transfer carriage by the card's own commands: A to C fast and held there, C gently to B, back to A at limited
+// speed. Then once more with an end stop whose contact opens on the way, and once with the emergency button.
 //
 //   A 0 ───────────── B 128000 ───────────── C 256000 counts of 0.01 mm
 //
@@ -28,7 +28,8 @@ struct Record {
 
 class Carriage {
   public:
-    Carriage(const rack::RackConfig& config, const std::vector<std::string>& faults) : rack_(config), driver_(port(), port(), {.counts_per_mm = counts_per_mm}) {
+    Carriage(const rack::RackConfig& config, const std::vector<std::string>& faults)
+        : rack_(config), driver_(port(), port(), {.counts_per_mm = counts_per_mm}) {
         faults_ = *rack::FaultPlan::create(rack_, faults);
         rack_.start();
         faults_->begin();
@@ -46,8 +47,9 @@ class Carriage {
         port().pass(milliseconds(500));
         return leg("B-A", a, 100'000, scale_.rate_for(10'000));
     }
-    /// After a stop: waits until the carriage stands and the button is released, then goes to A slowly. (The table counts the way from where
-    /// a positioning begins: begun while the carriage still runs the other way, it would creep back to that place first.)
+    /// After a stop: waits until the carriage stands and the button is released, then goes to A slowly. (The table
+    /// counts the way from where a positioning begins: begun while the carriage still runs the other way, it would
+    /// creep back to that place first.)
     Result<void> go_home() {
         port().pass(milliseconds(300));
         while (driver_.status().emergency()) port().pass(milliseconds(10));
@@ -64,7 +66,11 @@ class Carriage {
 
     /// One positioning with a slope of its own; what the table says of it beforehand, and how long it took.
     Result<void> leg(const char* name, std::int64_t target, double counts_s2, int rate) {
-        const db::SlopeDemand demand{.top_speed = 49'000, .acceleration = counts_s2, .deceleration = counts_s2, .creep_speed = 300, .lag_s = 0.01};
+        const db::SlopeDemand demand{.top_speed = 49'000,
+                                     .acceleration = counts_s2,
+                                     .deceleration = counts_s2,
+                                     .creep_speed = 300,
+                                     .lag_s = 0.01};
         MOTIONRACK_TRY(const db::SlopeTable table, db::design_slope(demand, scale_));
         MOTIONRACK_TRY(const std::int64_t here, driver_.position());
         MOTIONRACK_TRY(const db::SlopeMotion motion, db::motion_of(table, std::abs(target - here), rate, scale_));
@@ -78,8 +84,11 @@ class Carriage {
         if (!moved) return moved;
         port().pass(milliseconds(100));  // it comes to rest
         MOTIONRACK_TRY(const std::int64_t there, driver_.position());
-        fmt::print("  {:<5} {:>7} counts  by the table {:6.3f} s, took {:6.3f} s, at most {:3.0f} mm/s, stands {:+d} counts from its target\n", name,
-                   std::abs(target - here), motion.duration_s, took, motion.top_speed / counts_per_mm, static_cast<int>(there - target));
+        fmt::print(
+            "  {:<5} {:>7} counts  by the table {:6.3f} s, took {:6.3f} s, at most {:3.0f} mm/s, stands {:+d} counts "
+            "from its target\n",
+            name, std::abs(target - here), motion.duration_s, took, motion.top_speed / counts_per_mm,
+            static_cast<int>(there - target));
         return {};
     }
 
@@ -123,8 +132,10 @@ int main(int count, char** words) {
     if (count > 2)
         if (const auto done = trace::write_text(picture(good.record()), words[2]); !done) return failed(done.error());
 
-    // The contact of the right end stop opens at 2 s; the button is pressed at 9 s and turned out again two seconds later.
-    for (const std::vector<std::string>& faults : {std::vector<std::string>{"X.limit_plus=0@2s"}, {"estop=0@9s", "estop=release@11s"}}) {
+    // The contact of the right end stop opens at 2 s; the button is pressed at 9 s and turned out again two seconds
+    // later.
+    for (const std::vector<std::string>& faults :
+         {std::vector<std::string>{"X.limit_plus=0@2s"}, {"estop=0@9s", "estop=release@11s"}}) {
         fmt::print("with {}\n", fmt::join(faults, ", "));
         Carriage carriage(*machine.config, faults);
         if (const auto done = carriage.run(); !done) fmt::print("  {}\n", done.error().message);

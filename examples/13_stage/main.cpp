@@ -1,4 +1,5 @@
-// A scan and a step stage whose loops are closed by two cards: how far they are apart when the cards read one instant, and when they do not.
+// A scan and a step stage whose loops are closed by two cards: how far they are apart when the cards read one instant,
+// and when they do not.
 //
 //   stage MACHINE.toml [PICTURE.svg]
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ using namespace motionrack;
 
 namespace {
 
-constexpr double ratio = 4;  // the mask's picture is four times as large as the wafer's
+constexpr double ratio = 4;          // the mask's picture is four times as large as the wafer's
 constexpr double warm_up_s = 0.018;  // until the scan is at its speed
 
 /// What is different from the rack file, and what happens.
@@ -24,7 +25,7 @@ struct Trial {
     std::array<double, 3> offset_us{};  ///< of their clocks
     double drift_ppm = 0;               ///< of the clock of card "step"
     double compute_us = 20;
-    std::string fault;                  ///< of card "step", at 0.25 s
+    std::string fault;  ///< of card "step", at 0.25 s
 };
 
 /// What was seen: at each pulse, and in all.
@@ -61,7 +62,8 @@ class Experiment {
             while (rack_.kernel().run_until(t) == sim::RunEnd::broken) {  // a card's interrupt
             }
             if (t == milliseconds(250) && !trial_.fault.empty())
-                if (const auto done = rack::inject_fault(rack_, trial_.fault, "step"); !done) fmt::print("{}\n", done.error().text());
+                if (const auto done = rack::inject_fault(rack_, trial_.fault, "step"); !done)
+                    fmt::print("{}\n", done.error().text());
             look(t);
         }
     }
@@ -72,20 +74,25 @@ class Experiment {
         fmt::print("  following error that the cards see, at most: scan_x {}, step_x {}\n", seen(mask_), seen(wafer_));
         fmt::print("  scan_x - 4 step_x in truth, while scanning: at most {}, rms {}\n", length(record_.peak_nm),
                    length(std::sqrt(record_.squares / record_.scanning)));
-        fmt::print("  conflicts on the bus {}, frames that card step refused {}\n", rack::grating_bus_of(rack_)->lines().all_conflicts(),
+        fmt::print("  conflicts on the bus {}, frames that card step refused {}\n",
+                   rack::grating_bus_of(rack_)->lines().all_conflicts(),
                    rack::grating_card_of(rack_, "step")->counter(grating_bus::Card::broken));
         for (const rack::RunningStage& stage : rack_.stages())
             if (!stage.loop()->closed())
                 fmt::print("  {} is open: {}\n", stage.config.name,
-                           stage.loop()->state() == grating_bus::LoopState::stale ? "no frame for two periods" : "more than 0.1 mm off");
+                           stage.loop()->state() == grating_bus::LoopState::stale ? "no frame for two periods"
+                                                                                  : "more than 0.1 mm off");
     }
     const Record& record() const { return record_; }
 
   private:
-    static std::string length(double nm) { return nm < 1e5 ? fmt::format("{:.0f} nm", nm) : fmt::format("{:.1f} mm", nm * 1e-6); }
+    static std::string length(double nm) {
+        return nm < 1e5 ? fmt::format("{:.0f} nm", nm) : fmt::format("{:.1f} mm", nm * 1e-6);
+    }
 
     void look(Instant t) {
-        const double mask = mask_.motor->position_nm(t), apart = mask - ratio * wafer_.motor->position_nm(t), seconds = to_seconds(t);
+        const double mask = mask_.motor->position_nm(t), apart = mask - ratio * wafer_.motor->position_nm(t),
+                     seconds = to_seconds(t);
         record_.seconds.push_back(seconds);
         record_.mask_mm.push_back(static_cast<float>(mask * 1e-6));
         record_.apart_nm.push_back(static_cast<float>(apart));
@@ -104,11 +111,16 @@ class Experiment {
 };
 
 std::string picture(const Record& one, const Record& three) {
-    const std::vector<trace::SvgSpan> spans = {{"to", 0.018, 0.268}, {"fro", 0.296, 0.546}, {"to", 0.574, 0.824}, {"fro", 0.852, 1.102}};
+    const std::vector<trace::SvgSpan> spans = {
+        {"to", 0.018, 0.268}, {"fro", 0.296, 0.546}, {"to", 0.574, 0.824}, {"fro", 0.852, 1.102}};
     const std::vector<trace::SvgChart> charts = {
         {"mask, mm", {{"", "z", one.seconds, one.mask_mm}}, {}},
-        {"mask - 4 x wafer, nm: host and two slaves (red), three hosts (green)", {{"", "x", one.seconds, one.apart_nm}, {"", "y", three.seconds, three.apart_nm}}, {}},
-        {"following error that the mask's card sees, nm", {{"", "x", one.seconds, one.seen_nm}, {"", "y", three.seconds, three.seen_nm}}, {}}};
+        {"mask - 4 x wafer, nm: host and two slaves (red), three hosts (green)",
+         {{"", "x", one.seconds, one.apart_nm}, {"", "y", three.seconds, three.apart_nm}},
+         {}},
+        {"following error that the mask's card sees, nm",
+         {{"", "x", one.seconds, one.seen_nm}, {"", "y", three.seconds, three.seen_nm}},
+         {}}};
     return trace::svg_timeline("Scan and step stage", charts, spans, {.width = 720, .height = 640, .standalone = true});
 }
 
@@ -141,5 +153,6 @@ int main(int count, char** words) {
         records.push_back(experiment.record());
     }
     if (count > 2)
-        if (const auto done = trace::write_text(picture(records[0], records[3]), words[2]); !done) return failed(done.error());
+        if (const auto done = trace::write_text(picture(records[0], records[3]), words[2]); !done)
+            return failed(done.error());
 }

@@ -1,7 +1,6 @@
 /* Marks every part that passes, while the line becomes quicker: when is it too quick? */
-#include <stdio.h>
-
 #include <rtc5sim.h>
+#include <stdio.h>
 
 #define K 5184L /* bits/mm */
 
@@ -20,13 +19,13 @@ static void load_frame(void) {
     set_control_mode(1); /* the start line starts list 1 */
 }
 
-static double part(const char *name) {
+static double part(const char* name) {
     double value = 0;
     if (rtc5sim_part_get(name, &value) != 0) fprintf(stderr, "%s\n", rtc5sim_last_error());
     return value;
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
     static const double speeds[] = {100, 250, 500, 800};
     size_t i;
     if (argc != 2 || rtc5sim_open(argv[1]) != 0) {

@@ -1,5 +1,5 @@
-// A virtual DataBoard 4002 on a bench with a servo motor behind it, and a pen that writes down where the motor is. A count is 0.01 mm; a volt is
-// 10,000 counts a second, 100 mm/s.
+// A virtual DataBoard 4002 on a bench with a servo motor behind it, and a pen that writes down where the motor is. A
+// count is 0.01 mm; a volt is 10,000 counts a second, 100 mm/s.
 //
 //   Driver ──► VirtualBytePort ──► Bus ──► Card ──vout──► DcMotor ──counts──► Card
 //                                                            └──► pen ──► SVG
@@ -18,8 +18,8 @@
 namespace howto {
 
 using namespace motionrack;
-using databoard4002::SlopeDemand, databoard4002::SlopeMotion, databoard4002::SlopeTable, databoard4002::SpeedScale;
 using databoard4002::design_slope, databoard4002::motion_of, databoard4002::most_rate;
+using databoard4002::SlopeDemand, databoard4002::SlopeMotion, databoard4002::SlopeTable, databoard4002::SpeedScale;
 
 inline constexpr double counts_per_mm = 100;
 

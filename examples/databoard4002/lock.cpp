@@ -20,7 +20,8 @@ std::string picture(const Record& hunting, const Record& settling) {
 /// How far it swings in the last second.
 double swing(const Record& record) {
     const auto last = std::span(record.mm).last(1'000);
-    return static_cast<double>(*std::max_element(last.begin(), last.end()) - *std::min_element(last.begin(), last.end()));
+    return static_cast<double>(*std::max_element(last.begin(), last.end()) -
+                               *std::min_element(last.begin(), last.end()));
 }
 
 }  // namespace

@@ -11,8 +11,11 @@ int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const std::string page = words.empty() ? "" : words[0];
     const std::size_t most = page == "old_host" ? 3 : 2;
-    if ((page != "slope" && page != "lock" && page != "old_host") || words.size() > most || (page == "old_host" && words.size() < most)) {
-        fmt::print(stderr, "Usage: example_databoard4002 slope|lock [PICTURE.svg], or example_databoard4002 old_host RUN.csv PICTURE.svg\n");
+    if ((page != "slope" && page != "lock" && page != "old_host") || words.size() > most ||
+        (page == "old_host" && words.size() < most)) {
+        fmt::print(stderr,
+                   "Usage: example_databoard4002 slope|lock [PICTURE.svg], or example_databoard4002 old_host RUN.csv "
+                   "PICTURE.svg\n");
         return 1;
     }
     const auto picture = page == "slope" ? howto::slope() : page == "lock" ? howto::lock() : howto::old_host(words[1]);

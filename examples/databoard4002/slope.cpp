@@ -7,8 +7,9 @@ namespace howto {
 namespace {
 
 void print(const char* name, const SlopeMotion& motion) {
-    fmt::print("{}: {} counts in {:.3f} s; {} accelerating, {} decelerating, at most {:.0f} counts/s, {} legs\n", name, motion.distance,
-               motion.duration_s, motion.accelerating, motion.decelerating, motion.top_speed, motion.legs.size());
+    fmt::print("{}: {} counts in {:.3f} s; {} accelerating, {} decelerating, at most {:.0f} counts/s, {} legs\n", name,
+               motion.distance, motion.duration_s, motion.accelerating, motion.decelerating, motion.top_speed,
+               motion.legs.size());
 }
 
 std::string picture(const SlopeMotion& empty, const SlopeMotion& loaded, const Record& driven) {
@@ -41,7 +42,8 @@ Result<std::string> slope() {
     print("loaded", loaded);
     for (std::size_t i : {0u, 1u, 22u, 23u, 24u, 45u, 46u}) {
         const auto& leg = loaded.legs[i];
-        fmt::print("  leg {:2}  rate {}  {:5.0f} counts/s  from {:6} to {:6}  {:.3f} s\n", i, leg.rate, leg.speed, leg.from, leg.to, leg.duration_s);
+        fmt::print("  leg {:2}  rate {}  {:5.0f} counts/s  from {:6} to {:6}  {:.3f} s\n", i, leg.rate, leg.speed,
+                   leg.from, leg.to, leg.duration_s);
     }
 
     Bench bench(demand.load);  // nothing has moved so far; this is the machine

@@ -1,4 +1,5 @@
-// A virtual IOFLEX02 on a bench: four motors, each with an encoder of 4000 counts and an index a turn, wired to the card.
+// A virtual IOFLEX02 on a bench: four motors, each with an encoder of 4000 counts and an index a turn, wired to the
+// card.
 //
 //   Flex2Pos ──► VirtualPort ──► Bus ──► Card ◄── a b z ── LineEncoder ◄── DcMotor
 #pragma once

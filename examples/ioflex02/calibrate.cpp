@@ -10,7 +10,8 @@ void tell(Flex2Pos& flex, const char* when) {
     const Reading at = flex.read();
     const auto statuses = flex.statuses();
     fmt::print("{:<26}", when);
-    for (std::size_t i = 0; i < 4; ++i) fmt::print("{:>7} {:<8}", at.axes[i].position, statuses[i] == sCal ? "sCal" : "sNotCal");
+    for (std::size_t i = 0; i < 4; ++i)
+        fmt::print("{:>7} {:<8}", at.axes[i].position, statuses[i] == sCal ? "sCal" : "sNotCal");
     fmt::print("\n");
 }
 

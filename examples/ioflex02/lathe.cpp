@@ -24,8 +24,8 @@ motionrack::Result<void> lathe() {
         const double turns_then = spindle.of_counts(flex.ReadPosition0()) / 360;
         bench.run(milliseconds(1));
         const double mm_later = scale.of_counts(flex.ReadPosition1());
-        fmt::print("{:7.4f} turns  {:8.4f} mm  off the thread by {:+.4f} mm; one after the other {:+.4f} mm\n", turns, mm, mm - 1.5 * turns,
-                   mm_later - 1.5 * turns_then);
+        fmt::print("{:7.4f} turns  {:8.4f} mm  off the thread by {:+.4f} mm; one after the other {:+.4f} mm\n", turns,
+                   mm, mm - 1.5 * turns, mm_later - 1.5 * turns_then);
     }
     return {};
 }

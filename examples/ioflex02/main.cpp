@@ -12,8 +12,10 @@ int main(int argc, char** argv) {
         std::string_view name;
         motionrack::Result<void> (*run)();
     };
-    static constexpr std::array<Page, 4> pages = {{
-        {"calibrate", &howto::calibrate}, {"speed", &howto::speed}, {"broken_line", &howto::broken_line}, {"lathe", &howto::lathe}}};
+    static constexpr std::array<Page, 4> pages = {{{"calibrate", &howto::calibrate},
+                                                   {"speed", &howto::speed},
+                                                   {"broken_line", &howto::broken_line},
+                                                   {"lathe", &howto::lathe}}};
     for (const Page& page : pages) {
         if (argc != 2 || page.name != argv[1]) continue;
         if (const auto done = page.run(); !done) return fmt::print(stderr, "{}\n", done.error().text()), 4;

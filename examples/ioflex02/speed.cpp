@@ -7,7 +7,8 @@ namespace howto {
 namespace {
 
 void tell(const char* how, const SpeedEstimate& estimate) {
-    if (estimate.known) fmt::print("  {:<11} {:>14.6f} counts/s, off by at most {:.3g}\n", how, estimate.counts_s, estimate.error);
+    if (estimate.known)
+        fmt::print("  {:<11} {:>14.6f} counts/s, off by at most {:.3g}\n", how, estimate.counts_s, estimate.error);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ Result<void> arc(mcx314::Driver& card) {
     MOTIONRACK_CHECK(card.SetMultiple(axes, 10));
     mcx314::CIRCLEDATA circle;
     circle.SV = 100, circle.V = 500, circle.A = 50;
-    circle.C = {-3000, 0};     // centre and finish as seen from the start
-    circle.P = {-3000, 3000};  // a quarter, counter-clockwise
+    circle.C = {-3000, 0};                             // centre and finish as seen from the start
+    circle.P = {-3000, 3000};                          // a quarter, counter-clockwise
     MOTIONRACK_CHECK(card.CircleCCW_T(circle, axes));  // the library finds where to decelerate
     MOTIONRACK_CHECK(card.wait_until_done(axes, whole_seconds(30)));
     fmt::print("quarter: X {}, Y {}\n", card.ReadLPS(0), card.ReadLPS(1));

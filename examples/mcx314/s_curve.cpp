@@ -9,7 +9,7 @@ Result<void> s_curve(mcx314::Driver& card) {
     data.R = 800'000, data.SV = 100, data.V = 4000, data.K = 1010, data.pulses = 50'000, data.s_curve = true;
     MOTIONRACK_CHECK(card.SetMultiple(axis_x | axis_y, 10));
     for (const unsigned axis : {axis_x, axis_y}) {
-        data.A = axis == axis_x ? 8000 : 80;  // out of reach: a full S; 80: straight in the middle
+        data.A = axis == axis_x ? 8000 : 80;                 // out of reach: a full S; 80: straight in the middle
         MOTIONRACK_TRY(data.AO, mcx314::best_offset(data));  // what the fall takes more than the rise
         MOTIONRACK_TRY(const mcx314::CurvePlan plan, mcx314::plan_drive(data));
         fmt::print("A {}: {} S, {:.4f} s and {} pulses up, at most {:.0f} pulses/s2, AO {}\n", data.A,

@@ -1,7 +1,6 @@
 /* A marking job as it is written for the board: a square of 10 mm at 500 mm/s, on a belt at 100 mm/s. */
-#include <stdio.h>
-
 #include <rtc5sim.h>
+#include <stdio.h>
 
 static const double bits_per_mm = 5184, belt_mm_s = 100;
 

@@ -1,7 +1,6 @@
 /* Runs the job on the virtual card and tells where it marked on the part. */
-#include <stdio.h>
-
 #include <rtc5sim.h>
+#include <stdio.h>
 
 int mark_square(int on_the_fly);
 
@@ -12,8 +11,9 @@ struct Marked {
     long ticks;
 };
 
-static void look(void *user, UINT card, int64_t first, const int32_t *x, const int32_t *y, const uint8_t *laser, size_t n) {
-    struct Marked *marked = user;
+static void look(void* user, UINT card, int64_t first, const int32_t* x, const int32_t* y, const uint8_t* laser,
+                 size_t n) {
+    struct Marked* marked = user;
     size_t i;
     (void)card;
     for (i = 0; i < n; ++i) {
@@ -39,8 +39,9 @@ int main(void) {
             fprintf(stderr, "%s\n", rtc5sim_last_error());
             return 1;
         }
-        printf("fly %s: x %.2f .. %.2f mm, y %.2f .. %.2f mm on the part, laser on for %.2f ms\n", on_the_fly ? "on" : "off",
-               marked.least_x, marked.greatest_x, marked.least_y, marked.greatest_y, (double)marked.ticks / 100);
+        printf("fly %s: x %.2f .. %.2f mm, y %.2f .. %.2f mm on the part, laser on for %.2f ms\n",
+               on_the_fly ? "on" : "off", marked.least_x, marked.greatest_x, marked.least_y, marked.greatest_y,
+               (double)marked.ticks / 100);
     }
     return 0;
 }

@@ -14,10 +14,15 @@ Result<void> ControlLease::take(std::string_view user, std::string_view session,
     const bool comes_back = held() && held_->left && !user.empty() && held_->user == user;
     if (held() && !comes_back) {
         if (!machine_stands)
-            return fail(Trouble::refused, fmt::format("Control was not taken: {} has it and the machine does not stand still. Stop the machine, or wait "
-                                                      "until it stands.", name()));
+            return fail(
+                Trouble::refused,
+                fmt::format(
+                    "Control was not taken: {} has it and the machine does not stand still. Stop the machine, or wait "
+                    "until it stands.",
+                    name()));
         if (!force)
-            return fail(Trouble::refused, fmt::format("Control was not taken: {} has it. Ask for it, or take it over, which works while the machine stands still.",
+            return fail(Trouble::refused, fmt::format("Control was not taken: {} has it. Ask for it, or take it over, "
+                                                      "which works while the machine stands still.",
                                                       name()));
     }
     const Moment now = clock_();
@@ -34,7 +39,8 @@ Result<void> ControlLease::release(std::string_view session) {
 
 Result<void> ControlLease::holds(std::string_view session) const {
     if (!held()) return fail(Trouble::refused, "Nobody has control. Take control first.");
-    if (held_->session != session) return fail(Trouble::refused, fmt::format("Control is with {}. Take control first.", name()));
+    if (held_->session != session)
+        return fail(Trouble::refused, fmt::format("Control is with {}. Take control first.", name()));
     return {};
 }
 

@@ -4,7 +4,8 @@
 //                     │ another's take with force, while the machine stands still
 //                     └► held by the other
 //
-// Any thread; every call takes a short lock. A session is a connection or a token: two pages of one user are two sessions.
+// Any thread; every call takes a short lock. A session is a connection or a token: two pages of one user are two
+// sessions.
 #pragma once
 
 #include <chrono>
@@ -29,11 +30,12 @@ class ControlLease {
         double since = 0;  ///< s since the lease was made
     };
 
-    explicit ControlLease(std::function<Moment()> clock = std::chrono::steady_clock::now) : clock_(std::move(clock)), made_(clock_()) {}
+    explicit ControlLease(std::function<Moment()> clock = std::chrono::steady_clock::now)
+        : clock_(std::move(clock)), made_(clock_()) {}
 
-    /// Gives control to `session`; one that holds it already keeps it. Refused, with the holder's name: another holds it, and `force` is
-    /// not set or the machine does not stand still. A user whose connection has ended gets it back without force, even while the
-    /// machine moves.
+    /// Gives control to `session`; one that holds it already keeps it. Refused, with the holder's name: another holds
+    /// it, and `force` is not set or the machine does not stand still. A user whose connection has ended gets it back
+    /// without force, even while the machine moves.
     Result<void> take(std::string_view user, std::string_view session, bool force, bool machine_stands);
     /// Refused: the session does not hold it.
     Result<void> release(std::string_view session);

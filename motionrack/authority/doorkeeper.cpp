@@ -10,12 +10,14 @@ namespace motionrack::authority {
 
 namespace {
 
-tl::unexpected<Denied> deny(Denied::Why why, std::string sentence) { return tl::unexpected<Denied>(Denied{why, std::move(sentence)}); }
+tl::unexpected<Denied> deny(Denied::Why why, std::string sentence) {
+    return tl::unexpected<Denied>(Denied{why, std::move(sentence)});
+}
 
 bool may_be_in_a_name(char c) {
     const auto byte = static_cast<unsigned char>(c);
-    return byte >= 0x80 || (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') || c == '.' || c == '-' ||
-           c == '_' || c == ' ';
+    return byte >= 0x80 || (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+           (byte >= 'a' && byte <= 'z') || c == '.' || c == '-' || c == '_' || c == ' ';
 }
 
 }  // namespace
@@ -23,7 +25,8 @@ bool may_be_in_a_name(char c) {
 std::string name_problem(std::string_view name) {
     if (name.empty() || name.size() > 40) return fmt::format("A name has 1 to 40 bytes, this one has {}.", name.size());
     if (name.front() == ' ' || name.back() == ' ') return "A name has no blanks around it.";
-    if (!std::all_of(name.begin(), name.end(), may_be_in_a_name)) return "A name is made of letters, digits, dots, dashes, underscores and blanks.";
+    if (!std::all_of(name.begin(), name.end(), may_be_in_a_name))
+        return "A name is made of letters, digits, dots, dashes, underscores and blanks.";
     return "";
 }
 
@@ -52,13 +55,15 @@ Admitted<Doorkeeper::Paired> Doorkeeper::admit(std::string_view name, Role role,
     if (tokens_.size() >= settings_.most_tokens) {
         const std::size_t there = tokens_.size();
         tokens_ = std::move(before);
-        return deny(Denied::Why::failed, fmt::format("Not paired: {} devices are paired, which is the most. Unpair somebody first.", there));
+        return deny(Denied::Why::failed,
+                    fmt::format("Not paired: {} devices are paired, which is the most. Unpair somebody first.", there));
     }
     Paired paired;
     paired.token = random_token();
     Token token;
     token.hash = hash_of(paired.token);
-    const auto whole = std::chrono::time_point_cast<std::chrono::seconds>(now + settings_.token_life);  // as the file has it
+    const auto whole =
+        std::chrono::time_point_cast<std::chrono::seconds>(now + settings_.token_life);  // as the file has it
     token.identity = {token.hash.substr(0, 16), std::string(name), role, whole};
     paired.identity = token.identity;
     tokens_.push_back(std::move(token));
@@ -69,11 +74,14 @@ Admitted<Doorkeeper::Paired> Doorkeeper::admit(std::string_view name, Role role,
     return paired;
 }
 
-Admitted<Doorkeeper::Paired> Doorkeeper::pair(std::string_view code, std::string_view name, std::string_view address, Now now) {
+Admitted<Doorkeeper::Paired> Doorkeeper::pair(std::string_view code, std::string_view name, std::string_view address,
+                                              Now now) {
     const std::lock_guard<std::mutex> alone(lock_);
     if (!wrong_.there_is(address, now.steady) || !all_wrong_.there_is("all", now.steady))
-        return deny(Denied::Why::too_many, "Too many wrong codes came in. Nothing was tried; wait some seconds and try again.");
-    if (const std::string problem = name_problem(name); !problem.empty()) return deny(Denied::Why::wrong, "Not paired: " + problem);
+        return deny(Denied::Why::too_many,
+                    "Too many wrong codes came in. Nothing was tried; wait some seconds and try again.");
+    if (const std::string problem = name_problem(name); !problem.empty())
+        return deny(Denied::Why::wrong, "Not paired: " + problem);
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     const std::string plain = plain_code(code), hash = hash_of(plain);
     if (!start_code_.empty() && same_secret(hash, hash_of(plain_code(start_code_)))) {
@@ -84,14 +92,19 @@ Admitted<Doorkeeper::Paired> Doorkeeper::pair(std::string_view code, std::string
         }
         return paired;
     }
-    const auto invitation = std::find_if(invitations_.begin(), invitations_.end(), [&](const Invitation& one) { return same_secret(one.hash, hash); });
+    const auto invitation = std::find_if(invitations_.begin(), invitations_.end(),
+                                         [&](const Invitation& one) { return same_secret(one.hash, hash); });
     if (invitation == invitations_.end()) {
         wrong_.take(address, now.steady);
         all_wrong_.take("all", now.steady);
-        return deny(Denied::Why::wrong, "Not paired: this code is not open. It was mistyped, used already, or its time is over; ask for another.");
+        return deny(
+            Denied::Why::wrong,
+            "Not paired: this code is not open. It was mistyped, used already, or its time is over; ask for another.");
     }
     if (has(name))
-        return deny(Denied::Why::wrong, fmt::format("Not paired: {} is paired already. Choose another name, or have {} unpaired first.", name, name));
+        return deny(Denied::Why::wrong,
+                    fmt::format("Not paired: {} is paired already. Choose another name, or have {} unpaired first.",
+                                name, name));
     Admitted<Paired> paired = admit(name, invitation->role, now.wall);
     if (paired) invitations_.erase(invitation);
     return paired;
@@ -99,10 +112,14 @@ Admitted<Doorkeeper::Paired> Doorkeeper::pair(std::string_view code, std::string
 
 Result<std::string> Doorkeeper::invite(Role role, Now now) {
     const std::lock_guard<std::mutex> alone(lock_);
-    if (role == Role::nobody) return fail(Trouble::bad_input, "Nobody was invited: the roles are observe, operate and maintain.");
+    if (role == Role::nobody)
+        return fail(Trouble::bad_input, "Nobody was invited: the roles are observe, operate and maintain.");
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     if (invitations_.size() >= settings_.most_invitations)
-        return fail(Trouble::refused, fmt::format("Nobody was invited: {} codes are open, which is the most. Wait until some are used or over.", invitations_.size()));
+        return fail(
+            Trouble::refused,
+            fmt::format("Nobody was invited: {} codes are open, which is the most. Wait until some are used or over.",
+                        invitations_.size()));
     const std::string code = random_code();
     invitations_.push_back({hash_of(plain_code(code)), role, now.steady + settings_.invitation_life});
     return code;
@@ -123,10 +140,13 @@ Admitted<Identity> Doorkeeper::who(std::string_view token, WallTime now) const {
     const std::lock_guard<std::mutex> alone(lock_);
     for (const Token& one : tokens_) {
         if (!same_secret(one.hash, hash)) continue;
-        if (one.identity.expires <= now) return deny(Denied::Why::wrong, "The token has expired. Pair again with a new code.");
+        if (one.identity.expires <= now)
+            return deny(Denied::Why::wrong, "The token has expired. Pair again with a new code.");
         return one.identity;
     }
-    return deny(Denied::Why::wrong, "The token is not known here: it was revoked, or belongs to another machine. Pair again with a new code.");
+    return deny(
+        Denied::Why::wrong,
+        "The token is not known here: it was revoked, or belongs to another machine. Pair again with a new code.");
 }
 
 Role Doorkeeper::role_of(std::string_view id, WallTime now) const {

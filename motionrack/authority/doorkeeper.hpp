@@ -36,8 +36,8 @@ struct DoorkeeperSettings {
     std::chrono::minutes invitation_life{10};
     std::chrono::hours token_life{90 * 24};
     std::size_t most_tokens = 500, most_invitations = 50;
-    double wrong_at_once = 5, wrong_per_second = 0.1;            ///< wrong codes of one address
-    double all_wrong_at_once = 60, all_wrong_per_second = 1;     ///< and of all together
+    double wrong_at_once = 5, wrong_per_second = 0.1;         ///< wrong codes of one address
+    double all_wrong_at_once = 60, all_wrong_per_second = 1;  ///< and of all together
     /// Gets the code that lets the first person in, at once and each time that it was used; empty: there is none.
     std::function<void(const std::string&)> on_start_code = {};
 };
@@ -52,7 +52,11 @@ struct Identity {
 
 /// Why somebody was not let in.
 struct Denied {
-    enum class Why : std::uint8_t { wrong, too_many, failed } why = Why::wrong;  ///< failed: the users file could not be written
+    enum class Why : std::uint8_t {
+        wrong,
+        too_many,
+        failed
+    } why = Why::wrong;  ///< failed: the users file could not be written
     std::string sentence;
 };
 template <class T>
@@ -67,8 +71,8 @@ class Doorkeeper {
         std::string token;  ///< told this once
         Identity identity;
     };
-    /// A code is good for one token. `address` is where the caller comes from: wrong codes are limited for each and for all.
-    /// With an invitation only names that are not there yet can be paired.
+    /// A code is good for one token. `address` is where the caller comes from: wrong codes are limited for each and for
+    /// all. With an invitation only names that are not there yet can be paired.
     Admitted<Paired> pair(std::string_view code, std::string_view name, std::string_view address, Now now);
     /// A code that gives this role once, for ten minutes. Refused: too many are open, role nobody.
     Result<std::string> invite(Role role, Now now);
@@ -106,7 +110,8 @@ class Doorkeeper {
     RateLimit wrong_, all_wrong_;
 };
 
-/// What is wrong with a user's name; empty: nothing. 1 .. 40 letters, digits, dots, dashes, underscores and blanks inside.
+/// What is wrong with a user's name; empty: nothing. 1 .. 40 letters, digits, dots, dashes, underscores and blanks
+/// inside.
 std::string name_problem(std::string_view name);
 
 }  // namespace motionrack::authority

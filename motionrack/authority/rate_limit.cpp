@@ -25,7 +25,9 @@ RateLimit::Bucket& RateLimit::bucket(std::string_view key, Time now) {
     return found->second;
 }
 
-bool RateLimit::there_is(std::string_view key, Time now) { return bucket(key, now).left >= 1; }
+bool RateLimit::there_is(std::string_view key, Time now) {
+    return bucket(key, now).left >= 1;
+}
 
 bool RateLimit::take(std::string_view key, Time now) {
     Bucket& one = bucket(key, now);

@@ -9,8 +9,8 @@
 
 namespace motionrack::authority {
 
-/// A bucket of tries a key, which fills again with time. Keeps at most `most_keys`: full buckets are forgotten, and while there are none,
-/// keys that are not known share one bucket.
+/// A bucket of tries a key, which fills again with time. Keeps at most `most_keys`: full buckets are forgotten, and
+/// while there are none, keys that are not known share one bucket.
 class RateLimit {
   public:
     using Time = std::chrono::steady_clock::time_point;

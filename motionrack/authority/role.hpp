@@ -16,7 +16,9 @@ enum class Role : std::uint8_t {
 };
 
 inline constexpr std::array<std::string_view, 4> role_names = {"nobody", "observe", "operate", "maintain"};
-constexpr std::string_view name_of(Role role) { return role_names[static_cast<std::size_t>(role)]; }
+constexpr std::string_view name_of(Role role) {
+    return role_names[static_cast<std::size_t>(role)];
+}
 constexpr std::optional<Role> role_named(std::string_view name) {
     for (std::size_t i = 0; i < role_names.size(); ++i)
         if (role_names[i] == name) return static_cast<Role>(i);

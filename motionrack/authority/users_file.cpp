@@ -15,7 +15,9 @@ namespace motionrack::authority {
 
 namespace {
 
-std::int64_t seconds_of(WallTime time) { return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count(); }
+std::int64_t seconds_of(WallTime time) {
+    return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
+}
 
 bool is_hash(const std::string& text) {
     return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -42,31 +44,49 @@ Result<void> Doorkeeper::read() {
     if (path.empty()) return {};
     if (::stat(path.c_str(), &about) != 0) {
         if (errno == ENOENT) return {};
-        return fail(Trouble::io, fmt::format("The users file cannot be looked at: {}. Nothing was started; name another file, or put right what is in the way.", std::strerror(errno)), {}, path);
+        return fail(Trouble::io,
+                    fmt::format("The users file cannot be looked at: {}. Nothing was started; name another file, or "
+                                "put right what is in the way.",
+                                std::strerror(errno)),
+                    {}, path);
     }
     if (!S_ISREG(about.st_mode)) return fail(Trouble::bad_input, "This is no file: users are kept in one.", {}, path);
     if ((about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-        return fail(Trouble::bad_input, fmt::format("Others may write the users file (mode {:o}); whoever can, can let himself in. Nothing was started; "
-                                                    "look who is in it, then chmod 600 it.", about.st_mode & 0777), {}, path);
+        return fail(
+            Trouble::bad_input,
+            fmt::format(
+                "Others may write the users file (mode {:o}); whoever can, can let himself in. Nothing was started; "
+                "look who is in it, then chmod 600 it.",
+                about.st_mode & 0777),
+            {}, path);
     std::ifstream in(path, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(in)), {});
     if (!in) return fail(Trouble::io, "The users file could not be read. Nothing was started.", {}, path);
     const auto damaged = [&](const std::string& why) {
-        return fail(Trouble::bad_input, fmt::format("The users file is damaged: {}. Nothing was started; put it right, or take it away and pair everybody again.", why), {}, path);
+        return fail(Trouble::bad_input,
+                    fmt::format("The users file is damaged: {}. Nothing was started; put it right, or take it away and "
+                                "pair everybody again.",
+                                why),
+                    {}, path);
     };
     const nlohmann::json file = nlohmann::json::parse(text, nullptr, false);
-    if (!file.is_object() || !file.contains("users") || !file["users"].is_array()) return damaged("it has no list of users");
+    if (!file.is_object() || !file.contains("users") || !file["users"].is_array())
+        return damaged("it has no list of users");
     for (const nlohmann::json& one : file["users"]) {
         if (!one.is_object()) return damaged("a user is no object");
-        const auto text_of = [&](const char* key) { return one.contains(key) && one[key].is_string() ? one[key].get<std::string>() : std::string(); };
+        const auto text_of = [&](const char* key) {
+            return one.contains(key) && one[key].is_string() ? one[key].get<std::string>() : std::string();
+        };
         const std::string name = text_of("name"), hash = text_of("token_sha256");
         const std::optional<Role> role = role_named(text_of("role"));
         if (const std::string problem = name_problem(name); !problem.empty()) return damaged("a user's name is wrong");
         if (!role || *role == Role::nobody) return damaged(fmt::format("{} has no role", name));
         if (!is_hash(hash)) return damaged(fmt::format("{} has no token_sha256", name));
-        if (!one.contains("expires") || !one["expires"].is_number_integer()) return damaged(fmt::format("{} has no expires", name));
+        if (!one.contains("expires") || !one["expires"].is_number_integer())
+            return damaged(fmt::format("{} has no expires", name));
         const std::int64_t expires = one["expires"].get<std::int64_t>();
-        if (expires < 0 || expires > 9'000'000'000) return damaged(fmt::format("{} has an expires of {}", name, expires));
+        if (expires < 0 || expires > 9'000'000'000)
+            return damaged(fmt::format("{} has an expires of {}", name, expires));
         tokens_.push_back({{hash.substr(0, 16), name, *role, WallTime(std::chrono::seconds(expires))}, hash});
     }
     return {};
@@ -76,11 +96,18 @@ Result<void> Doorkeeper::write() const {
     if (settings_.users_file.empty()) return {};
     nlohmann::json users = nlohmann::json::array();
     for (const Token& one : tokens_)
-        users.push_back({{"name", one.identity.user}, {"role", name_of(one.identity.role)}, {"token_sha256", one.hash}, {"expires", seconds_of(one.identity.expires)}});
-    const std::string text = nlohmann::json{{"users", users}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+        users.push_back({{"name", one.identity.user},
+                         {"role", name_of(one.identity.role)},
+                         {"token_sha256", one.hash},
+                         {"expires", seconds_of(one.identity.expires)}});
+    const std::string text =
+        nlohmann::json{{"users", users}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     const std::string path = settings_.users_file.string(), beside = path + ".new";
     const auto failed = [&](const char* what) {
-        return fail(Trouble::io, fmt::format("the users file {} could not be {}: {}. It is as it was.", path, what, std::strerror(errno)), {}, path);
+        return fail(
+            Trouble::io,
+            fmt::format("the users file {} could not be {}: {}. It is as it was.", path, what, std::strerror(errno)),
+            {}, path);
     };
     ::unlink(beside.c_str());
     const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -91,7 +118,8 @@ Result<void> Doorkeeper::write() const {
         return error;
     }
     if (::rename(beside.c_str(), path.c_str()) != 0) return failed("replaced");
-    const std::string folder = settings_.users_file.parent_path().empty() ? "." : settings_.users_file.parent_path().string();
+    const std::string folder =
+        settings_.users_file.parent_path().empty() ? "." : settings_.users_file.parent_path().string();
     if (const int place = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); place >= 0) {
         ::fsync(place);
         ::close(place);

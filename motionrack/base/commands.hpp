@@ -30,7 +30,8 @@ constexpr Flaw commands_flaw(std::span<const CommandInfo> commands) {
             if (commands[j].code == command.code)
                 return {"the commands ", commands[j].name, " and ", command.name, " have one code"};
         const bool table = command.data_bytes > 4;
-        if (command.data_bytes < 0 || command.data_bytes > 1024 || command.answer_bytes < 0 || command.answer_bytes > 1024)
+        if (command.data_bytes < 0 || command.data_bytes > 1024 || command.answer_bytes < 0 ||
+            command.answer_bytes > 1024)
             return {"the command ", command.name, " does not have 0 to 1024 bytes of data or answer"};
         if (table && (command.least != 0 || command.greatest != 0))
             return {"the command ", command.name, " has a table of data, which has no range"};

@@ -120,8 +120,7 @@ std::string json(const CommandInfo& command) {
         R"(  {{"name": {}, "code": {}, "data_bytes": {}, "least": {}, "greatest": {}, "unit": {}, "variant": {}, )"
         R"("reproduced": {}, "answer_bytes": {}, "meaning": {}}})",
         quoted(command.name), command.code, command.data_bytes, command.least, command.greatest, quoted(command.unit),
-        quoted(command.variant), command.reproduced, command.answer_bytes,
-        quoted(command.meaning));
+        quoted(command.variant), command.reproduced, command.answer_bytes, quoted(command.meaning));
 }
 
 std::string json(const StateInfo& state) {
@@ -190,8 +189,8 @@ std::string describe_markdown(const CardMap& map) {
     for (const RegisterInfo& reg : map.registers) add_markdown(out, reg);
     out += "\n## Commands\n\n| code | name | data | range | unit | meaning |\n|---|---|---|---|---|---|\n";
     for (const CommandInfo& command : map.commands)
-        out += fmt::format("| {:02X}h | {} | {} | {} | {} | {} |\n", command.code, command.name,
-                           data_text(command), range_text(command), cell(command.unit), cell(remarked(command)));
+        out += fmt::format("| {:02X}h | {} | {} | {} | {} | {} |\n", command.code, command.name, data_text(command),
+                           range_text(command), cell(command.unit), cell(remarked(command)));
     for (const MachineInfo& machine : map.machines) add_markdown(out, machine);
     out +=
         "\n## Pins\n\n`*` stands for the axis letter.\n\n| pin | direction | active | meaning |\n|---|---|---|---|\n";

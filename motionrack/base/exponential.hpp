@@ -1,7 +1,7 @@
 // Exponential and natural logarithm whose bits do not depend on the CPU, the compiler or the C library.
 //
-// They use only + - * / and exact scaling by powers of two. The errors named are those that base/test/exponential_test.cpp
-// measures against long double.
+// They use only + - * / and exact scaling by powers of two. The errors named are those that
+// base/test/exponential_test.cpp measures against long double.
 #pragma once
 
 namespace motionrack {
@@ -9,8 +9,8 @@ namespace motionrack {
 /// e to the power x, within 1 ulp for -700 <= x <= 700; 0 below, infinity above; NaN gives NaN.
 double exponential(double x);
 
-/// The natural logarithm of x > 0 (normal numbers), within 1.5 ulp outside 0.7 .. 1.4 and 2e-16 absolute inside; -infinity for
-/// 0, NaN below and for NaN.
+/// The natural logarithm of x > 0 (normal numbers), within 1.5 ulp outside 0.7 .. 1.4 and 2e-16 absolute inside;
+/// -infinity for 0, NaN below and for NaN.
 double natural_log(double x);
 
 }  // namespace motionrack

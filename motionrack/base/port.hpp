@@ -7,8 +7,8 @@
 
 namespace motionrack {
 
-/// A 16-bit register bus. Offsets are byte offsets as in the card's map; one access a statement, because a read may have
-/// effects and the order of arguments is not the same on every compiler.
+/// A 16-bit register bus. Offsets are byte offsets as in the card's map; one access a statement, because a read may
+/// have effects and the order of arguments is not the same on every compiler.
 class RegisterPort {
   public:
     virtual ~RegisterPort() = default;
@@ -29,7 +29,8 @@ class BytePort {
 class Interrupt {
   public:
     virtual ~Interrupt() = default;
-    /// Waits until the line is active or `timeout` has passed (`never`: however long it takes); true if the line is active.
+    /// Waits until the line is active or `timeout` has passed (`never`: however long it takes); true if the line is
+    /// active.
     virtual bool wait(Duration timeout) = 0;
     /// Lets `duration` pass, whatever the line does.
     virtual void pass(Duration duration) = 0;

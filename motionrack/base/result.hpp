@@ -64,15 +64,15 @@ inline tl::unexpected<Error> fail(Trouble trouble, std::string message, Place pl
 #define MOTIONRACK_JOIN(a, b) MOTIONRACK_JOIN2(a, b)
 
 /// `MOTIONRACK_TRY(auto x, f());` declares x from a Result or returns its error.
-#define MOTIONRACK_TRY(declaration, expression)                                                       \
-    auto MOTIONRACK_JOIN(result_, __LINE__) = (expression);                                           \
-    if (!MOTIONRACK_JOIN(result_, __LINE__))                                                          \
+#define MOTIONRACK_TRY(declaration, expression)                                                              \
+    auto MOTIONRACK_JOIN(result_, __LINE__) = (expression);                                                  \
+    if (!MOTIONRACK_JOIN(result_, __LINE__))                                                                 \
         return ::tl::unexpected<::motionrack::Error>(std::move(MOTIONRACK_JOIN(result_, __LINE__)).error()); \
     declaration = std::move(*MOTIONRACK_JOIN(result_, __LINE__))
 
 /// `MOTIONRACK_CHECK(f());` returns the error of a Result<void> if there is one.
-#define MOTIONRACK_CHECK(expression)                                                                      \
-    do {                                                                                                  \
-        if (auto checked_result = (expression); !checked_result)                                          \
-            return ::tl::unexpected<::motionrack::Error>(std::move(checked_result).error());              \
+#define MOTIONRACK_CHECK(expression)                                                         \
+    do {                                                                                     \
+        if (auto checked_result = (expression); !checked_result)                             \
+            return ::tl::unexpected<::motionrack::Error>(std::move(checked_result).error()); \
     } while (false)

@@ -16,16 +16,28 @@ using Instant = Duration;
 /// Later than everything; "never" as an answer to "when does the next thing happen?".
 inline constexpr Instant never{std::numeric_limits<std::int64_t>::max()};
 
-constexpr Duration nanoseconds(std::int64_t n) { return Duration{n * 10}; }
-constexpr Duration microseconds(std::int64_t n) { return Duration{n * 10'000}; }
-constexpr Duration milliseconds(std::int64_t n) { return Duration{n * 10'000'000}; }
-constexpr Duration whole_seconds(std::int64_t n) { return Duration{n * 10'000'000'000}; }
+constexpr Duration nanoseconds(std::int64_t n) {
+    return Duration{n * 10};
+}
+constexpr Duration microseconds(std::int64_t n) {
+    return Duration{n * 10'000};
+}
+constexpr Duration milliseconds(std::int64_t n) {
+    return Duration{n * 10'000'000};
+}
+constexpr Duration whole_seconds(std::int64_t n) {
+    return Duration{n * 10'000'000'000};
+}
 
 /// `by` (>= 0) after `from` (>= 0), at most `never`: the end of a wait that may be endless.
-constexpr Instant later(Instant from, Duration by) { return by > never - from ? never : from + by; }
+constexpr Instant later(Instant from, Duration by) {
+    return by > never - from ? never : from + by;
+}
 
 /// Seconds as a double, for people and pictures; never used to order events.
-constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-10; }
+constexpr double to_seconds(Duration d) {
+    return static_cast<double>(d.count()) * 1e-10;
+}
 
 /// The nearest tick to `seconds` (range +-9.2e8 s).
 constexpr Duration from_seconds(double seconds) {

@@ -1,8 +1,7 @@
 // The loop of a part program.
-#include <motionrack/control/controller.hpp>
-
 #include <fmt/format.h>
 
+#include <motionrack/control/controller.hpp>
 #include <motionrack/control/planner_for.hpp>
 #include <motionrack/control/probing.hpp>
 
@@ -14,11 +13,16 @@ std::string override_words(const gcode::Step& step) {
     const bool on = step.value != 0;
     switch (step.port) {
         case 48:
-        case 49: return fmt::format("overrides {} (M{})", on ? "on" : "off: feeds and rapids as programmed", step.port);
-        case 50: return fmt::format("feed override {} (M50)", on ? "on" : "off: feeds and rapids as programmed");
-        case 51: return fmt::format("spindle override {} (M51)", on ? "on" : "off");
-        case 52: return "adaptive feed off (M52)";
-        default: return fmt::format("feed stop switch {} (M53)", on ? "on" : "off");
+        case 49:
+            return fmt::format("overrides {} (M{})", on ? "on" : "off: feeds and rapids as programmed", step.port);
+        case 50:
+            return fmt::format("feed override {} (M50)", on ? "on" : "off: feeds and rapids as programmed");
+        case 51:
+            return fmt::format("spindle override {} (M51)", on ? "on" : "off");
+        case 52:
+            return "adaptive feed off (M52)";
+        default:
+            return fmt::format("feed stop switch {} (M53)", on ? "on" : "off");
     }
 }
 
@@ -29,40 +33,56 @@ int output_code(const gcode::Step& step) {
 
 std::string input_words(const gcode::Step& step) {
     const char* kind = step.analog ? "analog" : "digital";
-    if (step.value < 0) return fmt::format("{} input {} (M66): waited in vain, nothing is connected to it; #5399 is -1", kind, step.port);
+    if (step.value < 0)
+        return fmt::format("{} input {} (M66): waited in vain, nothing is connected to it; #5399 is -1", kind,
+                           step.port);
     return fmt::format("{} input {} (M66): {:g}, nothing is connected to it", kind, step.port, step.value);
 }
 
 std::string words_of(const gcode::Step& step) {
     using gcode::StepKind;
     switch (step.kind) {
-        case StepKind::comment: return fmt::format("comment: {}", step.text);
-        case StepKind::message: return fmt::format("message: {}", step.text);
-        case StepKind::spindle_speed: return fmt::format("spindle speed {} rpm", step.speed_rpm);
+        case StepKind::comment:
+            return fmt::format("comment: {}", step.text);
+        case StepKind::message:
+            return fmt::format("message: {}", step.text);
+        case StepKind::spindle_speed:
+            return fmt::format("spindle speed {} rpm", step.speed_rpm);
         case StepKind::spindle:
             if (step.spindle == gcode::Spindle::off) return "spindle off";
-            return fmt::format("spindle {} at {} rpm", step.spindle == gcode::Spindle::clockwise ? "clockwise" : "counter-clockwise",
+            return fmt::format("spindle {} at {} rpm",
+                               step.spindle == gcode::Spindle::clockwise ? "clockwise" : "counter-clockwise",
                                step.speed_rpm);
-        case StepKind::coolant: return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
-        case StepKind::tool_select: return fmt::format("tool {} selected", step.tool);
-        case StepKind::tool_number: return fmt::format("tool {} is in the spindle", step.tool);
-        case StepKind::tool_change: return fmt::format("tool {} changed in", step.tool);
-        case StepKind::overrides: return override_words(step);
-        case StepKind::output: return fmt::format("{} output {} to {:g} (M{})", step.analog ? "analog" : "digital", step.port, step.value, output_code(step));
-        case StepKind::input: return input_words(step);
-        case StepKind::pause: return "pause (M0): nobody waits in simulated time, the program goes on";
-        case StepKind::optional_pause: return "optional pause (M1): not asked for, the program goes on";
-        case StepKind::end: return "end of program";
-        case StepKind::move: break;
+        case StepKind::coolant:
+            return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
+        case StepKind::tool_select:
+            return fmt::format("tool {} selected", step.tool);
+        case StepKind::tool_number:
+            return fmt::format("tool {} is in the spindle", step.tool);
+        case StepKind::tool_change:
+            return fmt::format("tool {} changed in", step.tool);
+        case StepKind::overrides:
+            return override_words(step);
+        case StepKind::output:
+            return fmt::format("{} output {} to {:g} (M{})", step.analog ? "analog" : "digital", step.port, step.value,
+                               output_code(step));
+        case StepKind::input:
+            return input_words(step);
+        case StepKind::pause:
+            return "pause (M0): nobody waits in simulated time, the program goes on";
+        case StepKind::optional_pause:
+            return "optional pause (M1): not asked for, the program goes on";
+        case StepKind::end:
+            return "end of program";
+        case StepKind::move:
+            break;
     }
     return {};
 }
 
 }  // namespace
 
-Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
-    : axes_(axes),
-      settings_(settings) {
+Controller::Controller(PathAxes& axes, const ControllerSettings& settings) : axes_(axes), settings_(settings) {
     plan_from(settings.gcode.start);
 }
 
@@ -70,7 +90,8 @@ void Controller::plan_from(const Point& start) {
     if (settings_.jerk_limited)
         planner_ = std::make_unique<RideMoves>(ride_for(axes_, settings_.gcode.limits, settings_.kept_back, {}, start));
     else
-        planner_ = std::make_unique<Planner>(planner_for(axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, start));
+        planner_ = std::make_unique<Planner>(
+            planner_for(axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, start));
 }
 
 Result<void> Controller::hand_over() {
@@ -131,7 +152,8 @@ Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, P
     planner_->flush();
     MOTIONRACK_CHECK(hand_over());
     MOTIONRACK_CHECK(axes_.finish());
-    MOTIONRACK_TRY(const PlannedMove planned, plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, step.move));
+    MOTIONRACK_TRY(const PlannedMove planned,
+                   plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, step.move));
     tell(planned);
     MOTIONRACK_TRY(const ProbeOutcome outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
     const Point stands = axes_.commanded_position();
@@ -141,7 +163,8 @@ Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, P
     const std::string what = probe_text(step.probe, outcome);
     note({step.line, blocks_ - 1, what}, run);
     if (outcome.hit || !gcode::probe_must(step.probe)) return {};
-    return fail(Trouble::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what), {step.line, 1});
+    return fail(Trouble::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what),
+                {step.line, 1});
 }
 
 Result<void> Controller::run(std::string_view text, const std::string& file, ProgramRun& run) {

@@ -1,8 +1,10 @@
-// Runs a part program: the reader's moves go through look-ahead to the axes, in constant memory, whatever the program's length.
+// Runs a part program: the reader's moves go through look-ahead to the axes, in constant memory, whatever the program's
+// length.
 //
 //   text --Reader--> Move --Planner--> PlannedMove --PathAxes--> card
 //
-// Callers check the whole text before anything moves (check_program), unless they stream; run then reads it a second time.
+// Callers check the whole text before anything moves (check_program), unless they stream; run then reads it a second
+// time.
 #pragma once
 
 #include <atomic>
@@ -33,19 +35,20 @@ struct ProgramProbe {
 };
 
 struct ControllerSettings {
-    gcode::Settings gcode;          ///< limits, start position, offsets
+    gcode::Settings gcode;  ///< limits, start position, offsets
     PlannerSettings planner;
-    bool jerk_limited = false;      ///< not trapezoids, but within each axis' jerk
-    const std::atomic<bool>* stop = nullptr;  ///< somebody wishes to stop: with limited jerk the ride slows down, else the axes on their own
-    double kept_back = 0;           ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
-    std::size_t event_limit = 2000; ///< events kept; later ones are counted only
+    bool jerk_limited = false;  ///< not trapezoids, but within each axis' jerk
+    const std::atomic<bool>* stop =
+        nullptr;  ///< somebody wishes to stop: with limited jerk the ride slows down, else the axes on their own
+    double kept_back = 0;            ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    std::size_t event_limit = 2000;  ///< events kept; later ones are counted only
 };
 
 /// What came of a program.
 struct ProgramRun {
     PlanSummary plan;
-    std::int64_t lines = 0;            ///< lines read
-    std::int64_t moves = 0;            ///< read, without dwells
+    std::int64_t lines = 0;  ///< lines read
+    std::int64_t moves = 0;  ///< read, without dwells
     std::vector<ProgramEvent> events;
     std::int64_t events_left_out = 0;
     std::vector<ProgramProbe> probes;  ///< as many as events are kept
@@ -57,10 +60,13 @@ class Controller {
     Controller(PathAxes& axes, const ControllerSettings& settings);
 
     /// Called with each planned move just before the axes get it (block numbers from 0).
-    void on_block(std::function<void(std::int64_t block, const PlannedMove& move)> call) { on_block_ = std::move(call); }
+    void on_block(std::function<void(std::int64_t block, const PlannedMove& move)> call) {
+        on_block_ = std::move(call);
+    }
 
-    /// Drives a program that check_program found nothing wrong with. Errors: bad_input (with place) if the reader finds a problem all the
-    /// same: the axes then finish what was read before and stand; machine and stopped as PathAxes says. `run` is filled as far as it went.
+    /// Drives a program that check_program found nothing wrong with. Errors: bad_input (with place) if the reader finds
+    /// a problem all the same: the axes then finish what was read before and stand; machine and stopped as PathAxes
+    /// says. `run` is filled as far as it went.
     Result<void> run(std::string_view text, const std::string& file, ProgramRun& run);
 
   private:

@@ -19,43 +19,43 @@ enum class HomeType : std::uint8_t {
 
 struct HomeOrder {
     HomeType type = HomeType::twice_to_switch;
-    bool towards_plus = false;       ///< direction of the search
-    double speed = 0;                ///< of the search, > 0, at most the axis' greatest
-    double slow_speed = 0;           ///< of the second approach and of the way to the index, > 0, at most the start speed
-    double position = 0;             ///< what the home place is called
-    double clearance = 0.1;          ///< mm or degrees driven on after the switch is released, >= 0
-    double settle_s = 0.005;         ///< how long contacts must be at rest, 0 .. 10 s
-    double travel = 0;               ///< longest search, mm or degrees; 0: a fifth more than the axis' travel
-    bool turn_at_limit = true;       ///< at a limit switch, search the other way
-    int switch_input = 0;            ///< the card's input of the home switch
+    bool towards_plus = false;  ///< direction of the search
+    double speed = 0;           ///< of the search, > 0, at most the axis' greatest
+    double slow_speed = 0;      ///< of the second approach and of the way to the index, > 0, at most the start speed
+    double position = 0;        ///< what the home place is called
+    double clearance = 0.1;     ///< mm or degrees driven on after the switch is released, >= 0
+    double settle_s = 0.005;    ///< how long contacts must be at rest, 0 .. 10 s
+    double travel = 0;          ///< longest search, mm or degrees; 0: a fifth more than the axis' travel
+    bool turn_at_limit = true;  ///< at a limit switch, search the other way
+    int switch_input = 0;       ///< the card's input of the home switch
     bool switch_active_high = false;
-    int index_input = 2;             ///< the card's input of the encoder's index
+    int index_input = 2;  ///< the card's input of the encoder's index
     bool index_active_high = true;
 };
 
 /// The home switch or the index changed. Places are positions as they count after homing; before that, where it failed.
 struct HomeEdge {
-    std::string what;      ///< "switch on", "switch off", "index"
-    std::string state;     ///< in which it was seen
+    std::string what;   ///< "switch on", "switch off", "index"
+    std::string state;  ///< in which it was seen
     double position = 0;
-    double within = 0;     ///< it was there or up to so much earlier on the way; 0: exact to the pulse
-    double speed = 0;      ///< of the axis there
-    double seconds = 0;    ///< since the homing began
+    double within = 0;   ///< it was there or up to so much earlier on the way; 0: exact to the pulse
+    double speed = 0;    ///< of the axis there
+    double seconds = 0;  ///< since the homing began
 };
 
 struct HomeStay {
     std::string state;
     double from_s = 0;  ///< since the homing began
     double took_s = 0;
-    double from = 0;    ///< positions
+    double from = 0;  ///< positions
     double to = 0;
 };
 
 struct HomeOutcome {
     HomeType type = HomeType::twice_to_switch;
     bool towards_plus = false;
-    bool homed = false;        ///< the position is trusted
-    std::string sentence;      ///< how it ended
+    bool homed = false;    ///< the position is trusted
+    std::string sentence;  ///< how it ended
     std::vector<HomeEdge> edges;
     std::vector<HomeStay> stays;
     std::vector<std::string> notes;

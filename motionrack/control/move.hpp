@@ -30,9 +30,10 @@ enum class FeedMode : std::uint8_t {
     inverse_time       ///< G93: `feed` is 1/s; the move takes 1/feed seconds
 };
 
-/// One move, absolute machine coordinates. An arc turns in the plane of axes `first` and `second` (0 X, 1 Y, 2 Z; G17 = 0,1;
-/// G18 = 2,0; G19 = 1,2) about (centre_first, centre_second), `turns` > 0 counter-clockwise seen from the positive third
-/// axis, < 0 clockwise; |turns| is the number of full or partial turns; the other axes move linearly with the angle.
+/// One move, absolute machine coordinates. An arc turns in the plane of axes `first` and `second` (0 X, 1 Y, 2 Z; G17 =
+/// 0,1; G18 = 2,0; G19 = 1,2) about (centre_first, centre_second), `turns` > 0 counter-clockwise seen from the positive
+/// third axis, < 0 clockwise; |turns| is the number of full or partial turns; the other axes move linearly with the
+/// angle.
 struct Move {
     MoveKind kind = MoveKind::traverse;
     PathControl path = PathControl::exact_path;
@@ -40,14 +41,14 @@ struct Move {
     std::uint8_t first = 0;
     std::uint8_t second = 1;
     std::int32_t turns = 0;
-    std::int32_t line = 0;      ///< line of the source, from 1
-    double feed = 0;            ///< see FeedMode; not used by traverse and dwell
-    double haste = 1;           ///< traverse: part of the axes' greatest speed, above 0 to 1
-    double tolerance_mm = 0;    ///< for PathControl::continuous
-    double centre_first = 0;    ///< mm
-    double centre_second = 0;   ///< mm
-    double seconds = 0;         ///< dwell only
-    Point end = {};             ///< where the move ends
+    std::int32_t line = 0;     ///< line of the source, from 1
+    double feed = 0;           ///< see FeedMode; not used by traverse and dwell
+    double haste = 1;          ///< traverse: part of the axes' greatest speed, above 0 to 1
+    double tolerance_mm = 0;   ///< for PathControl::continuous
+    double centre_first = 0;   ///< mm
+    double centre_second = 0;  ///< mm
+    double seconds = 0;        ///< dwell only
+    Point end = {};            ///< where the move ends
 };
 
 }  // namespace motionrack::control

@@ -76,7 +76,8 @@ void Planner::append(const Move& move, const Geometry& path, const AlongPath& al
     planned.length = path.length;
     planned.accel = along.accel;
     planned.jerk = along.jerk;
-    node(tail_) = {joint, 2 * along.accel * (path.length - (drive_ ? drive_->spent_length(path) : 0)), along.speed * along.speed, 0};
+    node(tail_) = {joint, 2 * along.accel * (path.length - (drive_ ? drive_->spent_length(path) : 0)),
+                   along.speed * along.speed, 0};
     ++tail_;
     position_ = move.end;
     last_ = path;

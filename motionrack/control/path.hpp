@@ -26,7 +26,8 @@ struct PlannerSettings {
     const DriveRule* drive = nullptr;
 };
 
-/// Plans trapezoids for a machine: a planned move for each move. Allocates only when it is made and for the text of an error.
+/// Plans trapezoids for a machine: a planned move for each move. Allocates only when it is made and for the text of an
+/// error.
 class Planner final : public PathPlanner {
   public:
     /// `start`: where the machine stands, at rest.

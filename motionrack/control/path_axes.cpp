@@ -1,6 +1,6 @@
-#include <motionrack/control/path_axes.hpp>
-
 #include <fmt/format.h>
+
+#include <motionrack/control/path_axes.hpp>
 
 namespace motionrack::control {
 
@@ -13,7 +13,9 @@ std::string place_text(const Point& at, const MachineLimits& limits) {
 
 tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits) {
     return fail(Trouble::stopped,
-                fmt::format("Stopped on request in line {}; the axes came to rest along the path at {}.", line, place_text(at, limits)), {line, 1});
+                fmt::format("Stopped on request in line {}; the axes came to rest along the path at {}.", line,
+                            place_text(at, limits)),
+                {line, 1});
 }
 
 }  // namespace motionrack::control

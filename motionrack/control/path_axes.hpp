@@ -1,4 +1,5 @@
-// What a card offers that can follow a planned path: the controller hands over planned moves, the card's axes drive them.
+// What a card offers that can follow a planned path: the controller hands over planned moves, the card's axes drive
+// them.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -44,19 +45,22 @@ class PathAxes {
     virtual Result<void> begin() = 0;
     /// What the card asks of joints; null: nothing.
     virtual const DriveRule* drive_rule() const { return nullptr; }
-    /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion was stopped by a
-    /// limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked to stop.
+    /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion
+    /// was stopped by a limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked
+    /// to stop.
     virtual Result<void> follow(const PlannedMove& move) = 0;
     /// Drives what is left; returns at standstill.
     virtual Result<void> finish() = 0;
-    /// Drives one straight move from rest to rest, and stops where the probe touches (`release`: leaves) on the way. Returns at standstill,
-    /// also when it does not; what follows begins there. Needs begin(), and standstill by finish(). Errors: refused, the card has no probe; machine, the probe
-    /// touches already (`release`: does not touch), or as follow().
+    /// Drives one straight move from rest to rest, and stops where the probe touches (`release`: leaves) on the way.
+    /// Returns at standstill, also when it does not; what follows begins there. Needs begin(), and standstill by
+    /// finish(). Errors: refused, the card has no probe; machine, the probe touches already (`release`: does not
+    /// touch), or as follow().
     virtual Result<ProbeOutcome> probe(const PlannedMove& move, bool release) {
         (void)move, (void)release;
         return fail(Trouble::refused, "The axes of this card have no probe.");
     }
-    /// Comes to a stop along the path as quickly as the acceleration allows (or at once) and forgets what was queued. In every state.
+    /// Comes to a stop along the path as quickly as the acceleration allows (or at once) and forgets what was queued.
+    /// In every state.
     virtual void stop(bool immediate) = 0;
     /// Where the card's own pulse counters say the axes are.
     virtual Point commanded_position() = 0;

@@ -13,7 +13,8 @@ namespace motionrack::control {
 /// better.
 inline constexpr double same_direction = 1.7453292519943295e-4;
 
-/// Are the two tangents closer than same_direction? XYZ parts are unit vectors; ABC parts are compared by their own size.
+/// Are the two tangents closer than same_direction? XYZ parts are unit vectors; ABC parts are compared by their own
+/// size.
 bool is_same_direction(const Point& in, const Point& out);
 
 /// Per unit of path length and second.

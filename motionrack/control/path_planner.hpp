@@ -32,8 +32,8 @@ class PathPlanner {
   public:
     virtual ~PathPlanner() = default;
 
-    /// Adds a move that starts where the last one ended. Needs has_room(). A move of no length is left out; a dwell ends the path there.
-    /// Refused, with the planner as it was: see checked_path.
+    /// Adds a move that starts where the last one ended. Needs has_room(). A move of no length is left out; a dwell
+    /// ends the path there. Refused, with the planner as it was: see checked_path.
     virtual Result<void> push(const Move& move) = 0;
 
     /// False only while there are planned moves to pull.
@@ -45,14 +45,15 @@ class PathPlanner {
     /// The next planned move; false if none is ready.
     virtual bool pull(PlannedMove& planned) = 0;
 
-    /// Comes to rest along the path as soon as the limits allow, and then has nothing more to pull. False: it cannot, and goes on as planned.
+    /// Comes to rest along the path as soon as the limits allow, and then has nothing more to pull. False: it cannot,
+    /// and goes on as planned.
     virtual bool hold() { return false; }
 };
 
 class PathLimits;
 
-/// The move from where it begins. Refused: numbers that are not finite, a feed that is not above 0, an arc without a plane or turns, an axis
-/// the machine does not have.
+/// The move from where it begins. Refused: numbers that are not finite, a feed that is not above 0, an arc without a
+/// plane or turns, an axis the machine does not have.
 Result<Geometry> checked_path(const Move& move, const Point& start, const PathLimits& limits);
 
 }  // namespace motionrack::control

@@ -1,9 +1,8 @@
 // Parts end on the path of the whole; a rest begins where the machine stands.
-#include <motionrack/control/pieces.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
+#include <motionrack/control/pieces.hpp>
 
 namespace motionrack::control {
 
@@ -59,7 +58,8 @@ Nearest nearest_on(const Geometry& path, const Point& place) {
         out.length = length_on_straight(path, place);
     const Point nearest = position_at(path, out.length);
     const std::size_t first = path.shape == PathShape::rotary ? 3 : 0;
-    for (std::size_t i = first; i < first + 3; ++i) out.distance = std::max(out.distance, std::fabs(place[i] - nearest[i]));
+    for (std::size_t i = first; i < first + 3; ++i)
+        out.distance = std::max(out.distance, std::fabs(place[i] - nearest[i]));
     return out;
 }
 

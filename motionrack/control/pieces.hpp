@@ -6,8 +6,9 @@
 
 namespace motionrack::control {
 
-/// The part of a move from `from` to `to` (lengths along its path, from < to), as a move that begins where the part begins. Ends of parts
-/// lie on the path; the last part ends where the move ends, exactly. In inverse time it takes its share of the move's time.
+/// The part of a move from `from` to `to` (lengths along its path, from < to), as a move that begins where the part
+/// begins. Ends of parts lie on the path; the last part ends where the move ends, exactly. In inverse time it takes its
+/// share of the move's time.
 Move part_of(const Move& move, const Geometry& path, double from, double to);
 
 /// The point of a path that is nearest to a place. An arc may turn by less than a whole turn.
@@ -17,8 +18,8 @@ struct Nearest {
 };
 Nearest nearest_on(const Geometry& path, const Point& place);
 
-/// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of an arc so little may
-/// be left that it is a straight line.
+/// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of
+/// an arc so little may be left that it is a straight line.
 Move rest_of(const Move& move, const Geometry& path, const Point& place);
 
 }  // namespace motionrack::control

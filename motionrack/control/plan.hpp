@@ -5,20 +5,23 @@
 
 namespace motionrack::control {
 
-/// Speed along the path rises from `entry` to `cruise` at `accel`, and falls to `exit` at `accel`. Where XYZ moves, lengths are
-/// mm along the XYZ path (helix: along the helix); where only ABC moves, degrees of the fastest rotary axis.
+/// Speed along the path rises from `entry` to `cruise` at `accel`, and falls to `exit` at `accel`. Where XYZ moves,
+/// lengths are mm along the XYZ path (helix: along the helix); where only ABC moves, degrees of the fastest rotary
+/// axis.
 struct PlannedMove {
     Move move;
     Point start = {};
-    double length = 0;   ///< mm or degrees, > 0; 0 for a dwell
-    double entry = 0;    ///< speed at the start, per second
-    double cruise = 0;   ///< top speed reached or allowed, per second
-    double exit = 0;     ///< speed at the end, per second
-    double accel = 0;    ///< along the path, per second squared, both ways
-    bool even = false;   ///< the speed changes evenly from `entry` to `exit` over the whole length
-    std::uint8_t axes = 0;  ///< that move on the whole of a path that this is a piece of, a bit each, X the lowest; 0: those that move here
+    double length = 0;      ///< mm or degrees, > 0; 0 for a dwell
+    double entry = 0;       ///< speed at the start, per second
+    double cruise = 0;      ///< top speed reached or allowed, per second
+    double exit = 0;        ///< speed at the end, per second
+    double accel = 0;       ///< along the path, per second squared, both ways
+    bool even = false;      ///< the speed changes evenly from `entry` to `exit` over the whole length
+    std::uint8_t axes = 0;  ///< that move on the whole of a path that this is a piece of, a bit each, X the lowest; 0:
+                            ///< those that move here
     std::int64_t number = 0;  ///< of the first move in it, in the order of push, from 0
-    double jerk = 0;     ///< along the path, per second cubed; used for S-curves where the move starts and ends at rest; 0: none
+    double jerk =
+        0;  ///< along the path, per second cubed; used for S-curves where the move starts and ends at rest; 0: none
 };
 
 }  // namespace motionrack::control

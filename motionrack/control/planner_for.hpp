@@ -14,13 +14,15 @@ inline MachineLimits without_kept_back(MachineLimits limits, double kept_back) {
 }
 
 /// Trapezoids, as the card asks of joints. `start`: where the axes stand. The axes must live as long.
-inline Planner planner_for(const PathAxes& axes, const MachineLimits& limits, double kept_back, PlannerSettings settings, const Point& start) {
+inline Planner planner_for(const PathAxes& axes, const MachineLimits& limits, double kept_back,
+                           PlannerSettings settings, const Point& start) {
     settings.drive = axes.drive_rule();
     return Planner(without_kept_back(limits, kept_back), start, settings);
 }
 
 /// The same with limited jerk.
-inline RideMoves ride_for(const PathAxes& axes, const MachineLimits& limits, double kept_back, RideMovesSettings settings, const Point& start) {
+inline RideMoves ride_for(const PathAxes& axes, const MachineLimits& limits, double kept_back,
+                          RideMovesSettings settings, const Point& start) {
     settings.drive = axes.drive_rule();
     return RideMoves(without_kept_back(limits, kept_back), start, settings);
 }

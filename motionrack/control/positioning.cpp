@@ -1,10 +1,9 @@
 // One move after the other.
-#include <motionrack/control/positioning.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/positioning.hpp>
 #include <utility>
 
 namespace motionrack::control {
@@ -38,8 +37,11 @@ Result<void> Positioning::order(const PlannedMove& move) {
     int moving = 0;
     for (std::size_t i = 0; i < axes_.size(); ++i) moving += moves(i);
     if (move.move.kind == MoveKind::arc || (move.move.kind == MoveKind::feed && moving > 1))
-        return fail(Trouble::refused, fmt::format("Line {} needs axes that move together, but these position one by one. It was not moved; write "
-                                                  "straight moves of one axis.", move.move.line));
+        return fail(
+            Trouble::refused,
+            fmt::format("Line {} needs axes that move together, but these position one by one. It was not moved; write "
+                        "straight moves of one axis.",
+                        move.move.line));
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (!moves(i)) continue;
         if (Result<void> begun = axes_[i]->move_to(move.move.end[i], speed_of(move, i)); !begun) {
@@ -106,6 +108,8 @@ void Positioning::stop(bool immediate) {
     }
 }
 
-std::vector<BlockStart> Positioning::take_starts() { return std::exchange(starts_, {}); }
+std::vector<BlockStart> Positioning::take_starts() {
+    return std::exchange(starts_, {});
+}
 
 }  // namespace motionrack::control

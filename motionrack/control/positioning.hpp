@@ -1,5 +1,5 @@
-// Programs on cards that position each axis by itself: every straight move becomes an order to the axes that it moves, and the next one
-// waits until they stand.
+// Programs on cards that position each axis by itself: every straight move becomes an order to the axes that it moves,
+// and the next one waits until they stand.
 //
 //   PlannedMove ─► move_to of each axis that it moves ─► step all until they stand ─► the next
 #pragma once
@@ -19,8 +19,8 @@ class Positioning final : public PathAxes {
     Positioning(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host);
 
     Result<void> begin() override;
-    /// Returns when the axes stand. A feed is the speed of the axis that moves, a traverse the greatest speed of each. Errors: those of
-    /// Axis::move_to and Axis::wait; refused, an arc or a feed of several axes.
+    /// Returns when the axes stand. A feed is the speed of the axis that moves, a traverse the greatest speed of each.
+    /// Errors: those of Axis::move_to and Axis::wait; refused, an arc or a feed of several axes.
     Result<void> follow(const PlannedMove& move) override;
     Result<void> finish() override;
     void stop(bool immediate) override;

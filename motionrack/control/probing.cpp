@@ -12,7 +12,8 @@ Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, doub
     planner.flush();
     PlannedMove planned;
     if (planner.pull(planned)) return planned;
-    return fail(Trouble::bad_input, fmt::format("The probing move of line {} has no length.", move.line), {move.line, 1});
+    return fail(Trouble::bad_input, fmt::format("The probing move of line {} has no length.", move.line),
+                {move.line, 1});
 }
 
 std::string probe_text(gcode::Probe probe, const ProbeOutcome& outcome) {

@@ -8,7 +8,8 @@
 
 namespace motionrack::control {
 
-/// One move from rest to rest by trapezoids, from where the axes stand. Errors: it is too short to be driven, or not finite.
+/// One move from rest to rest by trapezoids, from where the axes stand. Errors: it is too short to be driven, or not
+/// finite.
 Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, double kept_back, const Move& move);
 
 /// "probe touched at X 10.0000 Y 0.0000 Z -3.2150", "probe did not touch on the way to ..".

@@ -1,11 +1,10 @@
 // Entries go from the reader to the planner to the axes, and leave at the front when the machine has passed them.
-#include <motionrack/control/stream.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/pieces.hpp>
 #include <motionrack/control/planner_for.hpp>
+#include <motionrack/control/stream.hpp>
 #include <utility>
 
 namespace motionrack::control {
@@ -33,7 +32,7 @@ Stream::Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings)
     if (settings_.jerk_limited) ride_ = new_ride(settings.gcode.start);
 }
 
-// ---- reading ------------------------------------------------------------------------------------------------------------------------
+// ---- reading
 
 gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
     text_ = text;
@@ -104,10 +103,12 @@ void Stream::begin_cut(const Step& step, bool by_hand) {
     const double wanted = limits_.along(cut.path, step.move).speed * settings_.piece_seconds;
     const Point worst = worst_components(cut.path);
     double pulses = 0;  // of the fastest axis for a unit of length
-    for (std::size_t i = 0; i < worst.size(); ++i) pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
+    for (std::size_t i = 0; i < worst.size(); ++i)
+        pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / least_pulses);
     if (!ride_)
-        cut.pieces = static_cast<int>(std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
+        cut.pieces = static_cast<int>(
+            std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
     cutting_ = cut;
     ++moves_;
 }
@@ -127,7 +128,7 @@ void Stream::add_piece() {
     if (last) cutting_.reset();
 }
 
-// ---- wishes -------------------------------------------------------------------------------------------------------------------------
+// ---- wishes
 
 void Stream::hold() {
     if (wish_ == Wish::stop || !has_work() || state_ == StreamState::held || state_ == StreamState::paused) return;
@@ -152,7 +153,7 @@ void Stream::set_overrides(double feed, double rapid) {
     rapid_wanted_ = std::clamp(rapid, 0.01, 1.0);
 }
 
-// ---- driving ------------------------------------------------------------------------------------------------------------------------
+// ---- driving
 
 Result<StreamState> Stream::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
@@ -271,7 +272,9 @@ Result<StreamState> Stream::interrupted(const Error& error) {
 void Stream::keep_rest_of_path() {
     const Point place = axes_->commanded_position();
     while (!entries_.empty() && !entries_.front().is_move()) pop();
-    const auto beside = [&](const Entry& entry) { return nearest_on(geometry_of(entry.step.move, entry.start), place); };
+    const auto beside = [&](const Entry& entry) {
+        return nearest_on(geometry_of(entry.step.move, entry.start), place);
+    };
     std::size_t next = 1;
     while (next < handed_ && !entries_[next].is_move()) ++next;
     if (next < handed_ && beside(entries_[next]).distance < beside(entries_.front()).distance)
@@ -280,7 +283,8 @@ void Stream::keep_rest_of_path() {
         Entry& entry = entries_.front();
         entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place);
         entry.start = place;
-        if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing) pop();
+        if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)
+            pop();
     }
     planned_ = handed_ = 0;
     new_planner(place);
@@ -331,7 +335,7 @@ void Stream::new_planner(const Point& place) {
     ride_ends_ = true;
 }
 
-// ---- what the machine has passed ----------------------------------------------------------------------------------------------------
+// ---- what the machine has passed
 
 void Stream::take_starts() {
     for (const BlockStart& start : axes_->take_starts()) {

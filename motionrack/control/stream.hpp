@@ -6,11 +6,12 @@
 //
 //   driving ──hold()──► held ──resume()──► driving        M0, a step done: paused ──resume()──► driving        stop(), a fault: rest
 //
-// Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon. With each move that it hands over, the path that is
-// known ends at rest: a sender that falls silent leaves the machine standing at the end of its last line.
+// Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon. With each move that it hands
+// over, the path that is known ends at rest: a sender that falls silent leaves the machine standing at the end of its
+// last line.
 //
-// With limited jerk a ride takes the planner's place: it holds, resumes and overrides along its own curve, and the axes never brake on their
-// own but when the machine stops them.
+// With limited jerk a ride takes the planner's place: it holds, resumes and overrides along its own curve, and the axes
+// never brake on their own but when the machine stops them.
 #pragma once
 
 #include <atomic>
@@ -31,13 +32,14 @@
 namespace motionrack::control {
 
 struct StreamSettings {
-    gcode::Settings gcode;    ///< its start is where the axes stand
+    gcode::Settings gcode;  ///< its start is where the axes stand
     PlannerSettings planner;
     bool jerk_limited = false;  ///< not trapezoids, but within each axis' jerk
-    double kept_back = 0;     ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    double kept_back = 0;       ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
     std::size_t most_entries = 1'500;  ///< moves and events that are known and not yet done; 16 or more
     double piece_seconds = 0.1;        ///< of a long move at its speed
-    Duration margin = milliseconds(30);  ///< so long before the path that was handed over ends, more of it is handed over
+    Duration margin =
+        milliseconds(30);  ///< so long before the path that was handed over ends, more of it is handed over
 };
 
 enum class StreamState : std::uint8_t {
@@ -53,7 +55,7 @@ struct ProbeReport {
     std::int64_t count = 0;  ///< of probing moves that have ended, this one too
     std::int32_t line = 0;
     gcode::Probe probe = gcode::Probe::none;
-    bool begun = false;      ///< false: the probe touched before the move (G38.4, G38.5: did not touch)
+    bool begun = false;  ///< false: the probe touched before the move (G38.4, G38.5: did not touch)
     ProbeOutcome outcome;
 
     bool failed() const { return !begun || (!outcome.hit && gcode::probe_must(probe)); }
@@ -64,20 +66,24 @@ class Stream {
     /// `host`: whose time passes. The axes' stop flag must be stop_flag().
     Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings);
 
-    // ---- what may be called at any time, also while drive() runs, from a slice of the host's time -------------------------------------
-    /// Whether line() takes another one. After a line that probes only when it has been done: the lines after it begin where it stopped.
-    bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && !probe_waits_ && wish_ != Wish::stop; }
+    // ---- what may be called at any time, also while drive() runs, from a slice of the host's time
+    /// Whether line() takes another one. After a line that probes only when it has been done: the lines after it begin
+    /// where it stopped.
+    bool has_room() const {
+        return entries_.size() < settings_.most_entries && !unpulled_ && !probe_waits_ && wish_ != Wish::stop;
+    }
     /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
     /// The same of a whole program that is walked through: in its whole language.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::Walk& walk);
-    /// No more lines of the program come: what waits for the next one (see gcode::Interpreter::finish) is put behind the others. Needs
-    /// has_room().
+    /// No more lines of the program come: what waits for the next one (see gcode::Interpreter::finish) is put behind
+    /// the others. Needs has_room().
     gcode::Outcome<void> program_over();
-    /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the lines after it
-    /// begin where it ends. It must be one that the axes can do. Needs has_room().
+    /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the
+    /// lines after it begin where it ends. It must be one that the axes can do. Needs has_room().
     void move(const Move& move);
-    /// Decelerates along the path; drive() returns held. Nothing if nothing is driven. A probing move goes to its end first.
+    /// Decelerates along the path; drive() returns held. Nothing if nothing is driven. A probing move goes to its end
+    /// first.
     void hold();
     /// Goes on from a hold or a pause.
     void resume();
@@ -103,10 +109,10 @@ class Stream {
     /// The coolant was switched by hand: lines go on from there.
     void set_coolant(bool mist, bool flood) { interpreter_.set_coolant(mist, flood); }
 
-    // ---- between drives ---------------------------------------------------------------------------------------------------------------
-    /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room for another.
-    /// `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors: Trouble::machine, the motion was
-    /// stopped by the machine; everything was forgotten.
+    // ---- between drives
+    /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room
+    /// for another. `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors:
+    /// Trouble::machine, the motion was stopped by the machine; everything was forgotten.
     Result<StreamState> drive(bool more_may_come);
     /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
     void stand_here(PathAxes& axes);
@@ -114,7 +120,8 @@ class Stream {
     void forget_modes();
     /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
     void forget_offsets();
-    /// A program is over: what Grbl does not know of is as at its start, so that a sender's lines mean what they say. Needs rest.
+    /// A program is over: what Grbl does not know of is as at its start, so that a sender's lines mean what they say.
+    /// Needs rest.
     void straighten() { interpreter_.straighten(); }
     /// What forget_modes() leaves: how a program that begins here is read.
     gcode::Settings fresh_settings() const;
@@ -131,10 +138,10 @@ class Stream {
         gcode::Step step;
         std::string text;
         Point start = {};
-        double seconds = 0;  ///< of a move that was handed over
+        double seconds = 0;       ///< of a move that was handed over
         std::int64_t number = 0;  ///< of a move that the ride has had
-        bool last = true;    ///< piece of its move
-        bool by_hand = false;  ///< not of a line
+        bool last = true;         ///< piece of its move
+        bool by_hand = false;     ///< not of a line
         bool is_probe() const { return step.probe != gcode::Probe::none; }
         bool is_overridable() const { return !by_hand && step.overridable; }
         bool is_move() const { return step.kind == gcode::StepKind::move && !is_probe(); }
@@ -178,25 +185,26 @@ class Stream {
     PathLimits limits_;
     gcode::Interpreter interpreter_;
     Planner planner_;
-    std::optional<RideMoves> ride_;     ///< if the jerk is limited; then planner_ idles
-    std::deque<std::int64_t> blocks_;   ///< numbers of the moves of what the axes have had, from the one that they drive on
-    std::int64_t first_block_ = 0;      ///< of blocks_, as the axes count
-    bool ride_ends_ = true;             ///< it was told that its path ends
-    Instant last_push_{};               ///< when it got a move last
-    std::deque<Entry> entries_;  ///< front: being driven
+    std::optional<RideMoves> ride_;  ///< if the jerk is limited; then planner_ idles
+    std::deque<std::int64_t>
+        blocks_;                    ///< numbers of the moves of what the axes have had, from the one that they drive on
+    std::int64_t first_block_ = 0;  ///< of blocks_, as the axes count
+    bool ride_ends_ = true;         ///< it was told that its path ends
+    Instant last_push_{};           ///< when it got a move last
+    std::deque<Entry> entries_;     ///< front: being driven
     std::optional<Cutting> cutting_;
-    std::string text_;           ///< of the last line
-    Point read_to_ = {};         ///< where the last entry ends
-    std::size_t moves_ = 0;      ///< in entries_ and cutting_
-    std::size_t planned_ = 0;    ///< entries that the planner has had
-    std::size_t handed_ = 0;     ///< entries up to the last move that the axes have had
+    std::string text_;              ///< of the last line
+    Point read_to_ = {};            ///< where the last entry ends
+    std::size_t moves_ = 0;         ///< in entries_ and cutting_
+    std::size_t planned_ = 0;       ///< entries that the planner has had
+    std::size_t handed_ = 0;        ///< entries up to the last move that the axes have had
     std::int64_t front_block_ = 0;  ///< of the first move in entries_, as the axes count
     Instant block_began_ = never;   ///< of that move; never: it has not begun
     std::int32_t line_driven_ = 0;
-    bool unpulled_ = false;      ///< of the last line not everything is in entries_
-    bool path_begun_ = false;    ///< the axes have moves that they were not told the end of
+    bool unpulled_ = false;    ///< of the last line not everything is in entries_
+    bool path_begun_ = false;  ///< the axes have moves that they were not told the end of
     bool single_step_ = false;
-    bool probe_waits_ = false;   ///< entries_ has a probing move, at its end but for events
+    bool probe_waits_ = false;  ///< entries_ has a probing move, at its end but for events
     bool probing_ = false;
     ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;

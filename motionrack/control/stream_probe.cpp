@@ -32,8 +32,10 @@ Result<StreamState> Stream::probe() {
     new_planner(place);
     if (!last_probe_.failed()) return state_ = has_work() ? StreamState::driving : StreamState::rest;
     forget();
-    return fail(Trouble::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, probe_text(step.probe, *outcome)),
-                {step.line, 1});
+    return fail(
+        Trouble::machine,
+        fmt::format("In line {} the {}. Nothing after it was driven.", step.line, probe_text(step.probe, *outcome)),
+        {step.line, 1});
 }
 
 }  // namespace motionrack::control

@@ -9,8 +9,8 @@ namespace {
 
 /// s of motion that the axes have at once: how soon a wish is felt.
 constexpr double most_seconds = 0.03;
-/// Of the last moves the ride tells nothing until it knows what follows, or that nothing does: which it is told if no line has come for so
-/// long, and so long before it would slow down for the end of what it tells.
+/// Of the last moves the ride tells nothing until it knows what follows, or that nothing does: which it is told if no
+/// line has come for so long, and so long before it would slow down for the end of what it tells.
 constexpr double ends_before = 0.2;
 constexpr Duration sender_is_silent = milliseconds(50);
 
@@ -46,7 +46,8 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
     if (PlannedMove planned; ride_->pull(planned, true)) return hand_over(planned);
     const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
-        const Result<StreamState> finished = finish_path();  // where the ride stands: at the end of what is known, or held
+        const Result<StreamState> finished =
+            finish_path();  // where the ride stands: at the end of what is known, or held
         if (!finished || !more_follows) return finished;
     }
     return more_follows ? state_ = StreamState::waiting : stand();

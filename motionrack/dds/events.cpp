@@ -7,8 +7,9 @@ namespace motionrack::dds {
 
 namespace {
 
-constexpr const char* names[event_kinds] = {"joined", "stale", "fresh", "lost", "late", "duplicate", "jump", "anew",
-                                            "wrong_crc", "foreign", "malformed", "wrong_words", "conflict", "conflict_over", "restart", "takeover"};
+constexpr const char* names[event_kinds] = {
+    "joined",    "stale",   "fresh",     "lost",        "late",     "duplicate",     "jump",    "anew",
+    "wrong_crc", "foreign", "malformed", "wrong_words", "conflict", "conflict_over", "restart", "takeover"};
 
 /// A source's text, whatever bytes are in it: it may come from anyone.
 std::string printable(const Source& source) {
@@ -18,45 +19,75 @@ std::string printable(const Source& source) {
     return out;
 }
 
-std::string milliseconds_of(std::uint64_t ticks) { return fmt::format("{:g} ms", static_cast<double>(ticks) * 1e-7); }
+std::string milliseconds_of(std::uint64_t ticks) {
+    return fmt::format("{:g} ms", static_cast<double>(ticks) * 1e-7);
+}
 
 }  // namespace
 
-const char* name_of(EventKind kind) { return names[static_cast<std::size_t>(kind)]; }
+const char* name_of(EventKind kind) {
+    return names[static_cast<std::size_t>(kind)];
+}
 
 std::string sentence(const Event& e) {
     const std::string who = printable(e.source);
     switch (e.kind) {
-        case EventKind::joined: return fmt::format("{} publishes {} positions every {}.", who, e.number, milliseconds_of(e.limit));
+        case EventKind::joined:
+            return fmt::format("{} publishes {} positions every {}.", who, e.number, milliseconds_of(e.limit));
         case EventKind::stale:
-            return fmt::format("No frame since {}: the positions of frame {} are stale and marked so. Look whether {} runs and the network is whole.",
-                               milliseconds_of(e.number), e.limit, who);
-        case EventKind::fresh: return fmt::format("Frames come again, from number {} on.", e.number);
+            return fmt::format(
+                "No frame since {}: the positions of frame {} are stale and marked so. Look whether {} runs and the "
+                "network is whole.",
+                milliseconds_of(e.number), e.limit, who);
+        case EventKind::fresh:
+            return fmt::format("Frames come again, from number {} on.", e.number);
         case EventKind::lost:
-            return fmt::format("{} frames after number {} did not come, {} so far. The next one is used; nothing is made up for the others.", e.number,
-                               e.limit, e.total);
+            return fmt::format(
+                "{} frames after number {} did not come, {} so far. The next one is used; nothing is made up for the "
+                "others.",
+                e.number, e.limit, e.total);
         case EventKind::late:
-            return fmt::format("Frame {} came after frame {}, {} so far. It is older than what is held and was not used.", e.number, e.limit, e.total);
-        case EventKind::duplicate: return fmt::format("Frame {} came twice, {} so far. The second was not used.", e.number, e.total);
+            return fmt::format(
+                "Frame {} came after frame {}, {} so far. It is older than what is held and was not used.", e.number,
+                e.limit, e.total);
+        case EventKind::duplicate:
+            return fmt::format("Frame {} came twice, {} so far. The second was not used.", e.number, e.total);
         case EventKind::jump:
-            return fmt::format("Frame {} does not go on from frame {}: its time is not that of its number; {} so far. It was not used.", e.number, e.limit,
-                               e.total);
+            return fmt::format(
+                "Frame {} does not go on from frame {}: its time is not that of its number; {} so far. It was not "
+                "used.",
+                e.number, e.limit, e.total);
         case EventKind::anew:
-            return fmt::format("The sequence of {} began anew: frame {} follows frame {}. Its card was reset; its frames are used.", who, e.number, e.limit);
+            return fmt::format(
+                "The sequence of {} began anew: frame {} follows frame {}. Its card was reset; its frames are used.",
+                who, e.number, e.limit);
         case EventKind::wrong_crc:
-            return fmt::format("A frame of {} was damaged: its CRC is another; {} so far. It was not used.", who, e.total);
+            return fmt::format("A frame of {} was damaged: its CRC is another; {} so far. It was not used.", who,
+                               e.total);
         case EventKind::foreign:
-            return fmt::format("A sample of another format was heard, {} so far. It was not used; look who else publishes under this bus name.", e.total);
+            return fmt::format(
+                "A sample of another format was heard, {} so far. It was not used; look who else publishes under this "
+                "bus name.",
+                e.total);
         case EventKind::malformed:
-            return fmt::format("A sample of {} has values that no publisher sends, {} so far. It was not used.", who, e.total);
+            return fmt::format("A sample of {} has values that no publisher sends, {} so far. It was not used.", who,
+                               e.total);
         case EventKind::wrong_words:
-            return fmt::format("A frame of {} has {} positions, but {} are expected; {} so far. It was not used.", who, e.number, e.limit, e.total);
+            return fmt::format("A frame of {} has {} positions, but {} are expected; {} so far. It was not used.", who,
+                               e.number, e.limit, e.total);
         case EventKind::conflict:
-            return fmt::format("Two publishers on this bus: [{}] has it, and [{}] publishes too. Frames of the second are not used; stop it or give it "
-                               "another bus name.", who, printable(e.other));
-        case EventKind::conflict_over: return fmt::format("[{}] is silent: [{}] is alone on the bus again.", printable(e.other), who);
-        case EventKind::restart: return fmt::format("The publisher was started anew: [{}] follows [{}].", who, printable(e.other));
-        case EventKind::takeover: return fmt::format("Another computer has the bus: [{}] follows [{}], which is silent.", who, printable(e.other));
+            return fmt::format(
+                "Two publishers on this bus: [{}] has it, and [{}] publishes too. Frames of the second are not used; "
+                "stop it or give it "
+                "another bus name.",
+                who, printable(e.other));
+        case EventKind::conflict_over:
+            return fmt::format("[{}] is silent: [{}] is alone on the bus again.", printable(e.other), who);
+        case EventKind::restart:
+            return fmt::format("The publisher was started anew: [{}] follows [{}].", who, printable(e.other));
+        case EventKind::takeover:
+            return fmt::format("Another computer has the bus: [{}] follows [{}], which is silent.", who,
+                               printable(e.other));
     }
     return {};
 }

@@ -9,7 +9,22 @@
 namespace motionrack::dds {
 
 enum class EventKind : std::uint8_t {
-    joined, stale, fresh, lost, late, duplicate, jump, anew, wrong_crc, foreign, malformed, wrong_words, conflict, conflict_over, restart, takeover,
+    joined,
+    stale,
+    fresh,
+    lost,
+    late,
+    duplicate,
+    jump,
+    anew,
+    wrong_crc,
+    foreign,
+    malformed,
+    wrong_words,
+    conflict,
+    conflict_over,
+    restart,
+    takeover,
 };
 inline constexpr std::size_t event_kinds = 16;
 const char* name_of(EventKind kind);

@@ -12,52 +12,75 @@ constexpr std::uint32_t half = 0x8000'0000U;
 /// The verdict's event, for those that are reported by themselves.
 EventKind kind_of(Verdict verdict) {
     switch (verdict) {
-        case Verdict::duplicate: return EventKind::duplicate;
-        case Verdict::late: return EventKind::late;
-        case Verdict::jump: return EventKind::jump;
-        case Verdict::wrong_crc: return EventKind::wrong_crc;
-        case Verdict::foreign: return EventKind::foreign;
-        case Verdict::wrong_words: return EventKind::wrong_words;
+        case Verdict::duplicate:
+            return EventKind::duplicate;
+        case Verdict::late:
+            return EventKind::late;
+        case Verdict::jump:
+            return EventKind::jump;
+        case Verdict::wrong_crc:
+            return EventKind::wrong_crc;
+        case Verdict::foreign:
+            return EventKind::foreign;
+        case Verdict::wrong_words:
+            return EventKind::wrong_words;
         case Verdict::used:
         case Verdict::other_source:
-        case Verdict::malformed: break;
+        case Verdict::malformed:
+            break;
     }
     return EventKind::malformed;
 }
 
 bool good_name(const Source& source) {
     const std::string_view name = source.host_name();
-    return !name.empty() && name.size() < source.host.size() && std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    return !name.empty() && name.size() < source.host.size() &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
-bool in_range(std::int64_t ticks) { return ticks >= shortest_period.count() && ticks <= longest_period.count(); }
+bool in_range(std::int64_t ticks) {
+    return ticks >= shortest_period.count() && ticks <= longest_period.count();
+}
 
 }  // namespace
 
 const char* name_of(Verdict verdict) {
-    static constexpr const char* names[] = {"used", "duplicate", "late", "jump", "wrong crc", "foreign", "malformed", "wrong words", "other source"};
+    static constexpr const char* names[] = {"used",    "duplicate", "late",        "jump",        "wrong crc",
+                                            "foreign", "malformed", "wrong words", "other source"};
     return names[static_cast<std::size_t>(verdict)];
 }
 
 std::uint64_t& FrameJudge::count_of(Verdict verdict) {
     switch (verdict) {
-        case Verdict::used: return counts_.used;
-        case Verdict::duplicate: return counts_.duplicates;
-        case Verdict::late: return counts_.late;
-        case Verdict::jump: return counts_.jumps;
-        case Verdict::wrong_crc: return counts_.wrong_crc;
-        case Verdict::foreign: return counts_.foreign;
-        case Verdict::malformed: return counts_.malformed;
-        case Verdict::wrong_words: return counts_.wrong_words;
-        case Verdict::other_source: return counts_.other_source;
+        case Verdict::used:
+            return counts_.used;
+        case Verdict::duplicate:
+            return counts_.duplicates;
+        case Verdict::late:
+            return counts_.late;
+        case Verdict::jump:
+            return counts_.jumps;
+        case Verdict::wrong_crc:
+            return counts_.wrong_crc;
+        case Verdict::foreign:
+            return counts_.foreign;
+        case Verdict::malformed:
+            return counts_.malformed;
+        case Verdict::wrong_words:
+            return counts_.wrong_words;
+        case Verdict::other_source:
+            return counts_.other_source;
     }
     return counts_.malformed;
 }
 
-Duration FrameJudge::release() const { return std::max(settings_.release, Duration{2 * pace_}); }
+Duration FrameJudge::release() const {
+    return std::max(settings_.release, Duration{2 * pace_});
+}
 
 bool FrameJudge::in_conflict() const {
-    return std::any_of(others_.begin(), others_.begin() + static_cast<std::ptrdiff_t>(other_count_), [](const Other& other) { return other.in_conflict; });
+    return std::any_of(others_.begin(), others_.begin() + static_cast<std::ptrdiff_t>(other_count_),
+                       [](const Other& other) { return other.in_conflict; });
 }
 
 /// What can be said of a sample by itself.
@@ -65,7 +88,8 @@ Verdict FrameJudge::check(const Sample& sample) const {
     if (sample.format != wire_format) return Verdict::foreign;
     if (sample.frame.words < 1 || sample.frame.words > grating_bus::most_scales) return Verdict::malformed;
     if (sample.check != check_of(sample) || !sound(sample.frame)) return Verdict::wrong_crc;
-    if (!in_range(sample.period) || !in_range(sample.pace) || sample.frame.time < 0 || !good_name(sample.source)) return Verdict::malformed;
+    if (!in_range(sample.period) || !in_range(sample.pace) || sample.frame.time < 0 || !good_name(sample.source))
+        return Verdict::malformed;
     return Verdict::used;
 }
 
@@ -93,7 +117,8 @@ Verdict FrameJudge::take(const Sample& sample, Instant now) {
         ++counts_.other_source;
         return Verdict::other_source;
     }
-    if (settings_.words != 0 && sample.frame.words != static_cast<std::uint32_t>(settings_.words)) return bad(Verdict::wrong_words, sample, now);
+    if (settings_.words != 0 && sample.frame.words != static_cast<std::uint32_t>(settings_.words))
+        return bad(Verdict::wrong_words, sample, now);
     if (!own) {
         hand_bus_to(sample, now);
         return use(sample.frame, now);
@@ -153,12 +178,19 @@ Verdict FrameJudge::bad(Verdict verdict, const Sample& sample, Instant now) {
     if (!events_.open(kind, now)) return verdict;
     const bool words = verdict == Verdict::wrong_words;
     const std::uint64_t expected = settings_.words != 0 ? static_cast<std::uint64_t>(settings_.words) : frame_.words;
-    events_.put({kind, now, sample.source, {}, words ? sample.frame.words : sample.frame.sequence, words ? expected : frame_.sequence, total});
+    events_.put({kind,
+                 now,
+                 sample.source,
+                 {},
+                 words ? sample.frame.words : sample.frame.sequence,
+                 words ? expected : frame_.sequence,
+                 total});
     return verdict;
 }
 
 void FrameJudge::hand_bus_to(const Sample& sample, Instant now) {
-    Event event{EventKind::joined, now, sample.source, source_, sample.frame.words, static_cast<std::uint64_t>(sample.pace), 1};
+    Event event{
+        EventKind::joined, now, sample.source, source_, sample.frame.words, static_cast<std::uint64_t>(sample.pace), 1};
     if (joined_) {
         const bool same_host = sample.source.host == source_.host;
         event.kind = same_host ? EventKind::restart : EventKind::takeover;
@@ -190,7 +222,8 @@ void FrameJudge::note_other(const Source& source, Instant now) {
     at->heard = now;
 }
 
-/// The source that has the bus was heard after another one: both publish. A source that follows one that is gone is no conflict.
+/// The source that has the bus was heard after another one: both publish. A source that follows one that is gone is no
+/// conflict.
 void FrameJudge::find_conflicts(Instant now) {
     for (std::size_t i = 0; i < other_count_; ++i) {
         Other& other = others_[i];
@@ -208,7 +241,8 @@ void FrameJudge::forget_silent(Instant now) {
             continue;
         }
         if (others_[i].in_conflict)
-            events_.put({EventKind::conflict_over, now, source_, others_[i].source, others_[i].frames, 0, counts_.conflicts});
+            events_.put(
+                {EventKind::conflict_over, now, source_, others_[i].source, others_[i].frames, 0, counts_.conflicts});
         others_[i] = others_[--other_count_];
     }
 }
@@ -222,7 +256,13 @@ void FrameJudge::look(Instant now) {
     }
     if (stale_told_ || !events_.open(EventKind::stale, now)) return;
     stale_told_ = true;
-    events_.put({EventKind::stale, now, source_, {}, static_cast<std::uint64_t>((now - used_at_).count()), frame_.sequence, counts_.stale});
+    events_.put({EventKind::stale,
+                 now,
+                 source_,
+                 {},
+                 static_cast<std::uint64_t>((now - used_at_).count()),
+                 frame_.sequence,
+                 counts_.stale});
 }
 
 }  // namespace motionrack::dds

@@ -1,5 +1,5 @@
-// The judge: decides of every sample that was heard on a bus whether its positions may be used, and counts the rest. It knows no network
-// and no clock: it is given samples with the time at which they were received.
+// The judge: decides of every sample that was heard on a bus whether its positions may be used, and counts the rest. It
+// knows no network and no clock: it is given samples with the time at which they were received.
 //
 //   frames of the source that has the bus      used, or lost, late, twice, jumping
 //   frames of any other source                 counted, never used, until the first is silent for `release`
@@ -33,7 +33,8 @@ struct Counts {
     std::uint64_t received = 0;  ///< all samples
     std::uint64_t used = 0;
     std::uint64_t lost = 0;  ///< sequence numbers that are missing; one that comes late is taken off again
-    std::uint64_t duplicates = 0, late = 0, jumps = 0, wrong_crc = 0, foreign = 0, malformed = 0, wrong_words = 0, other_source = 0;
+    std::uint64_t duplicates = 0, late = 0, jumps = 0, wrong_crc = 0, foreign = 0, malformed = 0, wrong_words = 0,
+                  other_source = 0;
     std::uint64_t anew = 0;       ///< the source's sequence began anew: its card was reset
     std::uint64_t restarts = 0;   ///< a new source on the same host followed
     std::uint64_t takeovers = 0;  ///< a source on another host followed
@@ -60,7 +61,8 @@ class FrameJudge {
 
     explicit FrameJudge(const JudgeSettings& settings = {}) : settings_(settings) {}
 
-    /// Judges a sample that was received at `now` (never before the `now` of an earlier call). If it is used, frame() is its frame.
+    /// Judges a sample that was received at `now` (never before the `now` of an earlier call). If it is used, frame()
+    /// is its frame.
     Verdict take(const Sample& sample, Instant now);
     /// Nothing was received until `now`: what is stale, who is gone.
     void look(Instant now);
@@ -79,7 +81,8 @@ class FrameJudge {
     std::span<const Other> others() const { return {others_.data(), other_count_}; }
     bool in_conflict() const;
 
-    /// The next event that was not taken yet; false if there is none. Of more than the queue holds the newest are dropped.
+    /// The next event that was not taken yet; false if there is none. Of more than the queue holds the newest are
+    /// dropped.
     bool next_event(Event& event) { return events_.take(event); }
 
   private:

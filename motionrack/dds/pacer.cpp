@@ -13,7 +13,8 @@ Instant Pacer::due(Instant frame, Instant now) {
     }
     // Speed 1 stays whole ticks; otherwise 53 bits hold a tick of a day's run.
     const Duration elapsed = frame - first_frame_;
-    const Duration real = speed_ == 1 ? elapsed : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / speed_)};
+    const Duration real =
+        speed_ == 1 ? elapsed : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / speed_)};
     const Instant due = first_due_ + real;
     const Duration behind = now - due;
     worst_ = std::max(worst_, behind);

@@ -1,4 +1,5 @@
-// When a frame is due in real time. Every due time comes from the first frame's, so that nothing adds up; the pacer knows no clock.
+// When a frame is due in real time. Every due time comes from the first frame's, so that nothing adds up; the pacer
+// knows no clock.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@ class Pacer {
     /// `speed`: bus time that passes in a unit of real time, above 0; `pace`: real time between two frames.
     Pacer(double speed, Duration pace) : speed_(speed), pace_(pace) {}
 
-    /// When the frame of bus time `frame` is due, asked at `now`. The first frame is due at once. What is due in the past is published
-    /// at once and counted as late if it is by more than a pace; who is behind by more than `most_behind` does not catch up: the
-    /// schedule begins anew, which is a slip.
+    /// When the frame of bus time `frame` is due, asked at `now`. The first frame is due at once. What is due in the
+    /// past is published at once and counted as late if it is by more than a pace; who is behind by more than
+    /// `most_behind` does not catch up: the schedule begins anew, which is a slip.
     Instant due(Instant frame, Instant now);
 
     std::uint64_t late() const { return late_; }

@@ -12,8 +12,10 @@ namespace {
 
 Result<void> check_time(const char* what, Duration time) {
     if (time >= shortest_period && time <= longest_period) return {};
-    return fail(Trouble::bad_input, fmt::format("The {} of the frames is {:g} us, but must be {:g} us to {:g} s. Nothing was published.", what,
-                                                to_seconds(time) * 1e6, to_seconds(shortest_period) * 1e6, to_seconds(longest_period)));
+    return fail(
+        Trouble::bad_input,
+        fmt::format("The {} of the frames is {:g} us, but must be {:g} us to {:g} s. Nothing was published.", what,
+                    to_seconds(time) * 1e6, to_seconds(shortest_period) * 1e6, to_seconds(longest_period)));
 }
 
 class NetworkPublisher final : public Publisher {
@@ -24,7 +26,8 @@ class NetworkPublisher final : public Publisher {
         sample_.period = settings.period.count();
         sample_.pace = settings.pace.count();
         MOTIONRACK_TRY(participant_, join(settings.bus, settings.domain));
-        topic_ = Entity(dds_create_topic(participant_.get(), &motionrack_dds_WireSample_desc, topic_name, nullptr, nullptr));
+        topic_ =
+            Entity(dds_create_topic(participant_.get(), &motionrack_dds_WireSample_desc, topic_name, nullptr, nullptr));
         if (topic_.get() < 0) return engine_error("The frames' topic cannot be made", topic_.get());
         const Qos qos = qos_of(settings.bus, false);
         writer_ = Entity(dds_create_writer(participant_.get(), topic_.get(), qos.get(), nullptr));

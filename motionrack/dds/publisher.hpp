@@ -20,8 +20,8 @@ class Publisher {
     static Result<std::unique_ptr<Publisher>> open(const PublisherSettings& settings);
     virtual ~Publisher() = default;
 
-    /// Sends the frame; never waits for a subscriber. False if it was not sent, because its CRC is not that of its content or the network
-    /// refused it: both are counted.
+    /// Sends the frame; never waits for a subscriber. False if it was not sent, because its CRC is not that of its
+    /// content or the network refused it: both are counted.
     virtual bool publish(const Frame& frame) = 0;
     /// Looks who else publishes; a conflict's event has this publisher as `source`.
     virtual void look() = 0;

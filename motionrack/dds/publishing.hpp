@@ -12,17 +12,17 @@ namespace motionrack::dds {
 class FrameSource {
   public:
     virtual ~FrameSource() = default;
-    /// Runs until the next frame is complete and gives it; false: there are no more. A frame of 0 words: none came, it is for its time
-    /// that the loop waits. Errors: what stopped it.
+    /// Runs until the next frame is complete and gives it; false: there are no more. A frame of 0 words: none came, it
+    /// is for its time that the loop waits. Errors: what stopped it.
     virtual Result<bool> next(Frame& frame) = 0;
 };
 
 struct PublishingSettings {
-    double speed = 1;                           ///< bus time that passes in a unit of real time
-    Duration pace = microseconds(200);          ///< real time between two frames
-    std::uint64_t most = 0;                     ///< frames to publish; 0: all
-    const std::atomic<bool>* stop = nullptr;    ///< ends the loop before the next frame
-    std::function<void(const Event&)> report;   ///< is given what the publisher notices
+    double speed = 1;                                                   ///< bus time that passes in a unit of real time
+    Duration pace = microseconds(200);                                  ///< real time between two frames
+    std::uint64_t most = 0;                                             ///< frames to publish; 0: all
+    const std::atomic<bool>* stop = nullptr;                            ///< ends the loop before the next frame
+    std::function<void(const Event&)> report;                           ///< is given what the publisher notices
     std::function<void(std::uint64_t sent, Duration behind)> progress;  ///< once a frame
 };
 

@@ -1,4 +1,5 @@
-// Frames of a bus on another computer for a virtual card here: every judged frame once, in order, between two instants of the rack.
+// Frames of a bus on another computer for a virtual card here: every judged frame once, in order, between two instants
+// of the rack.
 #pragma once
 
 #include <memory>
@@ -15,9 +16,9 @@ class RemoteFeed {
     /// Is given a frame and the rack's time at which it enters.
     using Take = std::function<void(const Frame&, Instant now)>;
 
-    /// Hands over what came since the last call and may be used as position; the number of frames. Call it between two runs of the
-    /// rack's kernel, with the rack's time. A card that marks its data stale two periods after its last frame is right where the rack runs
-    /// in real time; stale() tells it by this computer's clock.
+    /// Hands over what came since the last call and may be used as position; the number of frames. Call it between two
+    /// runs of the rack's kernel, with the rack's time. A card that marks its data stale two periods after its last
+    /// frame is right where the rack runs in real time; stale() tells it by this computer's clock.
     int give(Instant now, const Take& take) {
         struct Call {
             const Take& take;

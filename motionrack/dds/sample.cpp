@@ -20,7 +20,9 @@ std::string Source::id_text() const {
     return out;
 }
 
-std::string Source::text() const { return fmt::format("{}, process {}, id {}", host_name(), process, id_text()); }
+std::string Source::text() const {
+    return fmt::format("{}, process {}, id {}", host_name(), process, id_text());
+}
 
 Source new_source() {
     Source out;
@@ -55,21 +57,27 @@ std::uint32_t check_of(const Sample& sample) {
 
 Result<void> check_bus_name(std::string_view name) {
     static constexpr std::size_t most = 64;
-    const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    const auto good = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
     if (name.empty() || name.size() > most)
-        return fail(Trouble::bad_input, fmt::format("The bus name has {} characters, but must have 1 to {}. Nothing was opened; choose another name.",
-                                                    name.size(), most));
+        return fail(
+            Trouble::bad_input,
+            fmt::format(
+                "The bus name has {} characters, but must have 1 to {}. Nothing was opened; choose another name.",
+                name.size(), most));
     const auto bad = std::find_if_not(name.begin(), name.end(), good);
     if (bad != name.end())
-        return fail(Trouble::bad_input,
-                    fmt::format("Character {} of the bus name is none of letters, digits, '_' and '-'. Nothing was opened; choose another name.",
-                                bad - name.begin() + 1));
+        return fail(Trouble::bad_input, fmt::format("Character {} of the bus name is none of letters, digits, '_' and "
+                                                    "'-'. Nothing was opened; choose another name.",
+                                                    bad - name.begin() + 1));
     return {};
 }
 
 Result<void> check_domain(int domain) {
     if (domain >= 0 && domain <= 232) return {};
-    return fail(Trouble::bad_input, fmt::format("The DDS domain is {}, but must be 0 to 232. Nothing was opened.", domain));
+    return fail(Trouble::bad_input,
+                fmt::format("The DDS domain is {}, but must be 0 to 232. Nothing was opened.", domain));
 }
 
 }  // namespace motionrack::dds

@@ -2,7 +2,8 @@
 //
 //   format | source id, host, process | period, pace | the frame: time, sequence, N, counts, CRC-32 | check
 //
-// The frame's CRC is the card's; `check` is the CRC-32 of all that stands before it but the counts, which the frame's CRC covers.
+// The frame's CRC is the card's; `check` is the CRC-32 of all that stands before it but the counts, which the frame's
+// CRC covers.
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@ namespace motionrack::dds {
 
 using grating_bus::Frame;
 
-/// Who publishes. The id is drawn when the publisher starts and tells it from every other; host and process are for people.
+/// Who publishes. The id is drawn when the publisher starts and tells it from every other; host and process are for
+/// people.
 struct Source {
     std::array<std::uint8_t, 16> id{};
     std::array<char, 64> host{};  ///< printable, the rest 0

@@ -13,7 +13,8 @@ namespace {
 
 class NetworkSubscriber final : public Subscriber {
   public:
-    explicit NetworkSubscriber(const SubscriberSettings& settings) : Subscriber(settings.judge), ring_(std::max<std::size_t>(settings.queue, 1)) {}
+    explicit NetworkSubscriber(const SubscriberSettings& settings)
+        : Subscriber(settings.judge), ring_(std::max<std::size_t>(settings.queue, 1)) {}
 
     Result<void> start(const SubscriberSettings& settings) {
         dds_entity_t participant = settings.participant;
@@ -24,8 +25,11 @@ class NetworkSubscriber final : public Subscriber {
         topic_ = Entity(dds_create_topic(participant, &motionrack_dds_WireSample_desc, topic_name, nullptr, nullptr));
         if (topic_.get() < 0) return engine_error("The frames' topic cannot be made", topic_.get());
         const Qos qos = qos_of(settings.bus, settings.other_participants_only);
-        const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this), dds_delete_listener);
-        dds_lset_data_available(listener.get(), [](dds_entity_t reader, void* self) { static_cast<NetworkSubscriber*>(self)->receive(reader); });
+        const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
+                                                                                  dds_delete_listener);
+        dds_lset_data_available(listener.get(), [](dds_entity_t reader, void* self) {
+            static_cast<NetworkSubscriber*>(self)->receive(reader);
+        });
         reader_ = Entity(dds_create_reader(participant, topic_.get(), qos.get(), listener.get()));
         if (reader_.get() < 0) return engine_error("Frames cannot be heard", reader_.get());
         return {};
@@ -46,7 +50,8 @@ class NetworkSubscriber final : public Subscriber {
 
     bool wait(Duration timeout) override {
         std::unique_lock lock(mutex_);
-        arrived_.wait_for(lock, std::chrono::duration_cast<std::chrono::nanoseconds>(timeout), [this] { return count_ > 0; });
+        arrived_.wait_for(lock, std::chrono::duration_cast<std::chrono::nanoseconds>(timeout),
+                          [this] { return count_ > 0; });
         return count_ > 0;
     }
 

@@ -1,5 +1,5 @@
-// A listener on a bus: takes frames from the network as they come and has them judged when it is polled. It has no writer and asks for no
-// repetition, so that it cannot disturb the publisher or anyone else.
+// A listener on a bus: takes frames from the network as they come and has them judged when it is polled. It has no
+// writer and asks for no repetition, so that it cannot disturb the publisher or anyone else.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,8 @@ struct SubscriberSettings {
     std::string bus = "stage";
     int domain = 0;
     JudgeSettings judge;
-    std::size_t queue = 1024;  ///< samples that may wait between two polls; more are dropped, the oldest first, and counted
+    std::size_t queue =
+        1024;  ///< samples that may wait between two polls; more are dropped, the oldest first, and counted
     bool other_participants_only = false;  ///< for a publisher that listens whether it is alone
     int participant = 0;                   ///< the engine's participant to use; 0: one of its own
 };

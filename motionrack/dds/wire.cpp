@@ -11,7 +11,8 @@ void WireBuffer::put(const Sample& sample) {
     MOTIONRACK_ASSERT(sample.frame.words <= grating_bus::most_scales);
     wire_.format = sample.format;
     std::copy(sample.source.id.begin(), sample.source.id.end(), wire_.source);
-    std::transform(sample.source.host.begin(), sample.source.host.end(), wire_.host, [](char c) { return static_cast<std::uint8_t>(c); });
+    std::transform(sample.source.host.begin(), sample.source.host.end(), wire_.host,
+                   [](char c) { return static_cast<std::uint8_t>(c); });
     wire_.process = sample.source.process;
     wire_.period = sample.period;
     wire_.pace = sample.pace;
@@ -26,7 +27,8 @@ void WireBuffer::put(const Sample& sample) {
 void WireBuffer::get(Sample& sample) const {
     sample.format = wire_.format;
     std::copy(std::begin(wire_.source), std::end(wire_.source), sample.source.id.begin());
-    std::transform(std::begin(wire_.host), std::end(wire_.host), sample.source.host.begin(), [](std::uint8_t c) { return static_cast<char>(c); });
+    std::transform(std::begin(wire_.host), std::end(wire_.host), sample.source.host.begin(),
+                   [](std::uint8_t c) { return static_cast<char>(c); });
     sample.source.process = wire_.process;
     sample.period = wire_.period;
     sample.pace = wire_.pace;
@@ -40,15 +42,19 @@ void WireBuffer::get(Sample& sample) const {
 }
 
 tl::unexpected<Error> engine_error(const char* what, dds_return_t code) {
-    return fail(Trouble::io, fmt::format("{}: {} (code {}). Nothing was opened; look at the network interfaces and at what CYCLONEDDS_URI names.", what,
-                                         dds_strretcode(code), code));
+    return fail(
+        Trouble::io,
+        fmt::format(
+            "{}: {} (code {}). Nothing was opened; look at the network interfaces and at what CYCLONEDDS_URI names.",
+            what, dds_strretcode(code), code));
 }
 
 Result<Entity> join(const std::string& bus, int domain) {
     MOTIONRACK_CHECK(check_bus_name(bus));
     MOTIONRACK_CHECK(check_domain(domain));
     Entity participant(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr));
-    if (participant.get() < 0) return engine_error(fmt::format("DDS domain {} cannot be joined", domain).c_str(), participant.get());
+    if (participant.get() < 0)
+        return engine_error(fmt::format("DDS domain {} cannot be joined", domain).c_str(), participant.get());
     return participant;
 }
 

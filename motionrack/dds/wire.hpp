@@ -53,7 +53,8 @@ class Entity {
 
 /// A participant in a domain; what else is made belongs to it and goes with it. Errors: bad_input, io.
 Result<Entity> join(const std::string& bus, int domain);
-/// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader does not hear this participant's writers.
+/// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader does not hear this participant's
+/// writers.
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 Qos qos_of(const std::string& bus, bool ignore_own);
 /// `code` as an error. What: "The frames' topic cannot be made".

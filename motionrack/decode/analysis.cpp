@@ -34,13 +34,16 @@ class ChannelRun {
         std::uint64_t known = 0;
         for (const int line : lines_.at)
             if (line >= 0) known = std::max(known, capture.facts(static_cast<std::size_t>(line)).known_from);
-        const std::size_t begin = known <= number + from ? from : known >= number + to ? to : static_cast<std::size_t>(known - number);
+        const std::size_t begin = known <= number + from ? from
+                                  : known >= number + to ? to
+                                                         : static_cast<std::size_t>(known - number);
         if (begin > from) decoder_.skip(begin - from);
         if (begin == to) return;
         if (!begun_) begun_ = number + begin;
         if (block.bytes) {
             const auto bit = [&](std::size_t i) {
-                return lines_.at[i] < 0 ? -1 : static_cast<int>(capture.chosen()[static_cast<std::size_t>(lines_.at[i])]);
+                return lines_.at[i] < 0 ? -1
+                                        : static_cast<int>(capture.chosen()[static_cast<std::size_t>(lines_.at[i])]);
             };
             decoder_.bytes(block.bytes + begin, to - begin, {bit(0), bit(1), bit(2)});
             return;
@@ -135,7 +138,8 @@ void Run::feed(const Block& block) {
         const std::int64_t end = window_begin_ + window_;
         std::size_t to = block.samples;
         if (block.times)
-            to = static_cast<std::size_t>(std::lower_bound(block.times + from, block.times + block.samples, end) - block.times);
+            to = static_cast<std::size_t>(std::lower_bound(block.times + from, block.times + block.samples, end) -
+                                          block.times);
         else if (static_cast<std::uint64_t>(end) < number_ + block.samples)
             to = static_cast<std::size_t>(static_cast<std::uint64_t>(end) - number_);
         if (to > from)
@@ -162,10 +166,12 @@ void Run::tell_times(const Block& block) {
             const IndexEvent& event = indexes[run.indexes.size()];
             run.indexes.push_back({event.sample, seconds_of(ticks_of(block, event.sample)), event.count});
         }
-        if (const auto begun = run.begun(); begun && *begun >= number_) run.begun_s = seconds_of(ticks_of(block, *begun));
+        if (const auto begun = run.begun(); begun && *begun >= number_)
+            run.begun_s = seconds_of(ticks_of(block, *begun));
     }
     for (std::size_t line = 0; line < line_from_s_.size(); ++line)
-        if (const std::uint64_t from = capture_.facts(line).known_from; from >= number_ && from < number_ + block.samples)
+        if (const std::uint64_t from = capture_.facts(line).known_from;
+            from >= number_ && from < number_ + block.samples)
             line_from_s_[line] = seconds_of(ticks_of(block, from));
 }
 
@@ -196,8 +202,12 @@ ChannelResult Run::result_of(const ChannelChoice& choice, const ChannelRun& run)
 Result<Analysis> Run::all() {
     const double ticks = settings_.window_s / capture_.tick_s();
     if (!(settings_.window_s > 0) || !(ticks < 1e18))
-        return fail(Trouble::refused, fmt::format("A window of {} s for the peak speed: it must be more than 0 and less than 1e18 samples or ticks. "
-                                                  "Nothing was decoded.", settings_.window_s));
+        return fail(
+            Trouble::refused,
+            fmt::format(
+                "A window of {} s for the peak speed: it must be more than 0 and less than 1e18 samples or ticks. "
+                "Nothing was decoded.",
+                settings_.window_s));
     window_ = std::max<std::int64_t>(1, std::llround(ticks));
     choose();
     Analysis out;
@@ -210,7 +220,9 @@ Result<Analysis> Run::all() {
         tell_times(block);
         number_ += block.samples;
         if (settings_.progress)
-            settings_.progress(capture_.bytes_total() == 0 ? -1 : static_cast<double>(capture_.bytes_read()) / static_cast<double>(capture_.bytes_total()));
+            settings_.progress(capture_.bytes_total() == 0 ? -1
+                                                           : static_cast<double>(capture_.bytes_read()) /
+                                                                 static_cast<double>(capture_.bytes_total()));
         out.stopped = settings_.stop && settings_.stop();
         if (out.stopped) break;
     }
@@ -227,7 +239,8 @@ Result<Analysis> Run::all() {
 
 }  // namespace
 
-Result<Analysis> analyse(Capture& capture, const std::vector<ChannelChoice>& choices, const AnalysisSettings& settings) {
+Result<Analysis> analyse(Capture& capture, const std::vector<ChannelChoice>& choices,
+                         const AnalysisSettings& settings) {
     return Run(capture, choices, settings).all();
 }
 

@@ -34,8 +34,8 @@ struct Peak {
 
 struct LineNote {
     std::string signal;
-    std::uint64_t unknown = 0;   ///< how often the line was X or Z
-    std::string first_unknown;   ///< where first
+    std::uint64_t unknown = 0;     ///< how often the line was X or Z
+    std::string first_unknown;     ///< where first
     std::optional<double> from_s;  ///< where its first level is, if that is not the first sample; NaN: nowhere
 };
 
@@ -43,8 +43,8 @@ struct ChannelResult {
     std::string name, a, b, z;  ///< z: "" if there is none
     std::int64_t count = 0;
     std::uint64_t up = 0, down = 0, illegal = 0, indexes = 0;
-    double seconds = 0;       ///< from the channel's first sample to the last
-    double mean_per_s = 0;    ///< count / seconds; 0 if there is no time
+    double seconds = 0;        ///< from the channel's first sample to the last
+    double mean_per_s = 0;     ///< count / seconds; 0 if there is no time
     std::optional<Peak> peak;  ///< none if the capture is shorter than a window
     std::vector<IllegalAt> first_illegal;
     std::vector<IndexAt> first_indexes;

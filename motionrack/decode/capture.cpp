@@ -57,7 +57,8 @@ constexpr std::string_view sigrok_begin = "META samplerate: ";
 /// The line that sigrok-cli puts before binary samples, with its end; "" if it is not there.
 std::string_view sigrok_line(std::string_view head) {
     const std::size_t end = head.substr(0, 64).find('\n');
-    return head.starts_with(sigrok_begin) && end != std::string_view::npos ? head.substr(0, end + 1) : std::string_view();
+    return head.starts_with(sigrok_begin) && end != std::string_view::npos ? head.substr(0, end + 1)
+                                                                           : std::string_view();
 }
 
 Format guess(const std::string& name, std::string_view head) {
@@ -79,25 +80,33 @@ const char* name_of(Format format) {
     return "";
 }
 
-Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings) {
+Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name,
+                                              const CaptureSettings& settings) {
     auto looked = std::make_unique<Looked>(std::move(source));
     MOTIONRACK_TRY(const std::string_view head, looked->look());
     if (head.empty()) return fail(Trouble::bad_input, "The file is empty. Nothing was decoded.", {}, name);
     const Format format = settings.format == Format::automatic ? guess(name, head) : settings.format;
     if (settings.format != Format::raw && head.rfind("PK\3\4", 0) == 0)
-        return fail(Trouble::bad_input, "This is a packed file (a session of sigrok or Saleae?). Nothing was decoded; make a VCD file of it, for instance with "
-                                        "sigrok-cli -i in.sr -O vcd -o out.vcd.", {}, name);
+        return fail(Trouble::bad_input,
+                    "This is a packed file (a session of sigrok or Saleae?). Nothing was decoded; make a VCD file of "
+                    "it, for instance with "
+                    "sigrok-cli -i in.sr -O vcd -o out.vcd.",
+                    {}, name);
     if (format == Format::raw && !sigrok_line(head).empty()) {
-        const std::string_view line = sigrok_line(head), said = line.substr(sigrok_begin.size(), line.size() - sigrok_begin.size() - 1);
+        const std::string_view line = sigrok_line(head),
+                               said = line.substr(sigrok_begin.size(), line.size() - sigrok_begin.size() - 1);
         CaptureSettings told = settings;
         if (const auto rate = read_rate(said); rate && !(told.sample_rate_hz > 0)) told.sample_rate_hz = *rate;
         looked->skip(line.size());
         return open_raw(std::move(looked), name, told);
     }
     switch (format) {
-        case Format::vcd: return open_vcd(std::move(looked), name);
-        case Format::raw: return open_raw(std::move(looked), name, settings);
-        default: return open_csv(std::move(looked), name, settings);
+        case Format::vcd:
+            return open_vcd(std::move(looked), name);
+        case Format::raw:
+            return open_raw(std::move(looked), name, settings);
+        default:
+            return open_csv(std::move(looked), name, settings);
     }
 }
 
@@ -111,7 +120,10 @@ Result<double> read_rate(std::string_view text) {
     const double factor = unit.empty() ? 1 : unit == "k" ? 1e3 : unit == "m" ? 1e6 : unit == "g" ? 1e9 : 0;
     const double rate = number * factor;
     if (bad != std::errc() || !(rate >= 1e-3 && rate <= 1e12))
-        return fail(Trouble::bad_input, fmt::format("'{}' is no sample rate: a number with k, M or G, as 24M or 500 kHz, from 0.001 to 1000 G.", text.substr(0, 40)));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("'{}' is no sample rate: a number with k, M or G, as 24M or 500 kHz, from 0.001 to 1000 G.",
+                        text.substr(0, 40)));
     return rate;
 }
 

@@ -1,11 +1,13 @@
-// Captures of logic analysers: which lines there are, and their levels block by block, so that any size fits into memory.
+// Captures of logic analysers: which lines there are, and their levels block by block, so that any size fits into
+// memory.
 //
 //   VCD   every instant at which a chosen line changes is a sample, with its time (sigrok, PulseView, GTKWave, Motionrack)
 //   CSV   every row is a sample; with a time column, or at the sample rate (sigrok-cli, Saleae)
 //   raw   1 to 8 bytes a sample, the lowest first, a line a bit, at the sample rate
 //
-// A line that is X or Z keeps its last level, and that is counted. Time that goes backwards and rows that do not fit are
-// refused with their line; a file that is cut off is decoded to its last whole sample, and `cut` says where it ends.
+// A line that is X or Z keeps its last level, and that is counted. Time that goes backwards and rows that do not fit
+// are refused with their line; a file that is cut off is decoded to its last whole sample, and `cut` says where it
+// ends.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +29,8 @@ struct CaptureSettings {
     int sample_bytes = 1;               ///< raw: 1 .. 8
 };
 
-/// Samples of the chosen lines. Planes (one for each chosen line, bit i of word w is sample 64 w + i) or, from a raw file of
-/// one byte a sample, `bytes`.
+/// Samples of the chosen lines. Planes (one for each chosen line, bit i of word w is sample 64 w + i) or, from a raw
+/// file of one byte a sample, `bytes`.
 struct Block {
     std::size_t samples = 0;
     std::vector<const std::uint64_t*> planes;
@@ -94,15 +96,18 @@ class Capture {
 };
 
 /// Reads the head of a capture. `name`: for messages and to guess the format. Errors: bad_input with its place, io.
-Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings);
+Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name,
+                                              const CaptureSettings& settings);
 
 /// A sample rate as people write it: "24000000", "24M", "24 MHz", "500k", "1e6". Errors: bad_input.
 Result<double> read_rate(std::string_view text);
 
-// ---- one reader each ------------------------------------------------------------------------------------------------
+// ---- one reader each
 
 Result<std::unique_ptr<Capture>> open_vcd(std::unique_ptr<Source> source, const std::string& name);
-Result<std::unique_ptr<Capture>> open_csv(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings);
-Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings);
+Result<std::unique_ptr<Capture>> open_csv(std::unique_ptr<Source> source, const std::string& name,
+                                          const CaptureSettings& settings);
+Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const std::string& name,
+                                          const CaptureSettings& settings);
 
 }  // namespace motionrack::decode

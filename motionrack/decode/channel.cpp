@@ -1,4 +1,5 @@
-// Sampled lines are cut into chunks that stay in the first cache; only a chunk in which something rare happened is looked at again.
+// Sampled lines are cut into chunks that stay in the first cache; only a chunk in which something rare happened is
+// looked at again.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -19,7 +20,9 @@ std::uint64_t filled(std::uint64_t word, std::size_t size) {
     return (word >> (size - 1) & 1U) != 0 ? word | ~there : word & there;
 }
 
-std::uint64_t level(std::uint8_t byte, int bit) { return byte >> bit & 1U; }
+std::uint64_t level(std::uint8_t byte, int bit) {
+    return byte >> bit & 1U;
+}
 
 }  // namespace
 
@@ -38,7 +41,8 @@ void ChannelDecoder::bytes(const std::uint8_t* samples, std::size_t size, const 
     const auto decode = [&](const std::uint8_t* from, std::size_t words, std::size_t count) {
         kernels_->split_pair(from, words, {lines.a, lines.b}, a.data(), b.data());
         const auto mask = static_cast<std::uint8_t>(lines.z < 0 ? 0U : 1U << lines.z);
-        const bool quiet = lines.z < 0 || kernels_->steady(from, words, mask, static_cast<std::uint8_t>(last_z_ != 0 ? mask : 0));
+        const bool quiet =
+            lines.z < 0 || kernels_->steady(from, words, mask, static_cast<std::uint8_t>(last_z_ != 0 ? mask : 0));
         if (!quiet) kernels_->split(from, words, lines.z, z.data());
         this->words(a.data(), b.data(), quiet ? nullptr : z.data(), words, count);
     };
@@ -65,12 +69,14 @@ void ChannelDecoder::planes(const std::uint64_t* a, const std::uint64_t* b, cons
     }
     const std::size_t rest = size % 64;
     if (rest == 0) return;
-    const std::uint64_t last_a = filled(a[at], rest), last_b = filled(b[at], rest), last_z = z ? filled(z[at], rest) : 0;
+    const std::uint64_t last_a = filled(a[at], rest), last_b = filled(b[at], rest),
+                        last_z = z ? filled(z[at], rest) : 0;
     words(&last_a, &last_b, z ? &last_z : nullptr, 1, rest);
 }
 
 /// Whole words, of which `size` samples are new.
-void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words, std::size_t size) {
+void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words,
+                           std::size_t size) {
     const Sums sums = kernels_->tally(a, b, words, last_);
     if (sums.illegal != 0) find_illegal(a, b, words);
     if (z && index_in(z, words)) find_indexes(a, b, z, words);
@@ -98,7 +104,8 @@ void ChannelDecoder::find_illegal(const std::uint64_t* a, const std::uint64_t* b
 }
 
 /// Between two index events the words are tallied as anywhere else.
-void ChannelDecoder::find_indexes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words) {
+void ChannelDecoder::find_indexes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z,
+                                  std::size_t words) {
     const auto before = [&](std::size_t w) { return w == 0 ? last_ : Levels{a[w - 1] >> 63, b[w - 1] >> 63}; };
     std::int64_t count = this->count();
     for (std::size_t w = 0, counted = 0; w < words; ++w) {
@@ -118,7 +125,8 @@ void ChannelDecoder::keep_illegal(std::uint64_t mask, std::uint64_t sample) {
 }
 
 /// `count`: before the word, whose first sample is `sample`.
-void ChannelDecoder::keep_indexes(std::uint64_t edges, const WordMasks& masks, std::int64_t count, std::uint64_t sample) {
+void ChannelDecoder::keep_indexes(std::uint64_t edges, const WordMasks& masks, std::int64_t count,
+                                  std::uint64_t sample) {
     indexes_ += static_cast<std::uint64_t>(std::popcount(edges));
     for (; edges != 0 && index_events_.size() < settings_.indexes_kept; edges &= edges - 1) {
         const std::uint64_t lowest = edges & (0 - edges), until = lowest | (lowest - 1);

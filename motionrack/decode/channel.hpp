@@ -4,8 +4,8 @@
 //     x.bytes(samples.data(), samples.size(), {0, 1, 2});   // A, B, Z in bits 0, 1, 2 of each byte
 //     x.count();                                            // x4; blocks of any length, one after the other
 //
-// A leads B counts up; both lines changed in one sample is illegal: not counted, the new levels are kept. The first sample only
-// sets the levels. An index event is a rising edge of Z; its count is the one after its own sample.
+// A leads B counts up; both lines changed in one sample is illegal: not counted, the new levels are kept. The first
+// sample only sets the levels. An index event is a rising edge of Z; its count is the one after its own sample.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,8 @@ class ChannelDecoder {
 
     /// `size` samples, one a byte.
     void bytes(const std::uint8_t* samples, std::size_t size, const Lines& lines);
-    /// `size` samples as bit planes: bit i of word w is sample 64 w + i; what is behind the last one does not matter. z may be null.
+    /// `size` samples as bit planes: bit i of word w is sample 64 w + i; what is behind the last one does not matter. z
+    /// may be null.
     void planes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t size);
     /// `size` samples without a channel: they only move the numbers of later samples.
     void skip(std::uint64_t size) { samples_ += size; }
@@ -59,7 +60,8 @@ class ChannelDecoder {
 
   private:
     void begin(std::uint64_t a, std::uint64_t b, std::uint64_t z);
-    void words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words, std::size_t size);
+    void words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words,
+               std::size_t size);
     bool index_in(const std::uint64_t* z, std::size_t words) const;
     void find_illegal(const std::uint64_t* a, const std::uint64_t* b, std::size_t words);
     void find_indexes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words);
@@ -88,7 +90,9 @@ class FourChannelDecoder {
     void bytes(const std::uint8_t* samples, std::size_t size);
 
     /// `channel`: 0 .. 3.
-    std::int64_t count(std::size_t channel) const { return static_cast<std::int64_t>(sums_[channel].up - sums_[channel].down); }
+    std::int64_t count(std::size_t channel) const {
+        return static_cast<std::int64_t>(sums_[channel].up - sums_[channel].down);
+    }
     const Sums& sums(std::size_t channel) const { return sums_[channel]; }
 
   private:

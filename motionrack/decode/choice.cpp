@@ -16,7 +16,10 @@ constexpr std::size_t most_channels = 64;
 /// "X.Enc A" and "x_enc_a" are one name.
 std::string plain(std::string_view name) {
     std::string out;
-    for (const char c : name) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c == '.' || c == ' ' || c == '/' || c == '-' ? '_' : c;
+    for (const char c : name)
+        out += c >= 'A' && c <= 'Z'                           ? static_cast<char>(c - 'A' + 'a')
+               : c == '.' || c == ' ' || c == '/' || c == '-' ? '_'
+                                                              : c;
     return out;
 }
 
@@ -43,11 +46,13 @@ Result<std::size_t> find_signal(const std::vector<std::string>& signals, std::st
         if (ends_with_name(plain(signals[i]), wanted)) fitting.push_back(signals[i]), last = i;
     if (fitting.size() == 1) return last;
     if (fitting.size() > 1)
-        return fail(Trouble::bad_input, fmt::format("'{}' may be {}. Nothing was decoded; write more of the name.", text, listed(fitting)));
+        return fail(Trouble::bad_input,
+                    fmt::format("'{}' may be {}. Nothing was decoded; write more of the name.", text, listed(fitting)));
     std::size_t number = 0;
     const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (bad == std::errc() && end == text.data() + text.size() && number < signals.size()) return number;
-    return fail(Trouble::bad_input, fmt::format("The capture has no line '{}'. Nothing was decoded; its lines are: {}.", text, listed(signals)));
+    return fail(Trouble::bad_input, fmt::format("The capture has no line '{}'. Nothing was decoded; its lines are: {}.",
+                                                text, listed(signals)));
 }
 
 Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const std::string& text) {
@@ -59,7 +64,11 @@ Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const
         at = comma + 1;
     }
     if (equal == 0 || lines.size() < 2 || lines.size() > 3 || std::count(lines.begin(), lines.end(), "") > 0)
-        return fail(Trouble::bad_input, fmt::format("'{}' names no channel: write X=A,B or X=A,B,Z with the lines' names or numbers. Nothing was decoded.", text));
+        return fail(
+            Trouble::bad_input,
+            fmt::format(
+                "'{}' names no channel: write X=A,B or X=A,B,Z with the lines' names or numbers. Nothing was decoded.",
+                text));
     ChannelChoice choice;
     choice.name = text.substr(0, equal);
     MOTIONRACK_TRY(choice.a, find_signal(signals, lines[0]));
@@ -101,28 +110,38 @@ std::vector<ChannelChoice> named_like(const std::vector<std::string>& signals, c
     }
     std::vector<ChannelChoice> out;
     for (const std::string& key : order)
-        if (const Found& channel = found[key]; channel.a && channel.b) out.push_back({channel.name, *channel.a, *channel.b, channel.z});
+        if (const Found& channel = found[key]; channel.a && channel.b)
+            out.push_back({channel.name, *channel.a, *channel.b, channel.z});
     return out;
 }
 
 }  // namespace
 
-Result<std::vector<ChannelChoice>> choose_channels(const std::vector<std::string>& signals, const std::vector<std::string>& texts) {
+Result<std::vector<ChannelChoice>> choose_channels(const std::vector<std::string>& signals,
+                                                   const std::vector<std::string>& texts) {
     std::vector<ChannelChoice> out;
     for (const std::string& text : texts) {
         MOTIONRACK_TRY(ChannelChoice choice, read_choice(signals, text));
         for (const ChannelChoice& other : out)
             if (other.name == choice.name)
-                return fail(Trouble::bad_input, fmt::format("There are two channels '{}'. Nothing was decoded; give each another name.", choice.name));
+                return fail(Trouble::bad_input,
+                            fmt::format("There are two channels '{}'. Nothing was decoded; give each another name.",
+                                        choice.name));
         out.push_back(std::move(choice));
     }
     for (const char* before : {"enc_", ""})
         if (out.empty() && texts.empty()) out = named_like(signals, before);
     if (out.empty())
-        return fail(Trouble::bad_input, fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, X.enc_z). Nothing was decoded; say which they "
-                                                    "are with --channel X=A,B,Z. The lines are: {}.", listed(signals)));
+        return fail(Trouble::bad_input, fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, "
+                                                    "X.enc_z). Nothing was decoded; say which they "
+                                                    "are with --channel X=A,B,Z. The lines are: {}.",
+                                                    listed(signals)));
     if (out.size() > most_channels)
-        return fail(Trouble::refused, fmt::format("{} channels: up to {} can be decoded at once. Nothing was decoded; choose some with --channel.", out.size(), most_channels));
+        return fail(
+            Trouble::refused,
+            fmt::format(
+                "{} channels: up to {} can be decoded at once. Nothing was decoded; choose some with --channel.",
+                out.size(), most_channels));
     return out;
 }
 

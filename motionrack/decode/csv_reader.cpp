@@ -45,14 +45,20 @@ std::string lower(std::string_view text) {
 /// Seconds of the unit of a column that is a time, by its name; 0 if it is none.
 double time_unit(std::string_view cell) {
     const std::string name = lower(cell);
-    static constexpr std::array<std::pair<std::string_view, double>, 5> sigrok = {
-        {{"seconds", 1}, {"milliseconds", 1e-3}, {"microseconds", 1e-6}, {"nanoseconds", 1e-9}, {"picoseconds", 1e-12}}};
+    static constexpr std::array<std::pair<std::string_view, double>, 5> sigrok = {{{"seconds", 1},
+                                                                                   {"milliseconds", 1e-3},
+                                                                                   {"microseconds", 1e-6},
+                                                                                   {"nanoseconds", 1e-9},
+                                                                                   {"picoseconds", 1e-12}}};
     for (const auto& [unit, seconds] : sigrok)
         if (name == unit) return seconds;
-    if (name != "t" && name.rfind("time", 0) != 0 && name.rfind("t ", 0) != 0 && name.rfind("t_", 0) != 0 && name.rfind("t[", 0) != 0) return 0;
+    if (name != "t" && name.rfind("time", 0) != 0 && name.rfind("t ", 0) != 0 && name.rfind("t_", 0) != 0 &&
+        name.rfind("t[", 0) != 0)
+        return 0;
     const auto has = [&](std::string_view unit) {
         const std::size_t at = name.rfind(unit);
-        return at != std::string::npos && at > 0 && std::string_view("[(_ ").find(name[at - 1]) != std::string_view::npos &&
+        return at != std::string::npos && at > 0 &&
+               std::string_view("[(_ ").find(name[at - 1]) != std::string_view::npos &&
                name.find_first_of("abcdefghijklmnopqrstuvwxyz", at + unit.size()) == std::string::npos;
     };
     return has("ms") ? 1e-3 : has("us") || has("\xC2\xB5s") ? 1e-6 : has("ns") ? 1e-9 : has("ps") ? 1e-12 : 1;
@@ -60,7 +66,8 @@ double time_unit(std::string_view cell) {
 
 class CsvCapture final : public Capture {
   public:
-    CsvCapture(std::unique_ptr<Source> source, const std::string& name) : Capture(std::move(source), name), text_(*source_) {
+    CsvCapture(std::unique_ptr<Source> source, const std::string& name)
+        : Capture(std::move(source), name), text_(*source_) {
         format_ = Format::csv;
     }
     Result<void> read_head(double rate_hz);
@@ -87,7 +94,7 @@ class CsvCapture final : public Capture {
     Sampler sampler_;
     std::vector<Row> waiting_;  ///< rows read to learn what the columns are, the last first
     std::vector<std::string_view> cells_;
-    std::vector<std::string> named_;  ///< by sigrok's comment
+    std::vector<std::string> named_;    ///< by sigrok's comment
     std::vector<std::size_t> columns_;  ///< of each chosen line
     char separator_ = ',';
     std::size_t width_ = 0;  ///< columns
@@ -153,7 +160,8 @@ Result<void> CsvCapture::read_head(double rate_hz) {
     }
     split(rows[0].text);
     width_ = cells_.size();
-    if (width_ > most_columns) return refuse(fmt::format("A row has more than {} columns. Nothing was decoded.", most_columns), rows[0].place);
+    if (width_ > most_columns)
+        return refuse(fmt::format("A row has more than {} columns. Nothing was decoded.", most_columns), rows[0].place);
     const bool head = std::any_of(cells_.begin(), cells_.end(), [](std::string_view cell) {
         return level_of(cell) == 0 && cell.find_first_not_of("0123456789+-.,eE") != std::string_view::npos;
     });
@@ -169,7 +177,10 @@ Result<void> CsvCapture::read_head(double rate_hz) {
     if (signals_.empty()) return refuse("The file has no column that is a line. Nothing was decoded.", {1, 1});
     if (rate_hz > 0) rate_hz_ = rate_hz;
     if (!timed_ && !(rate_hz_ > 0))
-        return refuse("The file has no times and does not say how fast it was sampled. Nothing was decoded; say --sample-rate 1M, for instance.", {});
+        return refuse(
+            "The file has no times and does not say how fast it was sampled. Nothing was decoded; say --sample-rate "
+            "1M, for instance.",
+            {});
     tick_s_ = timed_ ? tick : 1 / rate_hz_;
     waiting_.assign(rows.rbegin(), rows.rend());
     return {};
@@ -178,13 +189,15 @@ Result<void> CsvCapture::read_head(double rate_hz) {
 /// The cells are the names of columns.
 Result<void> CsvCapture::take_head() {
     if (cells_.size() == 3 && time_unit(cells_[0]) > 0 && cells_[1] == "signal" && cells_[2] == "value")
-        return refuse("This is a list of changes, a signal a row. Nothing was decoded; record a VCD file instead.", {1, 1});
+        return refuse("This is a list of changes, a signal a row. Nothing was decoded; record a VCD file instead.",
+                      {1, 1});
     const double unit = time_unit(cells_[0]);
     timed_ = unit > 0;
     unit_s_ = timed_ ? unit : 1;
     first_ = timed_ || cells_[0] == "samples" ? 1 : 0;
     for (std::size_t i = first_; i < width_; ++i)
-        signals_.emplace_back(cells_[i] == "logic" && named_.size() == width_ - first_ ? named_[i - first_] : std::string(cells_[i]));
+        signals_.emplace_back(cells_[i] == "logic" && named_.size() == width_ - first_ ? named_[i - first_]
+                                                                                       : std::string(cells_[i]));
     return {};
 }
 
@@ -212,9 +225,13 @@ Result<std::int64_t> CsvCapture::time_of(std::string_view cell, Place place) con
     const char* const first = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
     const auto [end, bad] = std::from_chars(first, text.data() + text.size(), time);
     const double seconds = time * unit_s_;
-    if (bad != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) || std::fabs(seconds) > longest_s)
-        return refuse(fmt::format("'{}' is no time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.", text.substr(0, 40), longest_s),
-                      place);
+    if (bad != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) ||
+        std::fabs(seconds) > longest_s)
+        return refuse(
+            fmt::format(
+                "'{}' is no time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.",
+                text.substr(0, 40), longest_s),
+            place);
     return std::llround(seconds / tick);
 }
 
@@ -222,20 +239,27 @@ Result<void> CsvCapture::take(const Row& row) {
     split(row.text);
     if (cells_.size() == width_ + 1 && cells_.back().empty()) cells_.pop_back();
     if (cells_.size() != width_)
-        return refuse(fmt::format("The row has {} columns, the first row {}. Nothing more was decoded.", cells_.size(), width_), row.place);
+        return refuse(
+            fmt::format("The row has {} columns, the first row {}. Nothing more was decoded.", cells_.size(), width_),
+            row.place);
     std::int64_t time = 0;
     if (timed_) {
         MOTIONRACK_TRY(time, time_of(cells_[0], row.place));
         if (begun_ && time < now_)
-            return refuse(fmt::format("Time goes backwards, from {} s to {} s. Nothing more was decoded; the file is damaged or is two files.",
-                                      static_cast<double>(now_) * tick, static_cast<double>(time) * tick), row.place);
+            return refuse(fmt::format("Time goes backwards, from {} s to {} s. Nothing more was decoded; the file is "
+                                      "damaged or is two files.",
+                                      static_cast<double>(now_) * tick, static_cast<double>(time) * tick),
+                          row.place);
     }
     for (std::size_t line = 0; line < columns_.size(); ++line) {
         const std::string_view cell = cells_[columns_[line]];
         const char level = level_of(cell);
         if (level == 0)
-            return refuse(fmt::format("Column {} holds '{}'; a level is 0, 1, x or z. Nothing more was decoded; export digital lines.", columns_[line] + 1,
-                                      cell.substr(0, 40)), row.place);
+            return refuse(
+                fmt::format(
+                    "Column {} holds '{}'; a level is 0, 1, x or z. Nothing more was decoded; export digital lines.",
+                    columns_[line] + 1, cell.substr(0, 40)),
+                row.place);
         if (level != 'x')
             sampler_.set(line, level == '1', facts_[line]);
         else if (sampler_.lose(line, facts_[line]) && facts_[line].unknown == 1)
@@ -260,7 +284,8 @@ Result<bool> CsvCapture::next(Block& block) {
         const Result<void> done = take(row);
         if (done) continue;
         if (!row.cut) return tl::unexpected(done.error());
-        cut_ = Error{Trouble::bad_input, "The file ends inside a row: it is cut off. The rows before that were decoded.", name_, row.place};
+        cut_ = Error{Trouble::bad_input,
+                     "The file ends inside a row: it is cut off. The rows before that were decoded.", name_, row.place};
     }
     if (sampler_.waiting() == 0) return false;
     sampler_.hand_over(block, timed_);
@@ -269,7 +294,8 @@ Result<bool> CsvCapture::next(Block& block) {
 
 }  // namespace
 
-Result<std::unique_ptr<Capture>> open_csv(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings) {
+Result<std::unique_ptr<Capture>> open_csv(std::unique_ptr<Source> source, const std::string& name,
+                                          const CaptureSettings& settings) {
     auto capture = std::make_unique<CsvCapture>(std::move(source), name);
     MOTIONRACK_CHECK(capture->read_head(settings.sample_rate_hz));
     return capture;

@@ -14,6 +14,8 @@ const std::vector<Kernels>& available_kernels() {
     return all;
 }
 
-const Kernels& best_kernels() { return available_kernels().back(); }
+const Kernels& best_kernels() {
+    return available_kernels().back();
+}
 
 }  // namespace motionrack::decode

@@ -1,6 +1,7 @@
 // The inner loops of the decoder, once for each kind of CPU; all give the same numbers.
 //
-// Samples of one line stand in a bit plane: bit i of word w is sample 64 w + i. With the lines one sample earlier (pa, pb):
+// Samples of one line stand in a bit plane: bit i of word w is sample 64 w + i. With the lines one sample earlier (pa,
+// pb):
 //
 //     one = a ^ pa ^ b ^ pb         exactly one line has changed: a count
 //     up  = one & (a ^ pb)          A leads B;  the rest of `one` is down

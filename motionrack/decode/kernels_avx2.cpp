@@ -12,12 +12,15 @@ namespace motionrack::decode {
 
 namespace {
 
-[[gnu::target("avx2,popcnt")]] inline __m256i load(const void* at) { return _mm256_loadu_si256(static_cast<const __m256i*>(at)); }
+[[gnu::target("avx2,popcnt")]] inline __m256i load(const void* at) {
+    return _mm256_loadu_si256(static_cast<const __m256i*>(at));
+}
 
 /// Ones in each byte.
 [[gnu::target("avx2,popcnt")]] inline __m256i ones_of(__m256i bits) {
     const __m256i low = _mm256_set1_epi8(15);
-    const __m256i table = _mm256_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
+    const __m256i table = _mm256_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2, 3, 1, 2,
+                                           2, 3, 2, 3, 3, 4);
     return _mm256_add_epi8(_mm256_shuffle_epi8(table, _mm256_and_si256(bits, low)),
                            _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi16(bits, 4), low)));
 }
@@ -28,7 +31,8 @@ namespace {
     return static_cast<std::uint64_t>(_mm_cvtsi128_si64(two)) + static_cast<std::uint64_t>(_mm_extract_epi64(two, 1));
 }
 
-[[gnu::target("avx2,popcnt")]] inline void add_words(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before, Sums& sums) {
+[[gnu::target("avx2,popcnt")]] inline void add_words(const std::uint64_t* a, const std::uint64_t* b, std::size_t words,
+                                                     Levels before, Sums& sums) {
     for (std::size_t w = 0; w < words; ++w) {
         const WordMasks masks = masks_of(a[w], b[w], before);
         sums.up += static_cast<std::uint64_t>(_mm_popcnt_u64(masks.up));
@@ -38,7 +42,8 @@ namespace {
     }
 }
 
-[[gnu::target("avx2,popcnt")]] Sums tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before) {
+[[gnu::target("avx2,popcnt")]] Sums tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words,
+                                          Levels before) {
     Sums sums;
     if (words == 0) return sums;
     add_words(a, b, 1, before, sums);
@@ -76,7 +81,8 @@ namespace {
     for (std::size_t w = 0; w < words; ++w) plane[w] = plane_of(load(bytes + 64 * w), load(bytes + 64 * w + 32), shift);
 }
 
-[[gnu::target("avx2,popcnt")]] void split_pair(const std::uint8_t* bytes, std::size_t words, Bits bits, std::uint64_t* a, std::uint64_t* b) {
+[[gnu::target("avx2,popcnt")]] void split_pair(const std::uint8_t* bytes, std::size_t words, Bits bits,
+                                               std::uint64_t* a, std::uint64_t* b) {
     const __m128i shift_a = _mm_cvtsi32_si128(7 - bits.a), shift_b = _mm_cvtsi32_si128(7 - bits.b);
     for (std::size_t w = 0; w < words; ++w) {
         const __m256i first = load(bytes + 64 * w), second = load(bytes + 64 * w + 32);
@@ -85,15 +91,17 @@ namespace {
     }
 }
 
-[[gnu::target("avx2,popcnt")]] bool steady(const std::uint8_t* bytes, std::size_t words, std::uint8_t mask, std::uint8_t level) {
+[[gnu::target("avx2,popcnt")]] bool steady(const std::uint8_t* bytes, std::size_t words, std::uint8_t mask,
+                                           std::uint8_t level) {
     const __m256i expected = _mm256_set1_epi8(static_cast<char>(level));
     __m256i other = _mm256_setzero_si256();
-    for (std::size_t i = 0; i < 64 * words; i += 32) other = _mm256_or_si256(other, _mm256_xor_si256(load(bytes + i), expected));
+    for (std::size_t i = 0; i < 64 * words; i += 32)
+        other = _mm256_or_si256(other, _mm256_xor_si256(load(bytes + i), expected));
     return _mm256_testz_si256(other, _mm256_set1_epi8(static_cast<char>(mask))) != 0;
 }
 
-[[gnu::target("avx2,popcnt")]] void four(const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits, std::uint8_t before,
-                          std::array<Sums, 4>& sums) {
+[[gnu::target("avx2,popcnt")]] void four(const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits,
+                                         std::uint8_t before, std::array<Sums, 4>& sums) {
     static constexpr std::size_t piece = 64;
     alignas(32) std::array<std::array<std::uint64_t, piece>, 8> planes;
     for (std::size_t done = 0; done < words; done += piece) {
@@ -107,8 +115,9 @@ namespace {
         }
         for (std::size_t channel = 0; channel < 4; ++channel) {
             const Bits& at = bits[channel];
-            sums[channel] += tally(planes[static_cast<std::size_t>(at.a)].data(), planes[static_cast<std::size_t>(at.b)].data(), size,
-                                   {before >> at.a & 1U, before >> at.b & 1U});
+            sums[channel] +=
+                tally(planes[static_cast<std::size_t>(at.a)].data(), planes[static_cast<std::size_t>(at.b)].data(),
+                      size, {before >> at.a & 1U, before >> at.b & 1U});
         }
         before = bytes[64 * (done + size) - 1];
     }
@@ -118,11 +127,15 @@ constexpr Kernels kernels{"avx2", tally, split, split_pair, steady, four};
 
 }  // namespace
 
-const Kernels* avx2_kernels() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr; }
+const Kernels* avx2_kernels() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") ? &kernels : nullptr;
+}
 
 #else
 
-const Kernels* avx2_kernels() { return nullptr; }
+const Kernels* avx2_kernels() {
+    return nullptr;
+}
 
 #endif
 

@@ -65,7 +65,8 @@ class PairSums {
     }
 
   private:
-    static constexpr std::uint64_t low_pairs = 0x3333333333333333U, low_halves = 0x0F0F0F0F0F0F0F0FU, low_bytes = 0x00FF00FF00FF00FFU;
+    static constexpr std::uint64_t low_pairs = 0x3333333333333333U, low_halves = 0x0F0F0F0F0F0F0F0FU,
+                                   low_bytes = 0x00FF00FF00FF00FFU;
 
     void widen() {
         even_ += pairs_ & low_pairs, odd_ += pairs_ >> 2 & low_pairs;

@@ -22,7 +22,9 @@ constexpr std::array<void (*)(const std::uint8_t*, std::size_t, std::uint8_t*), 
 class RawCapture final : public Capture {
   public:
     RawCapture(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings)
-        : Capture(std::move(source), name), size_(static_cast<std::size_t>(settings.sample_bytes)), buffer_(block_bytes) {
+        : Capture(std::move(source), name),
+          size_(static_cast<std::size_t>(settings.sample_bytes)),
+          buffer_(block_bytes) {
         format_ = Format::raw;
         tick_s_ = 1 / settings.sample_rate_hz;
         for (int bit = 0; bit < 8 * settings.sample_bytes; ++bit) signals_.push_back(fmt::format("{}", bit));
@@ -63,15 +65,21 @@ Result<bool> RawCapture::next(Block& block) {
     const std::size_t wanted = block_bytes / (64 * size_) * (64 * size_);
     std::size_t have = 0;
     while (have < wanted) {
-        MOTIONRACK_TRY(const std::size_t got, source_->read(reinterpret_cast<char*>(buffer_.data()) + have, wanted - have));
+        MOTIONRACK_TRY(const std::size_t got,
+                       source_->read(reinterpret_cast<char*>(buffer_.data()) + have, wanted - have));
         if (got == 0) break;
         have += got;
     }
     read_ += have;
     block.samples = have / size_;
     if (have % size_ != 0)
-        cut_ = Error{Trouble::bad_input, fmt::format("The file ends {} of {} bytes into a sample, after {} bytes: it is cut off, or a sample has "
-                                                     "another number of bytes. The whole samples before that were decoded.", have % size_, size_, read_), name_, {}};
+        cut_ = Error{
+            Trouble::bad_input,
+            fmt::format("The file ends {} of {} bytes into a sample, after {} bytes: it is cut off, or a sample has "
+                        "another number of bytes. The whole samples before that were decoded.",
+                        have % size_, size_, read_),
+            name_,
+            {}};
     if (block.samples == 0) return false;
     for (LineFacts& facts : facts_) facts.known_from = 0;
     if (size_ == 1) {
@@ -85,11 +93,16 @@ Result<bool> RawCapture::next(Block& block) {
 
 }  // namespace
 
-Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const std::string& name, const CaptureSettings& settings) {
+Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const std::string& name,
+                                          const CaptureSettings& settings) {
     if (settings.sample_bytes < 1 || settings.sample_bytes > 8)
-        return fail(Trouble::refused, fmt::format("A raw sample of {} bytes: 1 to 8 can be read. Nothing was decoded.", settings.sample_bytes));
+        return fail(Trouble::refused, fmt::format("A raw sample of {} bytes: 1 to 8 can be read. Nothing was decoded.",
+                                                  settings.sample_bytes));
     if (!(settings.sample_rate_hz > 0))
-        return fail(Trouble::bad_input, "A raw capture does not say how fast it was sampled. Nothing was decoded; say --sample-rate 24M, for instance.", {}, name);
+        return fail(Trouble::bad_input,
+                    "A raw capture does not say how fast it was sampled. Nothing was decoded; say --sample-rate 24M, "
+                    "for instance.",
+                    {}, name);
     return std::make_unique<RawCapture>(std::move(source), name, settings);
 }
 

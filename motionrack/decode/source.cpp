@@ -30,10 +30,11 @@ class FileSource final : public Source {
     Result<std::size_t> read(char* to, std::size_t size) override {
         const std::size_t got = std::fread(to, 1, size, file_);
         if (got == 0 && std::ferror(file_) != 0)
-            return fail(Trouble::io,
-                        fmt::format("The capture cannot be read: {}. {}", std::generic_category().message(errno),
-                                    errno == EISDIR ? "A capture is a file, not a folder." : "Nothing more was decoded."),
-                        {}, path_);
+            return fail(
+                Trouble::io,
+                fmt::format("The capture cannot be read: {}. {}", std::generic_category().message(errno),
+                            errno == EISDIR ? "A capture is a file, not a folder." : "Nothing more was decoded."),
+                {}, path_);
         return got;
     }
     std::uint64_t total() const override { return total_; }
@@ -60,19 +61,24 @@ class MemorySource final : public Source {
     std::size_t at_ = 0;
 };
 
-bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_white(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 }  // namespace
 
 Result<std::unique_ptr<Source>> open_file(const std::string& path) {
     std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
     if (!file)
-        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was decoded; check the name and the rights.", path,
-                                             std::generic_category().message(errno)));
+        return fail(Trouble::io,
+                    fmt::format("{} cannot be read: {}. Nothing was decoded; check the name and the rights.", path,
+                                std::generic_category().message(errno)));
     return std::make_unique<FileSource>(file, path);
 }
 
-std::unique_ptr<Source> from_memory(std::string_view text) { return std::make_unique<MemorySource>(text); }
+std::unique_ptr<Source> from_memory(std::string_view text) {
+    return std::make_unique<MemorySource>(text);
+}
 
 /// Reads on behind what is not yet taken. False at the end of the file and after an error.
 bool TextReader::more() {
@@ -82,10 +88,13 @@ bool TextReader::more() {
         line_start_ -= at_, end_ -= at_, at_ = 0;
     }
     if (end_ >= longest) {
-        error_ = Error{Trouble::bad_input,
-                       fmt::format("A line or word has more than {} bytes: this is no text. Nothing more was decoded; say "
-                                   "--format raw if it is binary.", longest),
-                       {}, {static_cast<int>(std::min<std::int64_t>(next_line_, std::numeric_limits<int>::max())), 1}};
+        error_ =
+            Error{Trouble::bad_input,
+                  fmt::format("A line or word has more than {} bytes: this is no text. Nothing more was decoded; say "
+                              "--format raw if it is binary.",
+                              longest),
+                  {},
+                  {static_cast<int>(std::min<std::int64_t>(next_line_, std::numeric_limits<int>::max())), 1}};
         return false;
     }
     if (buffer_.size() - end_ < first_size / 2) buffer_.resize(buffer_.size() * 2);
@@ -128,7 +137,9 @@ bool TextReader::skip_white() {
     }
 }
 
-char TextReader::peek() { return skip_white() ? buffer_[at_] : '\0'; }
+char TextReader::peek() {
+    return skip_white() ? buffer_[at_] : '\0';
+}
 
 bool TextReader::word(std::string_view& out) {
     if (!skip_white()) return false;

@@ -27,7 +27,8 @@ struct Variable {
 
 class VcdCapture final : public Capture {
   public:
-    VcdCapture(std::unique_ptr<Source> source, const std::string& name) : Capture(std::move(source), name), text_(*source_) {
+    VcdCapture(std::unique_ptr<Source> source, const std::string& name)
+        : Capture(std::move(source), name), text_(*source_) {
         format_ = Format::vcd;
         timed_ = true;
     }
@@ -66,14 +67,16 @@ class VcdCapture final : public Capture {
     bool changed_ = false;  ///< since the last sample
     bool any_ = false;      ///< a sample has been taken
     bool ended_ = false;
-    bool over_ = false;     ///< the file ended where more was needed
-    std::string word_;      ///< kept between words
+    bool over_ = false;  ///< the file ended where more was needed
+    std::string word_;   ///< kept between words
 };
 
 Error VcdCapture::ends_in(const char* what) {
     if (text_.error()) return in_file(*text_.error());
     over_ = true;
-    return {Trouble::bad_input, fmt::format("The file ends inside {}: it is cut off.{}", what, head_read_ ? "" : " Nothing was decoded."), name_, text_.place()};
+    return {Trouble::bad_input,
+            fmt::format("The file ends inside {}: it is cut off.{}", what, head_read_ ? "" : " Nothing was decoded."),
+            name_, text_.place()};
 }
 
 Result<void> VcdCapture::words_until_end(std::vector<std::string>& words, const char* what) {
@@ -97,15 +100,19 @@ Result<void> VcdCapture::read_head() {
         const Place place = text_.place();
         const std::string keyword(word);
         if (keyword.empty() || keyword[0] != '$')
-            return refuse(fmt::format("'{}' stands where a VCD file declares its signals: this is no VCD file. Nothing was decoded; say which "
-                                      "format it has with --format.", keyword.substr(0, 40)), place);
+            return refuse(fmt::format("'{}' stands where a VCD file declares its signals: this is no VCD file. Nothing "
+                                      "was decoded; say which "
+                                      "format it has with --format.",
+                                      keyword.substr(0, 40)),
+                          place);
         if (keyword == "$comment" || keyword == "$date" || keyword == "$version") {
             MOTIONRACK_CHECK(skip("its head"));
             continue;
         }
         MOTIONRACK_CHECK(words_until_end(words, "its head"));
         if (keyword == "$enddefinitions") {
-            if (tick_s_ == 0) return refuse("The file has no $timescale, so its times mean nothing. Nothing was decoded.", place);
+            if (tick_s_ == 0)
+                return refuse("The file has no $timescale, so its times mean nothing. Nothing was decoded.", place);
             head_read_ = true;
             return {};
         }
@@ -128,21 +135,29 @@ Result<void> VcdCapture::set_timescale(const std::vector<std::string>& words) {
                 tick_s_ = factor * seconds;
                 return {};
             }
-    return refuse(fmt::format("The timescale is '{}': it must be 1, 10 or 100 of s, ms, us, ns, ps or fs. Nothing was decoded.", text.substr(0, 40)),
-                  text_.place());
+    return refuse(
+        fmt::format("The timescale is '{}': it must be 1, 10 or 100 of s, ms, us, ns, ps or fs. Nothing was decoded.",
+                    text.substr(0, 40)),
+        text_.place());
 }
 
 /// $var TYPE WIDTH CODE NAME [RANGE] $end
 Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
     if (words.size() < 4)
-        return refuse(fmt::format("A $var needs type, width, code and name; this one has {} words. Nothing was decoded.", words.size()), text_.place());
+        return refuse(
+            fmt::format("A $var needs type, width, code and name; this one has {} words. Nothing was decoded.",
+                        words.size()),
+            text_.place());
     int width = 0;
     const auto [end, bad] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), width);
     if (bad != std::errc() || *end != '\0' || width < 0)
-        return refuse(fmt::format("A $var has the width '{}'. Nothing was decoded.", words[1].substr(0, 40)), text_.place());
+        return refuse(fmt::format("A $var has the width '{}'. Nothing was decoded.", words[1].substr(0, 40)),
+                      text_.place());
     const auto [at, fresh] = codes_.try_emplace(words[2], variables_.size());
     if (fresh) variables_.push_back({width, {}});
-    if (words[0] == "real" || words[0] == "string" || words[0] == "event" || words[0] == "parameter" || width < 1 || width > widest) return {};
+    if (words[0] == "real" || words[0] == "string" || words[0] == "event" || words[0] == "parameter" || width < 1 ||
+        width > widest)
+        return {};
     std::string name;
     for (const std::string& scope : scopes_) name += scope + '.';
     name += words[3];
@@ -159,7 +174,8 @@ Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
         }
     }
     if (signals_.size() > most_signals)
-        return refuse(fmt::format("The file declares more than {} lines. Nothing was decoded.", most_signals), text_.place());
+        return refuse(fmt::format("The file declares more than {} lines. Nothing was decoded.", most_signals),
+                      text_.place());
     return {};
 }
 
@@ -175,7 +191,8 @@ void VcdCapture::choose(const std::vector<std::size_t>& signals) {
 bool VcdCapture::set_level(const Tap& tap, char level) {
     LineFacts& facts = facts_[tap.line];
     if (level == '0' || level == '1') return sampler_.set(tap.line, level == '1', facts);
-    if (sampler_.lose(tap.line, facts) && facts.unknown == 1) facts.first_unknown = fmt::format("line {}", text_.place().line);
+    if (sampler_.lose(tap.line, facts) && facts.unknown == 1)
+        facts.first_unknown = fmt::format("line {}", text_.place().line);
     return false;
 }
 
@@ -184,7 +201,9 @@ Result<void> VcdCapture::assign(std::string_view code, std::string_view bits) {
     word_.assign(code);
     const auto found = codes_.find(word_);
     if (found == codes_.end())
-        return refuse(fmt::format("A value for '{}', which no $var declares. Nothing more was decoded.", word_.substr(0, 40)), text_.place());
+        return refuse(
+            fmt::format("A value for '{}', which no $var declares. Nothing more was decoded.", word_.substr(0, 40)),
+            text_.place());
     for (const Tap& tap : variables_[found->second].taps) {
         const auto bit = static_cast<std::size_t>(tap.bit);
         const char fill = bits.front() == '1' ? '0' : bits.front();
@@ -199,8 +218,11 @@ Result<void> VcdCapture::advance(std::string_view digits) {
     if (bad != std::errc() || end != digits.data() + digits.size() || time < 0 || time > std::int64_t{1} << 61)
         return refuse(fmt::format("'#{}' is no time. Nothing more was decoded.", digits.substr(0, 40)), text_.place());
     if (begun_ && time < now_)
-        return refuse(fmt::format("Time goes backwards, from #{} to #{}. Nothing more was decoded; the file is damaged or is two files.", now_, time),
-                      text_.place());
+        return refuse(
+            fmt::format(
+                "Time goes backwards, from #{} to #{}. Nothing more was decoded; the file is damaged or is two files.",
+                now_, time),
+            text_.place());
     if (begun_ && time > now_ && (changed_ || !any_)) {
         sampler_.take(now_);
         any_ = true, changed_ = false;
@@ -214,7 +236,8 @@ Result<void> VcdCapture::change_vector(std::string bits) {
     const bool vector = bits[0] == 'b' || bits[0] == 'B';
     bits.erase(0, 1);
     if (vector && (bits.empty() || bits.find_first_not_of("01xXzZuUwWlLhH-") != std::string::npos))
-        return refuse(fmt::format("'b{}' is no value of a vector. Nothing more was decoded.", bits.substr(0, 40)), text_.place());
+        return refuse(fmt::format("'b{}' is no value of a vector. Nothing more was decoded.", bits.substr(0, 40)),
+                      text_.place());
     std::string_view code;
     if (!text_.word(code)) return tl::unexpected(ends_in("a value"));
     return vector ? assign(code, bits) : Result<void>{};
@@ -222,16 +245,31 @@ Result<void> VcdCapture::change_vector(std::string bits) {
 
 Result<void> VcdCapture::change(std::string_view word) {
     switch (word[0]) {
-        case '#': return advance(word.substr(1));
-        case '0': case '1': case 'x': case 'X': case 'z': case 'Z':
-            if (word.size() < 2) return refuse("A value without the code of its signal. Nothing more was decoded.", text_.place());
+        case '#':
+            return advance(word.substr(1));
+        case '0':
+        case '1':
+        case 'x':
+        case 'X':
+        case 'z':
+        case 'Z':
+            if (word.size() < 2)
+                return refuse("A value without the code of its signal. Nothing more was decoded.", text_.place());
             return assign(word.substr(1), word.substr(0, 1));
-        case 'b': case 'B': case 'r': case 'R': case 's': case 'S': return change_vector(std::string(word));
+        case 'b':
+        case 'B':
+        case 'r':
+        case 'R':
+        case 's':
+        case 'S':
+            return change_vector(std::string(word));
         case '$':
             if (word == "$end" || word.substr(0, 5) == "$dump") return {};
             return skip("a comment");
         default:
-            return refuse(fmt::format("'{}' is neither a time nor a value. Nothing more was decoded.", word.substr(0, 40)), text_.place());
+            return refuse(
+                fmt::format("'{}' is neither a time nor a value. Nothing more was decoded.", word.substr(0, 40)),
+                text_.place());
     }
 }
 
@@ -253,7 +291,9 @@ Result<bool> VcdCapture::next(Block& block) {
         if (done) continue;
         // What is wrong with the very last word, or behind it, is that the file is cut off.
         if (text_.error() || !(text_.cut() || over_)) return tl::unexpected(done.error());
-        cut_ = Error{Trouble::bad_input, "The file ends inside a value or time: it is cut off. What is before that was decoded.", name_, text_.place()};
+        cut_ = Error{Trouble::bad_input,
+                     "The file ends inside a value or time: it is cut off. What is before that was decoded.", name_,
+                     text_.place()};
         end();
     }
     if (sampler_.waiting() == 0) return false;

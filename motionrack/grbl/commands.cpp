@@ -36,8 +36,11 @@ int Session::command(const std::string& text) {
     const char what = text.size() > 1 ? text[1] : '\0';
     const State now = state();
     switch (what) {
-        case '\0': put(help); return error_none;
-        case 'J': return jog(text);
+        case '\0':
+            put(help);
+            return error_none;
+        case 'J':
+            return jog(text);
         case '$':
             if (text.size() > 2) return error_unknown;
             if (now == State::run || now == State::hold) return error_not_idle;
@@ -47,9 +50,12 @@ int Session::command(const std::string& text) {
             if (text.size() > 2) return error_unknown;
             put(modes_text());
             return error_none;
-        case 'C': return text.size() > 2 ? int{error_unknown} : check_mode();
-        case 'X': return text.size() > 2 ? int{error_unknown} : unlock();
-        default: break;
+        case 'C':
+            return text.size() > 2 ? int{error_unknown} : check_mode();
+        case 'X':
+            return text.size() > 2 ? int{error_unknown} : unlock();
+        default:
+            break;
     }
     if (now != State::idle && now != State::alarm) return error_not_idle;
     return command_at_rest(text);
@@ -61,7 +67,8 @@ int Session::command_at_rest(const std::string& text) {
             if (text.size() > 2) return error_unknown;
             put(parameters_text());
             return error_none;
-        case 'H': return text.size() > 2 ? int{error_unknown} : home();
+        case 'H':
+            return text.size() > 2 ? int{error_unknown} : home();
         case 'S':
             if (text != "$SLP") return error_unknown;
             answer(error_none);
@@ -73,14 +80,18 @@ int Session::command_at_rest(const std::string& text) {
             if (text.size() > 2)
                 build_text_ = text.substr(3);
             else
-                put(fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},{}]\r\n", build_text_, planner_blocks, waiting_most));
+                put(fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},{}]\r\n", build_text_, planner_blocks,
+                                waiting_most));
             return error_none;
-        case 'R': return restore(text);
+        case 'R':
+            return restore(text);
         case 'N':
             if (text.size() > 2) return store_startup_line(std::string_view(text).substr(2));
-            for (std::size_t i = 0; i < startup_lines_.size(); ++i) put(fmt::format("$N{}={}\r\n", i, startup_lines_[i]));
+            for (std::size_t i = 0; i < startup_lines_.size(); ++i)
+                put(fmt::format("$N{}={}\r\n", i, startup_lines_[i]));
             return error_none;
-        default: return store(std::string_view(text).substr(1));
+        default:
+            return store(std::string_view(text).substr(1));
     }
 }
 
@@ -92,7 +103,8 @@ int Session::store(std::string_view text) {
     if (!take_number(text, value)) return error_bad_number;
     if (!text.empty() || number != std::floor(number) || number < 0 || number > 255) return error_unknown;
     if (!control()) return error_locked;
-    const Changed changed = change_setting(machine_.rack().config(), own_, settings_.axes, static_cast<int>(number), value);
+    const Changed changed =
+        change_setting(machine_.rack().config(), own_, settings_.axes, static_cast<int>(number), value);
     if (changed.note.empty()) return changed.error;
     if (changed.error != error_none)
         say(changed.note);
@@ -124,7 +136,8 @@ int Session::restore(const std::string& text) {
         startup_lines_ = {};
         build_text_.clear();
     }
-    if (settings_.on_setting) settings_.on_setting(fmt::format("{}: settings of the Grbl port are as at the start", text));
+    if (settings_.on_setting)
+        settings_.on_setting(fmt::format("{}: settings of the Grbl port are as at the start", text));
     say("Restoring defaults");
     answer(error_none);
     reset();
@@ -145,7 +158,7 @@ int Session::check_mode() {
     return error_none;
 }
 
-// ---- lock and home ------------------------------------------------------------------------------------------------------------------
+// ---- lock and home
 
 /// The operator says that the axes are where they are shown to be.
 int Session::unlock() {
@@ -160,7 +173,8 @@ int Session::unlock() {
 
 void Session::declare_positions() {
     for (const operate::AxisStatus& axis : machine_.status().axes)
-        if (!machine_.trusted(*machine_.rack().config().axis(axis.letter))) (void)machine_.declare_position(axis.letter, axis.commanded);
+        if (!machine_.trusted(*machine_.rack().config().axis(axis.letter)))
+            (void)machine_.declare_position(axis.letter, axis.commanded);
 }
 
 int Session::home() {
@@ -202,11 +216,12 @@ bool Session::finish_homing() {
 int Session::number_of_homing() const {
     if (machine_.homed()->ended.error().trouble == Trouble::stopped) return alarm_homing_reset;
     for (const rack::HomedAxis& axis : machine_.homed()->axes)
-        if (axis.begun && !axis.outcome.homed) return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
+        if (axis.begun && !axis.outcome.homed)
+            return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
     return alarm_homing_no_switch;
 }
 
-// ---- jog ----------------------------------------------------------------------------------------------------------------------------
+// ---- jog
 
 /// $J=G91 G21 X10 F600. What it means is read by a copy of the reader, so that it leaves no traces.
 int Session::jog(const std::string& text) {
@@ -219,7 +234,9 @@ int Session::jog(const std::string& text) {
     Problem problem;
     if (!scan_line(words, {}, block, problem)) return static_cast<int>(problem.status);
     constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;
-    if (block.percent || block.m_groups != 0 || (block.g_groups & ~groups) != 0 || (block.has_g(g_nonmodal) && block.g[g_nonmodal] != 530)) return error_jog;
+    if (block.percent || block.m_groups != 0 || (block.g_groups & ~groups) != 0 ||
+        (block.has_g(g_nonmodal) && block.g[g_nonmodal] != 530))
+        return error_jog;
     if (!grbl_has(block)) return error_unsupported;
     if ((block.words & ~(axis_words | letter_bit('F') | letter_bit('N'))) != 0) return error_unused_words;
     if (!block.has('F')) return error_no_feed;

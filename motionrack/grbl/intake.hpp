@@ -2,8 +2,8 @@
 //
 //   G1X10 ? F600 \n  ──►  '?' acts now ─ "G1X10F600" is a line
 //
-// As in Grbl 1.1h, 128 bytes wait for their turn, what comes beyond them is lost without a word; a line's buffer has 80 bytes, its end
-// among them.
+// As in Grbl 1.1h, 128 bytes wait for their turn, what comes beyond them is lost without a word; a line's buffer has 80
+// bytes, its end among them.
 #pragma once
 
 #include <array>
@@ -16,11 +16,28 @@
 namespace motionrack::grbl {
 
 enum class Realtime : std::uint8_t {
-    reset, status, cycle_start, feed_hold, door, jog_cancel,
-    feed_100, feed_plus_10, feed_minus_10, feed_plus_1, feed_minus_1,
-    rapid_100, rapid_50, rapid_25,
-    spindle_100, spindle_plus_10, spindle_minus_10, spindle_plus_1, spindle_minus_1, spindle_stop,
-    flood, mist
+    reset,
+    status,
+    cycle_start,
+    feed_hold,
+    door,
+    jog_cancel,
+    feed_100,
+    feed_plus_10,
+    feed_minus_10,
+    feed_plus_1,
+    feed_minus_1,
+    rapid_100,
+    rapid_50,
+    rapid_25,
+    spindle_100,
+    spindle_plus_10,
+    spindle_minus_10,
+    spindle_plus_1,
+    spindle_minus_1,
+    spindle_stop,
+    flood,
+    mist
 };
 
 struct RealtimeByte {
@@ -28,13 +45,27 @@ struct RealtimeByte {
     Realtime what;
 };
 inline constexpr std::array<RealtimeByte, 22> realtime_bytes = {{
-    {0x18, Realtime::reset},          {'?', Realtime::status},           {'~', Realtime::cycle_start},
-    {'!', Realtime::feed_hold},       {0x84, Realtime::door},            {0x85, Realtime::jog_cancel},
-    {0x90, Realtime::feed_100},       {0x91, Realtime::feed_plus_10},    {0x92, Realtime::feed_minus_10},
-    {0x93, Realtime::feed_plus_1},    {0x94, Realtime::feed_minus_1},    {0x95, Realtime::rapid_100},
-    {0x96, Realtime::rapid_50},       {0x97, Realtime::rapid_25},        {0x99, Realtime::spindle_100},
-    {0x9A, Realtime::spindle_plus_10}, {0x9B, Realtime::spindle_minus_10}, {0x9C, Realtime::spindle_plus_1},
-    {0x9D, Realtime::spindle_minus_1}, {0x9E, Realtime::spindle_stop},   {0xA0, Realtime::flood},
+    {0x18, Realtime::reset},
+    {'?', Realtime::status},
+    {'~', Realtime::cycle_start},
+    {'!', Realtime::feed_hold},
+    {0x84, Realtime::door},
+    {0x85, Realtime::jog_cancel},
+    {0x90, Realtime::feed_100},
+    {0x91, Realtime::feed_plus_10},
+    {0x92, Realtime::feed_minus_10},
+    {0x93, Realtime::feed_plus_1},
+    {0x94, Realtime::feed_minus_1},
+    {0x95, Realtime::rapid_100},
+    {0x96, Realtime::rapid_50},
+    {0x97, Realtime::rapid_25},
+    {0x99, Realtime::spindle_100},
+    {0x9A, Realtime::spindle_plus_10},
+    {0x9B, Realtime::spindle_minus_10},
+    {0x9C, Realtime::spindle_plus_1},
+    {0x9D, Realtime::spindle_minus_1},
+    {0x9E, Realtime::spindle_stop},
+    {0xA0, Realtime::flood},
     {0xA1, Realtime::mist},
 }};
 std::optional<Realtime> realtime_of(std::uint8_t byte);

@@ -4,11 +4,11 @@
 namespace motionrack::grbl {
 
 enum Error : int {
-    answer_later = -1,       ///< the line's answer waits for something
+    answer_later = -1,  ///< the line's answer waits for something
     error_none = 0,
-    error_letter = 1,        ///< a G-code word does not begin with a letter
+    error_letter = 1,  ///< a G-code word does not begin with a letter
     error_bad_number = 2,
-    error_unknown = 3,       ///< no such $ command or setting, or not one that can be changed
+    error_unknown = 3,  ///< no such $ command or setting, or not one that can be changed
     error_negative = 4,
     error_no_homing = 5,
     error_short_pulse = 6,
@@ -26,9 +26,9 @@ enum Alarm : int {
     alarm_none = 0,
     alarm_hard_limit = 1,
     alarm_soft_limit = 2,
-    alarm_reset = 3,            ///< stopped in motion
-    alarm_probe_initial = 4,    ///< the probe touches before the move, or does not before one that leads away
-    alarm_probe_contact = 5,    ///< it did not touch, or leave, on the way
+    alarm_reset = 3,          ///< stopped in motion
+    alarm_probe_initial = 4,  ///< the probe touches before the move, or does not before one that leads away
+    alarm_probe_contact = 5,  ///< it did not touch, or leave, on the way
     alarm_homing_reset = 6,
     alarm_homing_door = 7,
     alarm_homing_pull_off = 8,  ///< the switch was found, but not its edge

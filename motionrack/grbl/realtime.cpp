@@ -41,14 +41,20 @@ void Session::act(Realtime what) {
     const operate::Status& status = machine_.status();
     if (status_wanted_ && what != Realtime::status) report();
     switch (what) {
-        case Realtime::status: status_wanted_ = true; return;
-        case Realtime::reset: return reset();
-        case Realtime::feed_hold: return hold();
-        case Realtime::door: return open_door();
+        case Realtime::status:
+            status_wanted_ = true;
+            return;
+        case Realtime::reset:
+            return reset();
+        case Realtime::feed_hold:
+            return hold();
+        case Realtime::door:
+            return open_door();
         case Realtime::jog_cancel:
             if (state() == State::jog) machine_.stop();
             return;
-        case Realtime::cycle_start: return resume();
+        case Realtime::cycle_start:
+            return resume();
         case Realtime::spindle_stop:
             if (state() == State::hold && status.spindle != control::gcode::Spindle::off && control()) {
                 spindle_stopped_ = !spindle_stopped_;
@@ -61,7 +67,8 @@ void Session::act(Realtime what) {
         case Realtime::mist:
             if (may_switch_coolant()) switch_coolant(!status.mist, status.flood);
             return;
-        default: return override_by(what);
+        default:
+            return override_by(what);
     }
 }
 
@@ -76,7 +83,8 @@ void Session::switch_coolant(bool mist, bool flood) {
 }
 
 void Session::override_by(Realtime what) {
-    const auto step = std::find_if(override_steps.begin(), override_steps.end(), [&](const OverrideStep& one) { return one.what == what; });
+    const auto step = std::find_if(override_steps.begin(), override_steps.end(),
+                                   [&](const OverrideStep& one) { return one.what == what; });
     if (step == override_steps.end() || !control()) return;
     Overrides now = overrides();
     int& value = now.*step->which;
@@ -85,17 +93,24 @@ void Session::override_by(Realtime what) {
     machine_.set_overrides(now.feed / 100.0, now.rapid / 100.0);
 }
 
-// ---- hold, door, reset --------------------------------------------------------------------------------------------------------------
+// ---- hold, door, reset
 
 void Session::hold() {
     switch (state()) {
-        case State::idle: held_ = true; break;
+        case State::idle:
+            held_ = true;
+            break;
         case State::run:
             held_ = machine_.hold().has_value();
             break;
-        case State::jog: machine_.stop(); break;
-        case State::home: reset(); break;
-        default: break;
+        case State::jog:
+            machine_.stop();
+            break;
+        case State::home:
+            reset();
+            break;
+        default:
+            break;
     }
 }
 
@@ -153,7 +168,7 @@ void Session::begin_again(bool after_reset) {
     if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
 }
 
-// ---- what the machine does ----------------------------------------------------------------------------------------------------------
+// ---- what the machine does
 
 void Session::watch_machine() {
     const MachineState state = machine_.state();
@@ -171,7 +186,8 @@ void Session::watch_machine() {
         stop_told_ = false;
     } else if (!std::exchange(stop_told_, true) && !(doing_ && doing_->what == Doing::What::homing)) {
         held_ = door_ = hold_seen_ = false;
-        alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial) : number_of_stop(), true);
+        alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial) : number_of_stop(),
+              true);
         say(machine_.status().why);
     }
 }
@@ -193,7 +209,8 @@ bool Session::limit_active(char letter) const {
 }
 
 bool Session::locked() const {
-    if (alarm_ || machine_.state() == MachineState::error_stop || machine_.state() == MachineState::disabled) return true;
+    if (alarm_ || machine_.state() == MachineState::error_stop || machine_.state() == MachineState::disabled)
+        return true;
     const auto& axes = machine_.rack().config().axes;
     return std::any_of(axes.begin(), axes.end(), [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
 }

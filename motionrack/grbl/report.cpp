@@ -17,7 +17,8 @@ struct Every {
 constexpr Every offset_every = {30, 10}, overrides_every = {20, 10};
 
 bool is_busy(State state) {
-    return state == State::run || state == State::hold || state == State::jog || state == State::home || state == State::door;
+    return state == State::run || state == State::hold || state == State::jog || state == State::home ||
+           state == State::door;
 }
 
 constexpr double mm_per_inch = 25.4;
@@ -26,15 +27,24 @@ constexpr double mm_per_inch = 25.4;
 
 std::string Session::state_text(State now) const {
     switch (now) {
-        case State::idle: return "Idle";
-        case State::run: return "Run";
-        case State::hold: return brakes() ? "Hold:1" : "Hold:0";
-        case State::jog: return "Jog";
-        case State::alarm: return "Alarm";
-        case State::door: return brakes() ? "Door:2" : "Door:0";
-        case State::check: return "Check";
-        case State::home: return "Home";
-        case State::sleep: return "Sleep";
+        case State::idle:
+            return "Idle";
+        case State::run:
+            return "Run";
+        case State::hold:
+            return brakes() ? "Hold:1" : "Hold:0";
+        case State::jog:
+            return "Jog";
+        case State::alarm:
+            return "Alarm";
+        case State::door:
+            return brakes() ? "Door:2" : "Door:0";
+        case State::check:
+            return "Check";
+        case State::home:
+            return "Home";
+        case State::sleep:
+            return "Sleep";
     }
     return "";
 }
@@ -64,8 +74,11 @@ void Session::report() {
     if (!machine_places)
         for (std::size_t axis = 0; axis < place.size(); ++axis) place[axis] -= offset[axis];
     put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(place)));
-    if ((shown & 2) != 0) put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()), intake_.room()));
-    if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().line_driven()) put(fmt::format("|Ln:{}", n_words_.front().second));
+    if ((shown & 2) != 0)
+        put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
+                        intake_.room()));
+    if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().line_driven())
+        put(fmt::format("|Ln:{}", n_words_.front().second));
     const double feed = own_.inches != 0 ? feed_now() / mm_per_inch : feed_now();
     put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
     put(pins());
@@ -120,7 +133,8 @@ std::string Session::accessories() const {
 }
 
 Session::Overrides Session::overrides() const {
-    return {static_cast<int>(std::lround(machine_.feed_override() * 100)), static_cast<int>(std::lround(machine_.rapid_override() * 100)), spindle_override_};
+    return {static_cast<int>(std::lround(machine_.feed_override() * 100)),
+            static_cast<int>(std::lround(machine_.rapid_override() * 100)), spindle_override_};
 }
 
 double Session::spindle_rpm() const {
@@ -132,7 +146,8 @@ double Session::spindle_rpm() const {
 /// Along the path, mm/min; degrees/min where only rotary axes move.
 double Session::feed_now() const {
     double linear = 0, rotary = 0;
-    for (const operate::AxisStatus& axis : machine_.status().axes) (axis.rotary ? rotary : linear) += axis.speed * axis.speed;
+    for (const operate::AxisStatus& axis : machine_.status().axes)
+        (axis.rotary ? rotary : linear) += axis.speed * axis.speed;
     return std::sqrt(linear > 0 ? linear : rotary) * 60;
 }
 
@@ -140,22 +155,26 @@ std::string Session::modes_text() const {
     using control::gcode::Spindle;
     const control::gcode::Modes& modes = interpreter().modes();
     const int motion = modes.motion != control::gcode::no_motion ? modes.motion / 10 : was_g80_ ? 80 : 0;
-    std::string out = fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion, modes.system < 6 ? fmt::format("{}", 54 + modes.system) : fmt::format("59.{}", modes.system - 5), 17 + modes.plane, modes.inch ? 20 : 21,
-                                  modes.incremental ? 91 : 90, modes.inverse_time ? 93 : 94);
+    std::string out =
+        fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion,
+                    modes.system < 6 ? fmt::format("{}", 54 + modes.system) : fmt::format("59.{}", modes.system - 5),
+                    17 + modes.plane, modes.inch ? 20 : 21, modes.incremental ? 91 : 90, modes.inverse_time ? 93 : 94);
     out += modes.spindle == Spindle::off ? " M5" : modes.spindle == Spindle::clockwise ? " M3" : " M4";
     if (modes.mist) out += " M7";
     if (modes.flood) out += " M8";
     if (!modes.mist && !modes.flood) out += " M9";
     const double feed = modes.inverse_time ? 0 : modes.feed * 60;
     const bool inches = own_.inches != 0;
-    out += fmt::format(" T{} F{:.{}f} S{:.0f}]\r\n", std::max(0, modes.tool_selected), inches ? feed / mm_per_inch : feed, inches ? 1 : 0, modes.speed_rpm);
+    out += fmt::format(" T{} F{:.{}f} S{:.0f}]\r\n", std::max(0, modes.tool_selected),
+                       inches ? feed / mm_per_inch : feed, inches ? 1 : 0, modes.speed_rpm);
     return out;
 }
 
 std::string Session::parameters_text() const {
     const control::gcode::Frame& frame = interpreter().frame();
     std::string out;
-    for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system) out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
+    for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system)
+        out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
     out += fmt::format("[G28:{}]\r\n[G30:{}]\r\n[G92:{}]\r\n", values(frame.g28), values(frame.g30), values(frame.g92));
     const bool inches = own_.inches != 0;
     out += fmt::format("[TLO:{:.{}f}]\r\n", inches ? frame.tool[2] / mm_per_inch : frame.tool[2], inches ? 4 : 3);

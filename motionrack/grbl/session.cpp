@@ -1,9 +1,8 @@
 // Lines of a sender, one at a time, each with its one answer.
-#include <motionrack/grbl/session.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
 
@@ -32,14 +31,15 @@ int number_of(const Problem& problem) {
 
 }  // namespace
 
-Session::Session(operate::Machine& machine, SessionSettings settings) : machine_(machine), settings_(std::move(settings)) {
+Session::Session(operate::Machine& machine, SessionSettings settings)
+    : machine_(machine), settings_(std::move(settings)) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     if (machine_.state() == MachineState::disabled) (void)machine_.enable(true);
     watch_machine();
     out_.clear();
 }
 
-// ---- bytes --------------------------------------------------------------------------------------------------------------------------
+// ---- bytes
 
 void Session::receive(std::string_view bytes) {
     for (const char c : bytes) {
@@ -58,7 +58,8 @@ void Session::receive(std::string_view bytes) {
 void Session::observe(std::string_view bytes) {
     for (const char c : bytes) {
         const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
-        if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold || what == Realtime::door || what == Realtime::jog_cancel)
+        if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
+            what == Realtime::door || what == Realtime::jog_cancel)
             act(*what);
     }
     if (status_wanted_) report();
@@ -78,7 +79,7 @@ void Session::greet() {
     work();
 }
 
-// ---- lines --------------------------------------------------------------------------------------------------------------------------
+// ---- lines
 
 /// Takes lines for as long as nothing makes them wait.
 void Session::work() {
@@ -104,7 +105,9 @@ bool Session::settled() const {
     return !machine_.has_orders() && state != MachineState::stopping && state != MachineState::homing;
 }
 
-bool Session::has_room() const { return machine_.has_room() && machine_.stream().moves() < planner_blocks; }
+bool Session::has_room() const {
+    return machine_.has_room() && machine_.stream().moves() < planner_blocks;
+}
 
 bool Session::must_wait(const Line& line) {
     const std::string& text = line.text;
@@ -126,10 +129,12 @@ bool Session::must_stand_first(const Block& block) const {
     if (block.has_m(m_stop)) return true;
     if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
     if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
-    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool[2] != 0)) return true;
+    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool[2] != 0))
+        return true;
     if (block.has_m(m_spindle) && spindle_of(block.m[m_spindle]) != modes.spindle) return own_.laser == 0;
     if (block.has('S') && block['S'] != modes.speed_rpm) return own_.laser == 0;
-    return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) || (block.has_m(m_coolant_off) && (modes.mist || modes.flood));
+    return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) ||
+           (block.has_m(m_coolant_off) && (modes.mist || modes.flood));
 }
 
 void Session::carry_out(const std::string& text) {
@@ -158,7 +163,8 @@ int Session::gcode(const std::string& text) {
     Problem problem;
     const bool good = scan_line(text, {}, block, problem);
     if (good && !grbl_has(block)) return error_unsupported;
-    const Outcome<void> read = check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
+    const Outcome<void> read =
+        check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
     if (!read) return refused(read.error());
     if (block.has_g(g_motion)) was_g80_ = block.g[g_motion] == 800;
     const bool ends = block.has_m(m_stop) && block.m[m_stop] >= 2;
@@ -205,7 +211,7 @@ bool Session::control() {
     return taken.has_value();
 }
 
-// ---- answers that had to wait -------------------------------------------------------------------------------------------------------
+// ---- answers that had to wait
 
 /// Whether the line before is done with.
 bool Session::finish() {
@@ -220,7 +226,8 @@ bool Session::finish() {
         case Doing::What::leaving_travel:
             alarm(alarm_soft_limit, true);
             return false;
-        case Doing::What::homing: return finish_homing();
+        case Doing::What::homing:
+            return finish_homing();
         case Doing::What::unlocking:
             if (!doing_->silent) say("Caution: Unlocked");
             break;
@@ -260,7 +267,7 @@ void Session::startup() {
     }
 }
 
-// ---- answers ------------------------------------------------------------------------------------------------------------------------
+// ---- answers
 
 void Session::answer(int error) {
     if (error == error_none)

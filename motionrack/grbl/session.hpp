@@ -6,7 +6,8 @@
 //
 //   no line is taken while a hold, a stop, a homing or the alarm of a limit lasts; then bytes wait, 128 of them
 //
-// Runs on the motion thread: receive() among what is posted, tick() once a slice. No network, no waiting, no access to cards.
+// Runs on the motion thread: receive() among what is posted, tick() once a slice. No network, no waiting, no access to
+// cards.
 #pragma once
 
 #include <array>
@@ -64,9 +65,9 @@ class Session {
     /// A line that was carried out, and whose answer waits.
     struct Doing {
         enum class What : std::uint8_t { moving, leaving_travel, homing, unlocking } what = What::moving;
-        bool silent = false;        ///< the one who asked has gone
+        bool silent = false;  ///< the one who asked has gone
         bool program_ends = false;
-        bool declared = false;      ///< homing: the axes without a switch
+        bool declared = false;  ///< homing: the axes without a switch
     };
     /// Which part of the banner is due.
     enum class Boot : std::uint8_t { done, greeting, reset };
@@ -133,7 +134,9 @@ class Session {
     std::string probe_text() const;
     double spindle_rpm() const;
     double feed_now() const;
-    const control::gcode::Interpreter& interpreter() const { return check_ ? *check_ : machine_.stream().interpreter(); }
+    const control::gcode::Interpreter& interpreter() const {
+        return check_ ? *check_ : machine_.stream().interpreter();
+    }
 
     operate::Machine& machine_;
     SessionSettings settings_;
@@ -141,21 +144,21 @@ class Session {
     std::array<std::string, 2> startup_lines_;
     std::string build_text_, out_;
     Intake intake_;
-    std::optional<Line> line_;     ///< the next one, which has to wait
+    std::optional<Line> line_;  ///< the next one, which has to wait
     std::optional<Doing> doing_;
     std::optional<control::gcode::Interpreter> check_;  ///< check mode
     std::int32_t line_number_ = 0;
     std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< of lines that may be driven yet
     Boot boot_ = Boot::done;
     int homing_alarm_ = alarm_homing_reset;  ///< of a homing that is broken off
-    bool alarm_ = false;           ///< until it is unlocked or homed
-    bool critical_ = false;        ///< until a reset
+    bool alarm_ = false;                     ///< until it is unlocked or homed
+    bool critical_ = false;                  ///< until a reset
     bool held_ = false, door_ = false, asleep_ = false;
-    bool hold_seen_ = false;       ///< the machine has come to its hold
-    bool jogging_ = false;         ///< the machine jogs, or brakes after it
-    bool stop_told_ = false;       ///< the machine's present error stop
-    std::int64_t probes_told_ = 0; ///< see control::ProbeReport::count
-    bool was_g80_ = false;         ///< no motion mode because a line said so
+    bool hold_seen_ = false;        ///< the machine has come to its hold
+    bool jogging_ = false;          ///< the machine jogs, or brakes after it
+    bool stop_told_ = false;        ///< the machine's present error stop
+    std::int64_t probes_told_ = 0;  ///< see control::ProbeReport::count
+    bool was_g80_ = false;          ///< no motion mode because a line said so
     bool status_wanted_ = false;
     bool spindle_stopped_ = false;
     int spindle_override_ = 100;

@@ -1,6 +1,6 @@
-#include <motionrack/journal/database.hpp>
-
 #include <fmt/format.h>
+
+#include <motionrack/journal/database.hpp>
 
 namespace motionrack::journal {
 
@@ -28,7 +28,9 @@ bool Statement::row() {
 
 std::string Statement::text(int column) const {
     const auto* begin = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
-    return begin == nullptr ? std::string() : std::string(begin, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)));
+    return begin == nullptr
+               ? std::string()
+               : std::string(begin, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)));
 }
 
 void Statement::again() {
@@ -41,7 +43,8 @@ Result<Database> Database::open(const std::string& path, Use use) {
     const int flags = use == Use::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
     const int code = sqlite3_open_v2(path.c_str(), &one, flags | SQLITE_OPEN_NOMUTEX, nullptr);
     Database database(one);
-    if (code != SQLITE_OK) return fail(Trouble::io, fmt::format("The journal '{}' cannot be opened: {}.", path, sqlite3_errstr(code)));
+    if (code != SQLITE_OK)
+        return fail(Trouble::io, fmt::format("The journal '{}' cannot be opened: {}.", path, sqlite3_errstr(code)));
     sqlite3_busy_timeout(one, 5000);
     return database;
 }

@@ -48,9 +48,9 @@ struct LastRun {
 };
 
 struct Question {
-    std::int64_t after = 0;   ///< entries with greater numbers
-    std::string kind = {};    ///< empty: all
-    int limit = 100;          ///< 1 .. 10000; the newest ones
+    std::int64_t after = 0;  ///< entries with greater numbers
+    std::string kind = {};   ///< empty: all
+    int limit = 100;         ///< 1 .. 10000; the newest ones
 };
 
 class Journal {
@@ -58,7 +58,8 @@ class Journal {
     /// Called on the writing thread.
     using Done = std::function<void(const Result<std::int64_t>& number)>;
 
-    /// Begins a run. Errors: io (the file cannot be made, is no journal, or belongs to a program that runs; it is left as it is).
+    /// Begins a run. Errors: io (the file cannot be made, is no journal, or belongs to a program that runs; it is left
+    /// as it is).
     static Result<std::unique_ptr<Journal>> open(const std::string& path);
     /// Ends without a word, as a crash does, unless it was closed; what waits is written.
     ~Journal();

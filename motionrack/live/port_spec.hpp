@@ -23,11 +23,11 @@ enum class Reach : std::uint8_t {
 struct PortSpec {
     Reach reach = Reach::memory;
     std::string path;
-    std::uint64_t offset = 0;  ///< bytes from the start of the file (uio: of the map) to the card's first register
-    std::uint32_t stride = 2;  ///< bytes from one register to the next, 2 .. 4096, even
-    int width = 16;            ///< bits of one access: 16, or 8 for a card on its 8-bit bus
-    int map = 0;               ///< uio: which map, 0 .. 4
-    std::string interrupt = {};       ///< the UIO node that counts the card's interrupts; "": none
+    std::uint64_t offset = 0;    ///< bytes from the start of the file (uio: of the map) to the card's first register
+    std::uint32_t stride = 2;    ///< bytes from one register to the next, 2 .. 4096, even
+    int width = 16;              ///< bits of one access: 16, or 8 for a card on its 8-bit bus
+    int map = 0;                 ///< uio: which map, 0 .. 4
+    std::string interrupt = {};  ///< the UIO node that counts the card's interrupts; "": none
     Duration gap = nanoseconds(250);  ///< least time from one access to the next, 0 .. 1 s
 };
 

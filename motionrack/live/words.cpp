@@ -105,8 +105,11 @@ Result<std::uint64_t> number_in(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::uint64_t value = 0;
     if (!(file >> std::setbase(0) >> value))
-        return fail(Trouble::io, fmt::format("{} holds no number, so it is not known where the card's region is. Nothing was opened; "
-                                             "load the card's driver anew.", path.string()));
+        return fail(
+            Trouble::io,
+            fmt::format("{} holds no number, so it is not known where the card's region is. Nothing was opened; "
+                        "load the card's driver anew.",
+                        path.string()));
     return value;
 }
 

@@ -9,8 +9,12 @@ namespace motionrack::mark {
 
 namespace {
 
-double root_of_squares(double a, double b) { return std::sqrt(a * a + b * b); }
-tl::unexpected<Error> refused(const std::string& sentence) { return fail(Trouble::refused, sentence); }
+double root_of_squares(double a, double b) {
+    return std::sqrt(a * a + b * b);
+}
+tl::unexpected<Error> refused(const std::string& sentence) {
+    return fail(Trouble::refused, sentence);
+}
 bool good(std::initializer_list<double> numbers) {
     for (const double n : numbers)
         if (!(std::fabs(n) <= 1e12)) return false;
@@ -29,7 +33,8 @@ double angle_between(sim::Spot centre, sim::Spot from, sim::Spot to) {
 
 /// The circle through three places; false: they are on a line.
 bool circle_of(const std::array<RotaryMark, 3>& m, Circle& out, double& unlike) {
-    const double bx = m[1].at.x - m[0].at.x, by = m[1].at.y - m[0].at.y, cx = m[2].at.x - m[0].at.x, cy = m[2].at.y - m[0].at.y;
+    const double bx = m[1].at.x - m[0].at.x, by = m[1].at.y - m[0].at.y, cx = m[2].at.x - m[0].at.x,
+                 cy = m[2].at.y - m[0].at.y;
     const double twice = 2 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
     if (!(std::fabs(twice) > 1e-12 * (b2 + c2))) return false;
     const double ux = (cy * b2 - by * c2) / twice, uy = (bx * c2 - cx * b2) / twice;
@@ -47,12 +52,18 @@ bool circle_of(const std::array<RotaryMark, 3>& m, Circle& out, double& unlike) 
 }  // namespace
 
 Result<ScaleResult> calibrate_scale(const ScaleData& d) {
-    if (!good({d.reading1, d.reading2, d.distance_mm, d.bits_per_mm, d.reading_uncertainty, d.distance_uncertainty_mm})) return refused(no_numbers);
+    if (!good({d.reading1, d.reading2, d.distance_mm, d.bits_per_mm, d.reading_uncertainty, d.distance_uncertainty_mm}))
+        return refused(no_numbers);
     const double counts = d.reading2 - d.reading1;
-    if (counts == 0) return refused(fmt::format("Both readings are {:g}: the source did not move. Move the part between them.", d.reading1));
+    if (counts == 0)
+        return refused(
+            fmt::format("Both readings are {:g}: the source did not move. Move the part between them.", d.reading1));
     if (d.distance_mm == 0 || !(d.bits_per_mm > 0) || d.reading_uncertainty < 0 || d.distance_uncertainty_mm < 0)
-        return refused(fmt::format("The distance is {:g} mm and the field {:g} bits/mm; neither may be 0, and no uncertainty below 0.", d.distance_mm, d.bits_per_mm));
-    const double part = root_of_squares(std::sqrt(2.0) * d.reading_uncertainty / counts, d.distance_uncertainty_mm / d.distance_mm);
+        return refused(fmt::format(
+            "The distance is {:g} mm and the field {:g} bits/mm; neither may be 0, and no uncertainty below 0.",
+            d.distance_mm, d.bits_per_mm));
+    const double part =
+        root_of_squares(std::sqrt(2.0) * d.reading_uncertainty / counts, d.distance_uncertainty_mm / d.distance_mm);
     ScaleResult out;
     out.per_mm.value = counts / d.distance_mm;
     out.per_mm.uncertainty = std::fabs(out.per_mm.value) * part;
@@ -61,18 +72,25 @@ Result<ScaleResult> calibrate_scale(const ScaleData& d) {
     return out;
 }
 
-Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, double place_uncertainty_mm, double count_uncertainty) {
+Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, double place_uncertainty_mm,
+                                      double count_uncertainty) {
     for (const RotaryMark& m : marks)
         if (!good({m.at.x, m.at.y, m.count})) return refused(no_numbers);
-    if (!good({place_uncertainty_mm, count_uncertainty}) || place_uncertainty_mm < 0 || count_uncertainty < 0) return refused("An uncertainty must be 0 or above.");
-    if (marks[0].count == marks[1].count || marks[1].count == marks[2].count || (marks[1].count > marks[0].count) != (marks[2].count > marks[1].count))
+    if (!good({place_uncertainty_mm, count_uncertainty}) || place_uncertainty_mm < 0 || count_uncertainty < 0)
+        return refused("An uncertainty must be 0 or above.");
+    if (marks[0].count == marks[1].count || marks[1].count == marks[2].count ||
+        (marks[1].count > marks[0].count) != (marks[2].count > marks[1].count))
         return refused("The counts of the three marks must rise, or fall, from mark to mark.");
     Circle middle{};
     RotaryResult out;
     if (!circle_of(marks, middle, out.unlike))
-        return refused("The three marks are on a straight line or on one another, so they have no centre. Turn the table further between them.");
-    const double first = angle_between({middle[0], middle[1]}, marks[0].at, marks[1].at), second = angle_between({middle[0], middle[1]}, marks[1].at, marks[2].at);
-    if ((first > 0) != (second > 0)) return refused("The marks do not go round in one sense. Turn the table less than half a turn between them.");
+        return refused(
+            "The three marks are on a straight line or on one another, so they have no centre. Turn the table further "
+            "between them.");
+    const double first = angle_between({middle[0], middle[1]}, marks[0].at, marks[1].at),
+                 second = angle_between({middle[0], middle[1]}, marks[1].at, marks[2].at);
+    if ((first > 0) != (second > 0))
+        return refused("The marks do not go round in one sense. Turn the table less than half a turn between them.");
     // How much each number moves the result is tried out.
     std::array<double, 4> squares{};
     const auto tried = [&](const std::array<RotaryMark, 3>& changed, double times) {
@@ -95,14 +113,21 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
 }
 
 Result<LagResult> calibrate_lag(const LagData& d) {
-    if (!good({d.speed_mm_s[0], d.speed_mm_s[1], d.shift_mm[0], d.shift_mm[1], d.shift_uncertainty_mm}) || d.shift_uncertainty_mm < 0) return refused(no_numbers);
+    if (!good({d.speed_mm_s[0], d.speed_mm_s[1], d.shift_mm[0], d.shift_mm[1], d.shift_uncertainty_mm}) ||
+        d.shift_uncertainty_mm < 0)
+        return refused(no_numbers);
     const double speeds = d.speed_mm_s[1] - d.speed_mm_s[0];
-    if (speeds == 0) return refused(fmt::format("Both crosses were marked at {:g} mm/s. Mark one at another speed.", d.speed_mm_s[0]));
+    if (speeds == 0)
+        return refused(
+            fmt::format("Both crosses were marked at {:g} mm/s. Mark one at another speed.", d.speed_mm_s[0]));
     LagResult out;
-    out.lag_us = {(d.shift_mm[1] - d.shift_mm[0]) / speeds * 1e6, std::sqrt(2.0) * d.shift_uncertainty_mm / std::fabs(speeds) * 1e6};
+    out.lag_us = {(d.shift_mm[1] - d.shift_mm[0]) / speeds * 1e6,
+                  std::sqrt(2.0) * d.shift_uncertainty_mm / std::fabs(speeds) * 1e6};
     if (out.lag_us.value < -std::fmax(5.0, 3 * out.lag_us.uncertainty) || out.lag_us.value > 655'350)
-        return refused(fmt::format("The lag would be {:.1f} us; the card makes up for 0 to 655350. Is the sign of the shifts right? Positive is against the movement.",
-                                   out.lag_us.value));
+        return refused(
+            fmt::format("The lag would be {:.1f} us; the card makes up for 0 to 655350. Is the sign of the shifts "
+                        "right? Positive is against the movement.",
+                        out.lag_us.value));
     out.tracking_error = static_cast<int>(std::floor(std::fmax(out.lag_us.value, 0) / 10 + 0.5));
     out.fixed_shift_mm = d.shift_mm[0] - out.lag_us.value * 1e-6 * d.speed_mm_s[0];
     return out;

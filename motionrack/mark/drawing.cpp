@@ -62,12 +62,14 @@ void Pen::cubic_to(Spot control1, Spot control2, Spot p) {
     const Spot q[4] = {to_mm_(at_), to_mm_(control1), to_mm_(control2), to_mm_(p)};
     // A chord of 1/n of the curve is off by an eighth of the greatest second derivative over n squared.
     double bend = 0;
-    for (int i = 0; i < 2; ++i) bend = std::max(bend, distance({q[i].x + q[i + 2].x, q[i].y + q[i + 2].y}, {2 * q[i + 1].x, 2 * q[i + 1].y}));
+    for (int i = 0; i < 2; ++i)
+        bend = std::max(bend, distance({q[i].x + q[i + 2].x, q[i].y + q[i + 2].y}, {2 * q[i + 1].x, 2 * q[i + 1].y}));
     const int n = static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance_)), 1.0, 100'000.0));
     for (int i = 1; i < n && complete(); ++i) {
         const double t = static_cast<double>(i) / n, s = 1 - t;
         const double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-        add({{w[0] * q[0].x + w[1] * q[1].x + w[2] * q[2].x + w[3] * q[3].x, w[0] * q[0].y + w[1] * q[1].y + w[2] * q[2].y + w[3] * q[3].y}});
+        add({{w[0] * q[0].x + w[1] * q[1].x + w[2] * q[2].x + w[3] * q[3].x,
+              w[0] * q[0].y + w[1] * q[1].y + w[2] * q[2].y + w[3] * q[3].y}});
     }
     at_ = p;
     if (n > 1 || distance(q[0], q[3]) > 0) add({q[3]});
@@ -138,7 +140,8 @@ std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance
                 for (int i = 1; i < n; ++i) {
                     const SinCos turn = sin_cos(e.sweep * i / n);
                     const double dx = begin.x - e.centre.x, dy = begin.y - e.centre.y;
-                    const Spot next{e.centre.x + turn.cos * dx - turn.sin * dy, e.centre.y + turn.sin * dx + turn.cos * dy};
+                    const Spot next{e.centre.x + turn.cos * dx - turn.sin * dy,
+                                    e.centre.y + turn.sin * dx + turn.cos * dy};
                     out.push_back({at, next});
                     at = next;
                 }

@@ -54,8 +54,8 @@ class Pen {
     void line_to(Spot p);
     void quadratic_to(Spot control, Spot p);
     void cubic_to(Spot control1, Spot control2, Spot p);
-    /// The part of the ellipse with radii rx, ry, turned by `turn`, from the angle `begin` on for `sweep` (radians, from the
-    /// ellipse's x to its y). The pen must stand at its begin; `p` is its end.
+    /// The part of the ellipse with radii rx, ry, turned by `turn`, from the angle `begin` on for `sweep` (radians,
+    /// from the ellipse's x to its y). The pen must stand at its begin; `p` is its end.
     void ellipse_to(Spot centre, double rx, double ry, double turn, double begin, double sweep, Spot p);
     /// Back to the begin of the stroke.
     void close();

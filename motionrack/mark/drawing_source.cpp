@@ -19,21 +19,29 @@ constexpr double greatest_mm = 1e5;
 
 Result<void> check_size(const Drawing& drawing, const std::string& file) {
     if (element_count(drawing) > most_elements || segment_count(drawing) > most_segments)
-        return fail(Trouble::bad_input, fmt::format("The drawing has more than {} lines and arcs, or more than {} with arcs as lines. Nothing was marked.", most_elements, most_segments),
-                    {}, file);
+        return fail(
+            Trouble::bad_input,
+            fmt::format(
+                "The drawing has more than {} lines and arcs, or more than {} with arcs as lines. Nothing was marked.",
+                most_elements, most_segments),
+            {}, file);
     const auto near = [](Spot p) { return std::fabs(p.x) <= greatest_mm && std::fabs(p.y) <= greatest_mm; };
     for (const Stroke& stroke : drawing.strokes) {
         bool good = near(stroke.from);
         for (const Element& e : stroke.elements) good &= near(e.to) && near(e.centre);
         if (!good)
-            return fail(Trouble::bad_input, fmt::format("Some of the drawing, or the centre of an arc, is more than {:g} mm from the field's middle. Nothing was marked; make it smaller.", greatest_mm),
+            return fail(Trouble::bad_input,
+                        fmt::format("Some of the drawing, or the centre of an arc, is more than {:g} mm from the "
+                                    "field's middle. Nothing was marked; make it smaller.",
+                                    greatest_mm),
                         {}, file);
     }
     return {};
 }
 
 /// One source, placed.
-Result<Drawing> source_drawing(const DrawingSource& source, const std::string& file, const Load& load, std::int64_t number) {
+Result<Drawing> source_drawing(const DrawingSource& source, const std::string& file, const Load& load,
+                               std::int64_t number) {
     Drawing drawing;
     if (source.text) {
         const auto text = numbered(*source.text, number);
@@ -46,13 +54,17 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
         MOTIONRACK_TRY(const std::string text, load(name));
         MOTIONRACK_TRY(drawing, source.svg ? read_svg(text, name, source.tolerance_mm) : read_gcode(text, name));
     }
-    if (element_count(drawing) == 0) return fail(Trouble::bad_input, "The drawing has no lines. Nothing was marked.", {}, file);
+    if (element_count(drawing) == 0)
+        return fail(Trouble::bad_input, "The drawing has no lines. Nothing was marked.", {}, file);
     MOTIONRACK_CHECK(check_size(drawing, file));
     const Box box = box_of(drawing);
     double scale = source.scale;
     if (source.width_mm) {
         const double wide = box.high.x - box.low.x;
-        if (!(wide > 0)) return fail(Trouble::bad_input, "The drawing is 0 mm wide and cannot be made as wide as width_mm. Nothing was marked.", {}, file);
+        if (!(wide > 0))
+            return fail(Trouble::bad_input,
+                        "The drawing is 0 mm wide and cannot be made as wide as width_mm. Nothing was marked.", {},
+                        file);
         scale *= *source.width_mm / wide;
     }
     if (source.svg && scale > 1) {  // the tolerance is meant on the part
@@ -60,9 +72,11 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
         MOTIONRACK_TRY(drawing, read_svg(text, *source.svg, source.tolerance_mm / scale));
     }
     const SinCos turn = sin_cos(source.rotate_deg * (pi / 180));
-    const Spot anchor = source.anchor == Anchor::centre ? Spot{(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2} : Spot{};
-    const Affine place = Affine{scale * turn.cos, scale * turn.sin, -scale * turn.sin, scale * turn.cos, source.x_mm, source.y_mm}.after(
-        {1, 0, 0, 1, -anchor.x, -anchor.y});
+    const Spot anchor =
+        source.anchor == Anchor::centre ? Spot{(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2} : Spot{};
+    const Affine place =
+        Affine{scale * turn.cos, scale * turn.sin, -scale * turn.sin, scale * turn.cos, source.x_mm, source.y_mm}.after(
+            {1, 0, 0, 1, -anchor.x, -anchor.y});
     Drawing out = transformed(drawing, place, source.tolerance_mm);
     MOTIONRACK_CHECK(check_size(out, file));
     return out;
@@ -71,7 +85,8 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
 }  // namespace
 
 bool has_numbers(const Job& job) {
-    return std::any_of(job.drawings.begin(), job.drawings.end(), [](const DrawingSource& d) { return d.text && d.text->find('{') != std::string::npos; });
+    return std::any_of(job.drawings.begin(), job.drawings.end(),
+                       [](const DrawingSource& d) { return d.text && d.text->find('{') != std::string::npos; });
 }
 
 Result<Drawing> drawing_of(const Job& job, const Load& load, std::int64_t number) {

@@ -31,7 +31,12 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
     control::gcode::Settings settings;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         auto& limits = settings.limits[axis];
-        limits = {.present = true, .min_position = -1e5, .max_position = 1e5, .max_speed = 1e5, .max_accel = 1e6, .pulses_per_unit = 1};
+        limits = {.present = true,
+                  .min_position = -1e5,
+                  .max_position = 1e5,
+                  .max_speed = 1e5,
+                  .max_accel = 1e6,
+                  .pulses_per_unit = 1};
     }
     control::gcode::Reader reader(text, settings, file);
     Drawing out;
@@ -50,13 +55,19 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
         } else {
             const bool is_arc = move.kind == MoveKind::arc;
             if (is_arc && (move.first != 0 || move.second != 1))
-                return fail(Trouble::bad_input, "An arc outside the XY plane cannot be marked. Nothing was marked; use G17.", {move.line, 0}, file);
+                return fail(Trouble::bad_input,
+                            "An arc outside the XY plane cannot be marked. Nothing was marked; use G17.",
+                            {move.line, 0}, file);
             if (++count > most_elements)
-                return fail(Trouble::bad_input, fmt::format("More than {} lines and arcs. Nothing was marked.", most_elements), {move.line, 0}, file);
+                return fail(Trouble::bad_input,
+                            fmt::format("More than {} lines and arcs. Nothing was marked.", most_elements),
+                            {move.line, 0}, file);
             if (is_arc || to.x != at.x || to.y != at.y) {
                 if (!down) out.strokes.push_back({at, {}});
                 down = true;
-                out.strokes.back().elements.push_back(is_arc ? Element{to, {move.centre_first, move.centre_second}, sweep_of(move, at, to)} : Element{to});
+                out.strokes.back().elements.push_back(
+                    is_arc ? Element{to, {move.centre_first, move.centre_second}, sweep_of(move, at, to)}
+                           : Element{to});
             }
         }
         at = to;

@@ -17,9 +17,10 @@ namespace motionrack::mark {
 enum class Anchor : std::uint8_t { centre, origin };
 
 struct DrawingSource {
-    std::optional<std::string> svg, gcode, text;  ///< just one of them: two file names, or the text itself, with {n} for the part's number
-    double height_mm = 5;                         ///< of the text's capitals
-    std::optional<double> width_mm;               ///< the drawing is made so wide
+    std::optional<std::string> svg, gcode,
+        text;              ///< just one of them: two file names, or the text itself, with {n} for the part's number
+    double height_mm = 5;  ///< of the text's capitals
+    std::optional<double> width_mm;  ///< the drawing is made so wide
     double scale = 1, rotate_deg = 0;
     double x_mm = 0, y_mm = 0;  ///< where the anchor is in the field
     Anchor anchor = Anchor::centre;
@@ -40,8 +41,8 @@ struct Pace {
 };
 
 struct Belt {
-    double speed = 0;                     ///< mm/s, or degrees/s of a table
-    double direction_deg = 0;             ///< of a belt
+    double speed = 0;                         ///< mm/s, or degrees/s of a table
+    double direction_deg = 0;                 ///< of a belt
     double centre_x_mm = 0, centre_y_mm = 0;  ///< of a table
     double counts_per_unit = 1000;
     double slip = 0, jitter_counts = 0;
@@ -57,8 +58,10 @@ struct FlySettings {
     FlyMode mode = FlyMode::off;
     double tracking_error_us = 0;  ///< whole 10 us
     double scale_factor = 1;       ///< of the right scale: what a wrong calibration does
-    std::optional<double> simulated_speed;  ///< mm/s or degrees/s that the simulated encoder stands for; none: the belt's
-    double offset_us = 0;  ///< everything is marked so much of the belt's first speed further on: for a source that is late
+    std::optional<double>
+        simulated_speed;  ///< mm/s or degrees/s that the simulated encoder stands for; none: the belt's
+    double offset_us =
+        0;  ///< everything is marked so much of the belt's first speed further on: for a source that is late
     Waits waits = Waits::none;
     double margin_mm = 1;  ///< with waits: marks keep so far from the field's edge
 };
@@ -72,13 +75,15 @@ enum class PartStart : std::uint8_t {
 struct PartsSettings {
     std::int64_t count = 1;
     double spacing = 0;
-    std::vector<double> at;   ///< instead of count and spacing: way of the belt until each part is at the sensor
-    double track_delay = 0;   ///< from the sensor to where the drawing is meant to be marked
+    std::vector<double> at;  ///< instead of count and spacing: way of the belt until each part is at the sensor
+    double track_delay = 0;  ///< from the sensor to where the drawing is meant to be marked
     PartStart start = PartStart::sensor;
     std::int64_t first_number = 1, number_step = 1;  ///< of {n} in texts
 
     std::size_t size() const { return at.empty() ? static_cast<std::size_t>(count) : at.size(); }
-    std::int64_t number(std::size_t marked) const { return first_number + static_cast<std::int64_t>(marked) * number_step; }
+    std::int64_t number(std::size_t marked) const {
+        return first_number + static_cast<std::int64_t>(marked) * number_step;
+    }
     /// Way of the belt until part `i` is where it should be marked.
     double way(std::size_t i) const { return (at.empty() ? static_cast<double>(i) * spacing : at[i]) + track_delay; }
 };
@@ -114,8 +119,8 @@ std::string job_file_reference();
 /// Gives the bytes of a file that a job names (relative to the job).
 using Load = std::function<Result<std::string>(const std::string& path)>;
 
-/// The drawing of a job in the field's mm, placed, scaled and turned, with this number in its texts. Errors: of the file, or a drawing
-/// without lines.
+/// The drawing of a job in the field's mm, placed, scaled and turned, with this number in its texts. Errors: of the
+/// file, or a drawing without lines.
 Result<Drawing> drawing_of(const Job& job, const Load& load, std::int64_t number);
 /// Whether its texts have a number.
 bool has_numbers(const Job& job);

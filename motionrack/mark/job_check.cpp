@@ -15,19 +15,24 @@ namespace {
 using rack::TomlNode;
 
 /// Numbers that the card counts in steps.
-void check_steps(const TomlNode& root, std::string_view section, std::string_view key, double value, double step, rack::Problems& problems) {
+void check_steps(const TomlNode& root, std::string_view section, std::string_view key, double value, double step,
+                 rack::Problems& problems) {
     if (value / step == std::floor(value / step)) return;
-    problems.error(root.find(section)->place_of(key), fmt::format("'{}' is {} us; the card has steps of {} us.", key, rack::number_text(value), rack::number_text(step)));
+    problems.error(root.find(section)->place_of(key), fmt::format("'{}' is {} us; the card has steps of {} us.", key,
+                                                                  rack::number_text(value), rack::number_text(step)));
 }
 
 void check_drawings(const TomlNode& root, const Job& job, rack::Problems& problems) {
     const TomlNode* node = root.find("drawing");
-    if (job.drawings.empty()) return problems.error(node != nullptr ? node->key_place : Place{1, 1}, "A job needs a [drawing].");
+    if (job.drawings.empty())
+        return problems.error(node != nullptr ? node->key_place : Place{1, 1}, "A job needs a [drawing].");
     for (std::size_t i = 0; i < job.drawings.size(); ++i) {
         const TomlNode& table = node->type == rack::TomlType::array ? node->children[i] : *node;
         const DrawingSource& d = job.drawings[i];
         const int sources = (d.svg ? 1 : 0) + (d.gcode ? 1 : 0) + (d.text ? 1 : 0);
-        if (sources != 1) problems.error(table.key_place, fmt::format("A drawing needs one of svg, gcode and text; there are {}.", sources));
+        if (sources != 1)
+            problems.error(table.key_place,
+                           fmt::format("A drawing needs one of svg, gcode and text; there are {}.", sources));
         if (!d.text) continue;
         const PartsSettings parts = job.parts.value_or(PartsSettings{});
         for (const std::int64_t number : {parts.number(0), parts.number(parts.size() - 1)})
@@ -39,10 +44,12 @@ void check_drawings(const TomlNode& root, const Job& job, rack::Problems& proble
 }
 
 void check_pace(const TomlNode& root, const Job& job, rack::Problems& problems) {
-    for (const auto& [key, value] : {std::pair{"jump_delay_us", job.pace.jump_delay_us}, std::pair{"mark_delay_us", job.pace.mark_delay_us},
-                                     std::pair{"polygon_delay_us", job.pace.polygon_delay_us}})
+    for (const auto& [key, value] :
+         {std::pair{"jump_delay_us", job.pace.jump_delay_us}, std::pair{"mark_delay_us", job.pace.mark_delay_us},
+          std::pair{"polygon_delay_us", job.pace.polygon_delay_us}})
         check_steps(root, "pace", key, value, 10, problems);
-    for (const auto& [key, value] : {std::pair{"laser_on_us", job.pace.laser_on_us}, std::pair{"laser_off_us", job.pace.laser_off_us}})
+    for (const auto& [key, value] :
+         {std::pair{"laser_on_us", job.pace.laser_on_us}, std::pair{"laser_off_us", job.pace.laser_off_us}})
         check_steps(root, "pace", key, value, 0.5, problems);
     check_steps(root, "fly", "tracking_error_us", job.fly.tracking_error_us, 10, problems);
 }
@@ -53,26 +60,40 @@ bool stands(const Job& job) {
 }
 bool turns_back(const Job& job) {
     const auto profile = job.track().profile;
-    return std::any_of(profile.begin(), profile.end(), [&](const parts::SpeedPoint& p) { return p.speed * job.sense() < 0; });
+    return std::any_of(profile.begin(), profile.end(),
+                       [&](const parts::SpeedPoint& p) { return p.speed * job.sense() < 0; });
 }
 
 void check_fly(const TomlNode& root, const Job& job, rack::Problems& problems) {
     const FlySettings& fly = job.fly;
-    const auto wrong = [&](std::string_view key, std::string message) { problems.error(root.find("fly")->place_of(key), std::move(message)); };
+    const auto wrong = [&](std::string_view key, std::string message) {
+        problems.error(root.find("fly")->place_of(key), std::move(message));
+    };
     const double simulated = fly.simulated_speed.value_or(job.belt.profile.empty() ? job.belt.speed : 0);
     if (fly.mode == FlyMode::simulated && simulated == 0)
-        wrong("mode", "The simulated encoder needs a constant speed above or below 0: that of [belt] or [table], or, with a profile, simulated_speed in [fly]; or take mode encoder.");
+        wrong("mode",
+              "The simulated encoder needs a constant speed above or below 0: that of [belt] or [table], or, with a "
+              "profile, simulated_speed in [fly]; or take mode encoder.");
     if (fly.simulated_speed && fly.mode != FlyMode::simulated)
-        wrong(job.belt.rotary ? "simulated_speed_deg_s" : "simulated_speed_mm_s", "The simulated encoder's speed is given, but the mode is another one; take mode simulated or leave it out.");
+        wrong(job.belt.rotary ? "simulated_speed_deg_s" : "simulated_speed_mm_s",
+              "The simulated encoder's speed is given, but the mode is another one; take mode simulated or leave it "
+              "out.");
     if (fly.mode == FlyMode::mcbsp && fly.tracking_error_us != 0)
-        wrong("tracking_error_us", "The card makes up for tracking errors of encoders only, not of a McBSP source; take offset_us, which is right at constant speed.");
+        wrong("tracking_error_us",
+              "The card makes up for tracking errors of encoders only, not of a McBSP source; take offset_us, which is "
+              "right at constant speed.");
     if (fly.waits == Waits::none) return;
     const double quarter = job.belt.direction_deg / 90;
-    if (job.belt.rotary) wrong("waits", "Waits are for drawings along a belt; on a table mark [parts] one after the other.");
-    else if (fly.mode == FlyMode::off) wrong("waits", "Waits need a correction that carries the marks along; choose a mode.");
-    else if (stands(job) || turns_back(job)) wrong("waits", "Waits need a belt that moves, and never backwards.");
+    if (job.belt.rotary)
+        wrong("waits", "Waits are for drawings along a belt; on a table mark [parts] one after the other.");
+    else if (fly.mode == FlyMode::off)
+        wrong("waits", "Waits need a correction that carries the marks along; choose a mode.");
+    else if (stands(job) || turns_back(job))
+        wrong("waits", "Waits need a belt that moves, and never backwards.");
     else if (fly.mode == FlyMode::mcbsp && quarter != std::floor(quarter))
-        wrong("waits", "The words of a belt that goes neither along X nor Y have two values of 16 bits, and wait_for_mcbsp sees them only while the correction is on; take mode encoder.");
+        wrong("waits",
+              "The words of a belt that goes neither along X nor Y have two values of 16 bits, and wait_for_mcbsp sees "
+              "them only while the correction is on; take mode encoder.");
 }
 
 void check_parts(const TomlNode& root, const Job& job, rack::Problems& problems) {
@@ -80,28 +101,42 @@ void check_parts(const TomlNode& root, const Job& job, rack::Problems& problems)
     const PartsSettings& parts = *job.parts;
     const TomlNode& table = *root.find("parts");
     const std::string unit = job.belt.rotary ? "deg" : "mm";
-    const auto place = [&](const char* key) { return table.find(key + unit) != nullptr ? table.place_of(key + unit) : table.key_place; };
+    const auto place = [&](const char* key) {
+        return table.find(key + unit) != nullptr ? table.place_of(key + unit) : table.key_place;
+    };
     if (parts.at.empty() && parts.count > 1 && parts.spacing == 0)
-        problems.error(place("spacing_"), fmt::format("{} parts need a 'spacing_{}' above 0, or their places in 'at_{}'.", parts.count, unit, unit));
+        problems.error(
+            place("spacing_"),
+            fmt::format("{} parts need a 'spacing_{}' above 0, or their places in 'at_{}'.", parts.count, unit, unit));
     if (job.fly.mode == FlyMode::mcbsp)
-        problems.error(table.key_place, "McBSP words say where the part is and no command makes them 0 at a start, so only the first of several parts would be right; take mode encoder, or one part without [parts].");
-    if (stands(job) || turns_back(job)) problems.error(table.key_place, "Parts come on a belt or table that moves, and never backwards; give [belt] or [table] such a speed.");
+        problems.error(table.key_place,
+                       "McBSP words say where the part is and no command makes them 0 at a start, so only the first of "
+                       "several parts would be right; take mode encoder, or one part without [parts].");
+    if (stands(job) || turns_back(job))
+        problems.error(
+            table.key_place,
+            "Parts come on a belt or table that moves, and never backwards; give [belt] or [table] such a speed.");
     if (parts.start == PartStart::equidistant && (!parts.at.empty() || parts.track_delay != 0))
-        problems.error(table.place_of("start"), fmt::format("Equidistant parts need no sensor: the first begins at once, the others after 'spacing_{}'; leave 'at_{}' and 'track_delay_{}' out.", unit, unit, unit));
+        problems.error(table.place_of("start"),
+                       fmt::format("Equidistant parts need no sensor: the first begins at once, the others after "
+                                   "'spacing_{}'; leave 'at_{}' and 'track_delay_{}' out.",
+                                   unit, unit, unit));
 }
 
 }  // namespace
 
 void check_job(const TomlNode& root, const Job& job, rack::Problems& problems) {
     check_drawings(root, job, problems);
-    if (root.find("belt") != nullptr && root.find("table") != nullptr) problems.error(root.find("table")->key_place, "A job has a [belt] or a [table], not both.");
+    if (root.find("belt") != nullptr && root.find("table") != nullptr)
+        problems.error(root.find("table")->key_place, "A job has a [belt] or a [table], not both.");
     if (job.belt.counts_per_unit == 0) problems.error(job.belt.place, "An encoder with 0 counts measures nothing.");
     if (job.sender.bits_per_mm == 0) problems.error(root.place_of("sender"), "A sender with 0 bits measures nothing.");
     check_pace(root, job, problems);
     check_fly(root, job, problems);
     check_parts(root, job, problems);
     if (job.lens) {
-        if (const auto good = sim::check(job.lens->lens()); !good) problems.error(root.place_of("lens"), good.error().message);
+        if (const auto good = sim::check(job.lens->lens()); !good)
+            problems.error(root.place_of("lens"), good.error().message);
         if (root.find("optics") != nullptr && root.find("optics")->find("bits_per_mm") != nullptr)
             problems.error(root.find("optics")->place_of("bits_per_mm"), "With a [lens], bits_per_mm stands there.");
     }

@@ -21,9 +21,14 @@ inline constexpr std::array<std::string_view, 2> starts = {"sensor", "equidistan
 inline constexpr std::array<Field, 10> drawing_fields = {
     absent_means(field<&DrawingSource::svg>("svg", 1, 1000, "", "SVG file"), "one of the three"),
     absent_means(field<&DrawingSource::gcode>("gcode", 1, 1000, "", "part program"), "one of the three"),
-    absent_means(with_lines(field<&DrawingSource::text>("text", 1, 10'000, "", "text in a single-stroke font, in lines; `{n}` is the part's number, `{n:05}` with zeros in front")), "one of the three"),
+    absent_means(
+        with_lines(field<&DrawingSource::text>(
+            "text", 1, 10'000, "",
+            "text in a single-stroke font, in lines; `{n}` is the part's number, `{n:05}` with zeros in front")),
+        "one of the three"),
     field<&DrawingSource::height_mm>("height_mm", 0.01, 1000, "mm", "height of the text's capitals"),
-    absent_means(field<&DrawingSource::width_mm>("width_mm", 0.001, 10'000, "mm", "the drawing is made so wide"), "as it is"),
+    absent_means(field<&DrawingSource::width_mm>("width_mm", 0.001, 10'000, "mm", "the drawing is made so wide"),
+                 "as it is"),
     field<&DrawingSource::scale>("scale", 1e-6, 1e6, "", "makes the drawing larger"),
     field<&DrawingSource::rotate_deg>("rotate_deg", -3600, 3600, "deg", "turns it, counter-clockwise"),
     field<&DrawingSource::x_mm>("x_mm", -1000, 1000, "mm", "where its anchor is"),
@@ -61,18 +66,29 @@ inline constexpr std::array<Field, 6> table_fields = {
 };
 inline constexpr std::array<Field, 7> fly_fields = {
     with_choices(field<&FlySettings::mode>("mode", 0, 0, "", "where the card has the movement from"), modes),
-    field<&FlySettings::tracking_error_us>("tracking_error_us", 0, 655'350, "us", "lag of the mirrors that the card makes up for, in steps of 10 us; encoders only"),
+    field<&FlySettings::tracking_error_us>(
+        "tracking_error_us", 0, 655'350, "us",
+        "lag of the mirrors that the card makes up for, in steps of 10 us; encoders only"),
     field<&FlySettings::scale_factor>("scale_factor", 0.01, 100, "", "a wrong scale: 1.01 is one percent too much"),
-    absent_means(field<&FlySettings::simulated_speed>("simulated_speed_{u}_s", -1e5, 1e5, "{u}/s", "mode simulated: the speed that the card's own clock stands for"), "the speed of the belt"),
-    field<&FlySettings::offset_us>("offset_us", -1e6, 1e6, "us", "everything is marked as far ahead as the belt goes in this time at its first speed: for a source that is late"),
-    with_choices(field<&FlySettings::waits>("waits", 0, 0, "", "auto: each stroke waits until it is in the field, long ones in pieces"), waits),
+    absent_means(field<&FlySettings::simulated_speed>("simulated_speed_{u}_s", -1e5, 1e5, "{u}/s",
+                                                      "mode simulated: the speed that the card's own clock stands for"),
+                 "the speed of the belt"),
+    field<&FlySettings::offset_us>("offset_us", -1e6, 1e6, "us",
+                                   "everything is marked as far ahead as the belt goes in this time at its first "
+                                   "speed: for a source that is late"),
+    with_choices(field<&FlySettings::waits>("waits", 0, 0, "",
+                                            "auto: each stroke waits until it is in the field, long ones in pieces"),
+                 waits),
     field<&FlySettings::margin_mm>("margin_mm", 0, 1000, "mm", "with waits: how far marks keep from the field's edge"),
 };
 inline constexpr std::array<Field, 6> parts_fields = {
     field<&PartsSettings::count>("count", 1, 10'000, "", "how many come"),
     field<&PartsSettings::spacing>("spacing_{u}", 0, 1e6, "{u}", "from one to the next"),
-    field<&PartsSettings::track_delay>("track_delay_{u}", 0, 1e6, "{u}", "from the sensor to the place in the field for which the drawing is made"),
-    with_choices(field<&PartsSettings::start>("start", 0, 0, "", "each part's edge at the sensor, or the card itself after each spacing"), starts),
+    field<&PartsSettings::track_delay>("track_delay_{u}", 0, 1e6, "{u}",
+                                       "from the sensor to the place in the field for which the drawing is made"),
+    with_choices(field<&PartsSettings::start>("start", 0, 0, "",
+                                              "each part's edge at the sensor, or the card itself after each spacing"),
+                 starts),
     field<&PartsSettings::first_number>("first_number", -1e15, 1e15, "", "`{n}` of the first part that is marked"),
     field<&PartsSettings::number_step>("number_step", -1e9, 1e9, "", "from one marked part to the next"),
 };
@@ -92,20 +108,28 @@ struct SectionInfo {
     std::string_view doc;
     ArrayKey array{};
 };
-inline constexpr ArrayKey profile_key{"profile", "s, {u}/s", "1 .. 10000 pairs", "none", "instead of the speed: [[seconds, speed], ..], straight between the points"};
-inline constexpr ArrayKey at_key{"at_{u}", "{u}", "1 .. 10000 rising numbers from 0 on", "none", "instead of count and spacing: the way of the belt until each part's edge is at the sensor"};
+inline constexpr ArrayKey profile_key{"profile", "s, {u}/s", "1 .. 10000 pairs", "none",
+                                      "instead of the speed: [[seconds, speed], ..], straight between the points"};
+inline constexpr ArrayKey at_key{
+    "at_{u}", "{u}", "1 .. 10000 rising numbers from 0 on", "none",
+    "instead of count and spacing: the way of the belt until each part's edge is at the sensor"};
 
 inline constexpr std::array<SectionInfo, 11> sections = {
-    SectionInfo{"drawing", drawing_fields, "One of `svg`, `gcode` and `text`. `[[drawing]]`, as often as wanted, marks several one after the other."},
+    SectionInfo{
+        "drawing", drawing_fields,
+        "One of `svg`, `gcode` and `text`. `[[drawing]]`, as often as wanted, marks several one after the other."},
     SectionInfo{"optics", optics_fields, ""},
     SectionInfo{"lens", rack::lens_keys, "An f-theta lens. The card's table is made from it, or is the ct5 file."},
     SectionInfo{"galvo", rack::galvo_keys, "Without `ideal` they have dead time, lag and a speed limit."},
     SectionInfo{"laser", rack::laser_keys, ""},
-    SectionInfo{"pace", pace_fields, "Delays of the mirrors are in steps of 10 us, those of the laser in steps of 0.5 us."},
+    SectionInfo{"pace", pace_fields,
+                "Delays of the mirrors are in steps of 10 us, those of the laser in steps of 0.5 us."},
     SectionInfo{"belt", belt_fields, "What carries the parts.", profile_key},
     SectionInfo{"table", table_fields, "A rotary table instead of a belt.", profile_key},
     SectionInfo{"fly", fly_fields, "How the card follows the part."},
-    SectionInfo{"parts", parts_fields, "Parts that come one after the other. Without it there is one part and the list begins by itself.", at_key},
+    SectionInfo{"parts", parts_fields,
+                "Parts that come one after the other. Without it there is one part and the list begins by itself.",
+                at_key},
     SectionInfo{"sender", sender_fields, "The source of McBSP words, with mode mcbsp."},
 };
 

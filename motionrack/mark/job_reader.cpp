@@ -12,8 +12,12 @@ namespace {
 using rack::TomlNode;
 using rack::TomlType;
 
-bool is_number(const TomlNode& node) { return node.type == TomlType::number || node.type == TomlType::integer; }
-double number_of(const TomlNode& node) { return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number; }
+bool is_number(const TomlNode& node) {
+    return node.type == TomlType::number || node.type == TomlType::integer;
+}
+double number_of(const TomlNode& node) {
+    return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
+}
 
 /// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
 void read_profile(const TomlNode& table, Belt& belt, rack::Problems& problems) {
@@ -22,37 +26,48 @@ void read_profile(const TomlNode& table, Belt& belt, rack::Problems& problems) {
     if (profile->type != TomlType::array || profile->children.empty() || profile->children.size() > 10'000)
         return problems.error(profile->value_place, "'profile' must be an array of 1 to 10000 pairs [seconds, speed].");
     for (const TomlNode& pair : profile->children) {
-        if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) || !is_number(pair.children[1]))
+        if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
+            !is_number(pair.children[1]))
             return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, speed].");
         belt.profile.push_back({number_of(pair.children[0]), number_of(pair.children[1])});
     }
     if (table.find("speed_mm_s") != nullptr || table.find("speed_deg_s") != nullptr)
         problems.error(profile->key_place, "A speed and a 'profile' are both given; leave one out.");
-    if (const auto track = parts::Track::make({.profile = belt.profile}); !track) problems.error(profile->value_place, track.error().message);
+    if (const auto track = parts::Track::make({.profile = belt.profile}); !track)
+        problems.error(profile->value_place, track.error().message);
 }
 
 /// at_mm = [0, 40, 95]
 void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, rack::Problems& problems) {
     const TomlNode* at = table.find(key);
     if (at == nullptr) return;
-    const auto wrong = [&](Place place) { problems.error(place, fmt::format("'{}' must be an array of 1 to 10000 numbers that rise, from 0 to 1e6.", key)); };
-    if (at->type != TomlType::array || at->children.empty() || at->children.size() > 10'000) return wrong(at->value_place);
+    const auto wrong = [&](Place place) {
+        problems.error(place,
+                       fmt::format("'{}' must be an array of 1 to 10000 numbers that rise, from 0 to 1e6.", key));
+    };
+    if (at->type != TomlType::array || at->children.empty() || at->children.size() > 10'000)
+        return wrong(at->value_place);
     for (const TomlNode& node : at->children) {
         const double value = is_number(node) ? number_of(node) : -1;
-        if (!(value >= 0 && value <= 1e6) || (!parts.at.empty() && value <= parts.at.back())) return wrong(node.value_place);
+        if (!(value >= 0 && value <= 1e6) || (!parts.at.empty() && value <= parts.at.back()))
+            return wrong(node.value_place);
         parts.at.push_back(value);
     }
     for (const char* other : {"count", "spacing_mm", "spacing_deg"})
-        if (table.find(other) != nullptr) problems.error(table.place_of(other), fmt::format("With '{}' the parts' places are known; leave '{}' out.", key, other));
+        if (table.find(other) != nullptr)
+            problems.error(table.place_of(other),
+                           fmt::format("With '{}' the parts' places are known; leave '{}' out.", key, other));
 }
 
 /// One section into its member of the job.
 class SectionReader {
   public:
-    SectionReader(Job& job, std::string unit, rack::Problems& problems) : job_(job), unit_(std::move(unit)), problems_(problems) {}
+    SectionReader(Job& job, std::string unit, rack::Problems& problems)
+        : job_(job), unit_(std::move(unit)), problems_(problems) {}
 
     void read(const TomlNode& node, std::string_view name) {
-        const auto* info = std::find_if(fields::sections.begin(), fields::sections.end(), [&](const fields::SectionInfo& s) { return s.name == name; });
+        const auto* info = std::find_if(fields::sections.begin(), fields::sections.end(),
+                                        [&](const fields::SectionInfo& s) { return s.name == name; });
         const std::string array = rack::with_unit(info->array.key, unit_);
         const std::string_view also[] = {array};
         const rack::Section section{fmt::format("[{}]", name), unit_, "", std::span(also, array.empty() ? 0 : 1)};
@@ -114,7 +129,8 @@ JobRead read_job(std::string_view text, const std::string& file) {
         const bool known = std::find(names.begin(), names.end(), node.key) != names.end();
         const bool many = node.key == "drawing" && node.type == TomlType::array;
         if (!known || (!many && node.type != TomlType::table)) {
-            problems.error(node.key_place, fmt::format("There is no section {}{}.", rack::in_quotes(node.key), rack::did_you_mean(node.key, names)));
+            problems.error(node.key_place, fmt::format("There is no section {}{}.", rack::in_quotes(node.key),
+                                                       rack::did_you_mean(node.key, names)));
             continue;
         }
         if (!many) reader.read(node, node.key);

@@ -9,7 +9,8 @@ namespace motionrack::mark {
 namespace {
 
 /// A section's defaults.
-const void* defaults_of(const Job& job, const DrawingSource& drawing, const rack::RackLens& lens, const PartsSettings& parts, std::string_view section) {
+const void* defaults_of(const Job& job, const DrawingSource& drawing, const rack::RackLens& lens,
+                        const PartsSettings& parts, std::string_view section) {
     if (section == "drawing") return &drawing;
     if (section == "optics") return &job.optics;
     if (section == "lens") return &lens;
@@ -24,12 +25,15 @@ const void* defaults_of(const Job& job, const DrawingSource& drawing, const rack
 
 std::string array_row(const fields::ArrayKey& key, std::string_view section) {
     const auto both = [&](std::string_view text, std::string_view quote) {
-        const auto one = [&](std::string_view unit) { return fmt::format("{}{}{}", quote, rack::with_unit(text, unit), quote); };
+        const auto one = [&](std::string_view unit) {
+            return fmt::format("{}{}{}", quote, rack::with_unit(text, unit), quote);
+        };
         if (text.find("{u}") == std::string_view::npos) return one("");
         if (section == "belt" || section == "table") return one(section == "belt" ? "mm" : "deg");
         return one("mm") + " / " + one("deg");
     };
-    return fmt::format("| {} | {} | {} | {} | {} |\n", both(key.key, "`"), both(key.unit, ""), key.range, key.absent, key.doc);
+    return fmt::format("| {} | {} | {} | {} | {} |\n", both(key.key, "`"), both(key.unit, ""), key.range, key.absent,
+                       key.doc);
 }
 
 }  // namespace
@@ -39,9 +43,11 @@ std::string job_file_reference() {
     const DrawingSource drawing;
     const rack::RackLens lens;
     const PartsSettings parts;
-    std::string out = "# The marking job\nTOML, for `motionrack mark`. Every section but `[drawing]` may be left out; its files are looked for beside it. Unknown keys, wrong types, values out of range and "
-                      "keys that do not go together are errors; all are told at once, with line and column. "
-                      "Where a key has two names, the first is for a belt, the second for a table.\n\n";
+    std::string out =
+        "# The marking job\nTOML, for `motionrack mark`. Every section but `[drawing]` may be left out; its files are "
+        "looked for beside it. Unknown keys, wrong types, values out of range and "
+        "keys that do not go together are errors; all are told at once, with line and column. "
+        "Where a key has two names, the first is for a belt, the second for a table.\n\n";
     for (const fields::SectionInfo& section : fields::sections) {
         const void* defaults = defaults_of(job, drawing, lens, parts, section.name);
         out += fmt::format("## [{}]\n", section.name);

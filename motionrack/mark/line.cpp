@@ -12,12 +12,13 @@ namespace {
 using rtc5::Engine;
 using rtc5::StartFate;
 
-constexpr std::int64_t slice = 50'000;      // ticks between two looks at progress and stop
-constexpr std::int64_t host_ticks = 100;    // between two looks of the host at the card
+constexpr std::int64_t slice = 50'000;    // ticks between two looks at progress and stop
+constexpr std::int64_t host_ticks = 100;  // between two looks of the host at the card
 constexpr auto greatest_ticks = static_cast<std::int64_t>(greatest_seconds * 1e5);
 
 bool takes_turns(const Job& job, const Prepared& prepared) {
-    return job.parts && job.parts->size() > 1 && (!prepared.further.empty() || job.parts->start == PartStart::equidistant);
+    return job.parts && job.parts->size() > 1 &&
+           (!prepared.further.empty() || job.parts->start == PartStart::equidistant);
 }
 
 rtc5::Settings settings_of(const Job& job, const Prepared& prepared) {
@@ -58,8 +59,14 @@ bool Senses::words(std::int64_t first, std::span<std::uint32_t> out) {
     return source_.has_value();
 }
 
-Line::Line(const Job& job, const Prepared& prepared, const Following& following, Senses senses, const rtc5::Settings& settings)
-    : job_(job), prepared_(prepared), following_(following), senses_(std::move(senses)), card_(settings), alternates_(takes_turns(job, prepared)) {}
+Line::Line(const Job& job, const Prepared& prepared, const Following& following, Senses senses,
+           const rtc5::Settings& settings)
+    : job_(job),
+      prepared_(prepared),
+      following_(following),
+      senses_(std::move(senses)),
+      card_(settings),
+      alternates_(takes_turns(job, prepared)) {}
 
 Result<std::unique_ptr<Line>> Line::make(const Job& job, const Prepared& prepared, const Following& following) {
     MOTIONRACK_TRY(Senses senses, Senses::make(job, following));
@@ -73,8 +80,10 @@ Result<void> put_all(Engine& card, int list, const std::vector<rtc5::Command>& c
     std::int64_t positions = 0;
     for (const rtc5::Command& command : commands) positions += rtc5::info(command.op).positions;
     if (positions > room)
-        return fail(Trouble::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. Nothing was marked; draw less at once or with a "
-                                                  "greater tolerance.", positions, list, room));
+        return fail(Trouble::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. "
+                                                  "Nothing was marked; draw less at once or with a "
+                                                  "greater tolerance.",
+                                                  positions, list, room));
     MOTIONRACK_CHECK(card.set_start_list(static_cast<std::uint32_t>(list)));
     for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(card.put(command));
     return {};
@@ -86,21 +95,31 @@ Result<void> Line::load(int list, std::size_t marked) {
     return put_all(card_, list, commands);
 }
 
-/// Starts reset the encoders only if a correction asked for it before: a list that sets it, and is over before the belt's time begins.
+/// Starts reset the encoders only if a correction asked for it before: a list that sets it, and is over before the
+/// belt's time begins.
 Result<void> Line::arm() {
     const bool chain = job_.parts->start == PartStart::equidistant;
-    card_.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start | (chain ? rtc5::control_equidistant : 0));
+    card_.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start |
+                           (chain ? rtc5::control_equidistant : 0));
     MOTIONRACK_TRY(const std::vector<rtc5::Command> commands, arming_list_of(job_, prepared_, following_));
     MOTIONRACK_CHECK(put_all(card_, 1, commands));
     MOTIONRACK_CHECK(card_.execute_list(1));
-    if (!card_.run_to_rest(greatest_ticks)) return fail(Trouble::refused, "The card does not come to rest before the first part. Nothing was marked; shorten the delays in [pace].");
+    if (!card_.run_to_rest(greatest_ticks))
+        return fail(
+            Trouble::refused,
+            "The card does not come to rest before the first part. Nothing was marked; shorten the delays in [pace].");
     card_.clear_extent();
     const double delay = counts_of(job_, following_, job_.parts->track_delay);
     const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::count);
     if (delay < range.least || delay > range.greatest)
-        return fail(Trouble::refused, fmt::format("A track delay of {:g} is {:g} counts; the card takes {:g} to {:g}. Nothing was marked.", job_.parts->track_delay, delay, range.least, range.greatest));
+        return fail(
+            Trouble::refused,
+            fmt::format("A track delay of {:g} is {:g} counts; the card takes {:g} to {:g}. Nothing was marked.",
+                        job_.parts->track_delay, delay, range.least, range.greatest));
     if (chain && job_.parts->size() > 1 && counts_of(job_, following_, job_.parts->spacing) == 0)
-        return fail(Trouble::refused, fmt::format("A spacing of {:g} is less than a count of the encoder, after which the card could start again. Nothing was marked.", job_.parts->spacing));
+        return fail(Trouble::refused, fmt::format("A spacing of {:g} is less than a count of the encoder, after which "
+                                                  "the card could start again. Nothing was marked.",
+                                                  job_.parts->spacing));
     MOTIONRACK_CHECK(card_.set_ext_start_delay(static_cast<std::int32_t>(delay), 0));
     card_.set_extstartpos(0);
     return {};
@@ -109,14 +128,19 @@ Result<void> Line::arm() {
 /// The ticks in which the parts' edges are seen.
 Result<void> Line::find_edges() {
     const PartsSettings& parts = *job_.parts;
-    const auto gone = [&](std::int64_t tick) { return std::fabs(senses_.track().travel(static_cast<double>(tick) * 1e-5)); };
+    const auto gone = [&](std::int64_t tick) {
+        return std::fabs(senses_.track().travel(static_cast<double>(tick) * 1e-5));
+    };
     std::int64_t low = 0;
     for (std::size_t i = 0; i < (parts.start == PartStart::equidistant ? 1 : parts.size()); ++i) {
         const double way = parts.way(i) - parts.track_delay;
         std::int64_t high = greatest_ticks;
         if (gone(high) < way)
-            return fail(Trouble::refused, fmt::format("Part {} does not come to the sensor within {:g} s: the belt goes {:.6g} until then, the part is {:.6g} away. Nothing was marked; "
-                                                      "take fewer parts or a faster belt.", i + 1, greatest_seconds, gone(high), way));
+            return fail(Trouble::refused,
+                        fmt::format("Part {} does not come to the sensor within {:g} s: the belt goes {:.6g} until "
+                                    "then, the part is {:.6g} away. Nothing was marked; "
+                                    "take fewer parts or a faster belt.",
+                                    i + 1, greatest_seconds, gone(high), way));
         std::int64_t least = low;
         while (least < high) {
             const std::int64_t middle = least + (high - least) / 2;
@@ -179,7 +203,8 @@ void Line::ended(std::int64_t tick) {
 Result<void> Line::serve() {
     if (!alternates_) return {};
     card_.set_extstartpos(begun_ % 2 == 0 ? 0 : card_.settings().list1);
-    for (; next_load_ < job_.parts->size() && over_ + 1 >= next_load_; ++next_load_) MOTIONRACK_CHECK(load(static_cast<int>(next_load_ % 2) + 1, next_load_));
+    for (; next_load_ < job_.parts->size() && over_ + 1 >= next_load_; ++next_load_)
+        MOTIONRACK_CHECK(load(static_cast<int>(next_load_ % 2) + 1, next_load_));
     return {};
 }
 
@@ -204,7 +229,10 @@ Result<void> Line::run(rtc5::Sink* sink, const std::function<void(std::int64_t)>
         looked = card_.tick();
         if (watch.stop && watch.stop()) return fail(Trouble::stopped, "Stopped; nothing was written.");
         if (looked - begin_ > greatest_ticks)
-            return fail(Trouble::refused, fmt::format("The job takes more than {:g} s of marking. It was given up; mark faster or draw less.", greatest_seconds));
+            return fail(
+                Trouble::refused,
+                fmt::format("The job takes more than {:g} s of marking. It was given up; mark faster or draw less.",
+                            greatest_seconds));
         if (done) done(looked - begin_);
     }
 }

@@ -1,4 +1,5 @@
-// A card on its line, with the host that serves it: lists are loaded, edges of parts become external starts, starts become runs.
+// A card on its line, with the host that serves it: lists are loaded, edges of parts become external starts, starts
+// become runs.
 //
 //   sensor   ──┐__┌──┐__      edge ──► track delay, queue of 8 ──► list ──► part
 //   list 1   ====      ====   parts with texts of their own: the lists take turns, and the host loads the one that is
@@ -54,8 +55,8 @@ class Senses final : public rtc5::Inputs {
 
 class Line final : rtc5::ListListener {
   public:
-    /// Everything is loaded and the belt's time is 0. `job` and `prepared` must live as long. Errors: as list_of; refused: a list that is
-    /// too long, a part that does not come.
+    /// Everything is loaded and the belt's time is 0. `job` and `prepared` must live as long. Errors: as list_of;
+    /// refused: a list that is too long, a part that does not come.
     static Result<std::unique_ptr<Line>> make(const Job& job, const Prepared& prepared, const Following& following);
 
     /// Until all parts are through and the card rests. `done` is told the belt's tick now and then.
@@ -71,7 +72,8 @@ class Line final : rtc5::ListListener {
     bool some_lost() const;
 
   private:
-    Line(const Job& job, const Prepared& prepared, const Following& following, Senses senses, const rtc5::Settings& settings);
+    Line(const Job& job, const Prepared& prepared, const Following& following, Senses senses,
+         const rtc5::Settings& settings);
     Result<void> set_up();
     Result<void> arm();
     Result<void> find_edges();

@@ -13,19 +13,24 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 
 void row(Out to, const char* name, const Marked& m) {
-    fmt::format_to(to, "{:<20} {:>10.4f} {:>10.4f} {:>18} {:>10.3f} {:>10.3f} {:>9.4f} {:>6.1f} {:>9.3f}\n", name, m.deviation.worst_mm, m.deviation.rms_mm,
-                   fmt::format("{:.3f}, {:.3f}", m.deviation.worst_at.x, m.deviation.worst_at.y), m.deviation.missing_mm, m.marked_mm, m.seconds, m.duty * 100,
-                   m.energy_j);
+    fmt::format_to(to, "{:<20} {:>10.4f} {:>10.4f} {:>18} {:>10.3f} {:>10.3f} {:>9.4f} {:>6.1f} {:>9.3f}\n", name,
+                   m.deviation.worst_mm, m.deviation.rms_mm,
+                   fmt::format("{:.3f}, {:.3f}", m.deviation.worst_at.x, m.deviation.worst_at.y),
+                   m.deviation.missing_mm, m.marked_mm, m.seconds, m.duty * 100, m.energy_j);
 }
 
 void overflows(Out to, const Marked& m) {
     constexpr std::size_t shown = 20;
     for (std::size_t i = 0; i < std::min(m.overflows.size(), shown); ++i) {
         const Overflow& o = m.overflows[i];
-        fmt::format_to(to, "{} at {:.5f} to {:.5f} s: {}, by {:.3f} mm, at {:.3f}, {:.3f} mm of the drawing{}; the mirrors stayed at the edge\n", o.name, o.from_s, o.to_s,
-                       o.meaning, o.beyond_mm, o.part.x, o.part.y, o.marking ? "" : ", with the laser off");
+        fmt::format_to(to,
+                       "{} at {:.5f} to {:.5f} s: {}, by {:.3f} mm, at {:.3f}, {:.3f} mm of the drawing{}; the mirrors "
+                       "stayed at the edge\n",
+                       o.name, o.from_s, o.to_s, o.meaning, o.beyond_mm, o.part.x, o.part.y,
+                       o.marking ? "" : ", with the laser off");
     }
-    if (m.overflows.size() > shown) fmt::format_to(to, "{} more overflows are in --json and in the report.\n", m.overflows.size() - shown);
+    if (m.overflows.size() > shown)
+        fmt::format_to(to, "{} more overflows are in --json and in the report.\n", m.overflows.size() - shown);
     if (m.lost_overflows > 0) fmt::format_to(to, "{} more overflows were not kept.\n", m.lost_overflows);
 }
 
@@ -40,7 +45,8 @@ void fit(Out to, const Job& job, const Outcome& out) {
     } else if (out.fits_any) {
         fmt::format_to(to, "It fits the field at any speed up to {:g} times this one.\n", *out.fits_factor);
     } else if (job.belt.profile.empty()) {
-        fmt::format_to(to, "It just fits {} at {:.5g} {}; this job has {:g} {}.\n", what, *out.fits_factor * job.belt.speed, unit, job.belt.speed, unit);
+        fmt::format_to(to, "It just fits {} at {:.5g} {}; this job has {:g} {}.\n", what,
+                       *out.fits_factor * job.belt.speed, unit, job.belt.speed, unit);
     } else {
         fmt::format_to(to, "It just fits {} at {:.4g} times the speeds of the profile.\n", what, *out.fits_factor);
     }
@@ -50,8 +56,8 @@ void fit(Out to, const Job& job, const Outcome& out) {
 
 Room room_of(const Outcome& out, const Marked& marked) {
     const Box &field = out.field, &reach = marked.reach;
-    return std::min({Room{reach.low.x - field.low.x, "left"}, Room{field.high.x - reach.high.x, "right"}, Room{reach.low.y - field.low.y, "lower"},
-                     Room{field.high.y - reach.high.y, "upper"}},
+    return std::min({Room{reach.low.x - field.low.x, "left"}, Room{field.high.x - reach.high.x, "right"},
+                     Room{reach.low.y - field.low.y, "lower"}, Room{field.high.y - reach.high.y, "upper"}},
                     [](const Room& a, const Room& b) { return a.mm < b.mm; });
 }
 
@@ -60,27 +66,36 @@ std::vector<std::string> warnings_of(const Outcome& out) {
     const Room room = room_of(out, out.on);
     const double wanted = least_room_part * (out.field.high.x - out.field.low.x);
     if (!out.waits && room.mm >= 0 && room.mm < wanted)
-        warnings.push_back(fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its width): a little more speed or a start a "
-                                       "little later and the correction overflows", room.mm, room.edge, wanted, least_room_part * 100));
-    if (!out.in_field()) warnings.push_back("some of the drawing is outside the field, and was marked on its edge; move the drawing or make it smaller");
+        warnings.push_back(
+            fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its "
+                        "width): a little more speed or a start a "
+                        "little later and the correction overflows",
+                        room.mm, room.edge, wanted, least_room_part * 100));
+    if (!out.in_field())
+        warnings.push_back(
+            "some of the drawing is outside the field, and was marked on its edge; move the drawing or make it "
+            "smaller");
     return warnings;
 }
 
 std::string outcome_text(const Job& job, const Outcome& out) {
     std::string text;
     const Out to(text);
-    fmt::format_to(to, "drawing: {}, {}, {:.3f} mm\n", rack::counted(out.strokes, "stroke"), rack::counted(out.elements, "line or arc", "lines and arcs"), out.drawing_mm);
+    fmt::format_to(to, "drawing: {}, {}, {:.3f} mm\n", rack::counted(out.strokes, "stroke"),
+                   rack::counted(out.elements, "line or arc", "lines and arcs"), out.drawing_mm);
     for (const std::string& note : out.notes) fmt::format_to(to, "note: {}\n", note);
-    fmt::format_to(to, "{:<20} {:>10} {:>10} {:>18} {:>10} {:>10} {:>9} {:>6} {:>9}\n", "", "worst mm", "rms mm", "at x, y mm", "missing mm", "marked mm", "time s",
-                   "duty %", "energy J");
+    fmt::format_to(to, "{:<20} {:>10} {:>10} {:>18} {:>10} {:>10} {:>9} {:>6} {:>9}\n", "", "worst mm", "rms mm",
+                   "at x, y mm", "missing mm", "marked mm", "time s", "duty %", "energy J");
     row(to, out.off ? "with correction" : "without correction", out.on);
     if (out.off) row(to, "without correction", *out.off);
     text += parts_text(job, out.on);
     overflows(to, out.on);
     const Room room = room_of(out, out.on);
     if (room.mm >= 0) fmt::format_to(to, "room: {:.3f} mm are left in the field, at its {} edge\n", room.mm, room.edge);
-    if (!out.drawing_in_field) fmt::format_to(to, "Some of the drawing is outside the field while the part is at its begin.\n");
-    if (out.on.lost_points > 0) fmt::format_to(to, "{} more points were marked than the picture keeps.\n", out.on.lost_points);
+    if (!out.drawing_in_field)
+        fmt::format_to(to, "Some of the drawing is outside the field while the part is at its begin.\n");
+    if (out.on.lost_points > 0)
+        fmt::format_to(to, "{} more points were marked than the picture keeps.\n", out.on.lost_points);
     fit(to, job, out);
     return text;
 }

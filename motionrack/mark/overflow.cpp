@@ -17,12 +17,13 @@ struct Edge {
         return upper ? v - rtc5::field_greatest : rtc5::field_least - v;
     }
 };
-constexpr std::array<Edge, 4> edges = {
-    Edge{"FLY_X_UNDERFLOW", false, false}, Edge{"FLY_X_OVERFLOW", false, true}, Edge{"FLY_Y_UNDERFLOW", true, false}, Edge{"FLY_Y_OVERFLOW", true, true}};
+constexpr std::array<Edge, 4> edges = {Edge{"FLY_X_UNDERFLOW", false, false}, Edge{"FLY_X_OVERFLOW", false, true},
+                                       Edge{"FLY_Y_UNDERFLOW", true, false}, Edge{"FLY_Y_OVERFLOW", true, true}};
 
 const rtc5::BitInfo& info_of(const Edge& edge) {
     const auto& bits = rtc5::map::marking_info_bits;
-    return *std::find_if(std::begin(bits), std::end(bits), [&](const rtc5::BitInfo& bit) { return bit.name == edge.bit; });
+    return *std::find_if(std::begin(bits), std::end(bits),
+                         [&](const rtc5::BitInfo& bit) { return bit.name == edge.bit; });
 }
 
 }  // namespace
@@ -32,10 +33,12 @@ void OverflowLog::block(const rtc5::Samples& s) {
     if (s.corrected_x.empty()) return any_open ? finish(s.first) : void();
     const rtc5::Extent e = rtc5::kernels::extent(s.corrected_x.data(), s.corrected_y.data(), s.corrected_x.size());
     const bool inside = std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) {
-        return edge.beyond(edge.upper ? rtc5::Point{e.greatest_x, e.greatest_y} : rtc5::Point{e.least_x, e.least_y}) <= 0;
+        return edge.beyond(edge.upper ? rtc5::Point{e.greatest_x, e.greatest_y} : rtc5::Point{e.least_x, e.least_y}) <=
+               0;
     });
     if (inside) return any_open ? finish(s.first) : void();
-    for (std::size_t i = 0; i < s.corrected_x.size(); ++i) look(s.first + static_cast<std::int64_t>(i), {s.corrected_x[i], s.corrected_y[i]}, s.laser[i] > 0);
+    for (std::size_t i = 0; i < s.corrected_x.size(); ++i)
+        look(s.first + static_cast<std::int64_t>(i), {s.corrected_x[i], s.corrected_y[i]}, s.laser[i] > 0);
 }
 
 void OverflowLog::look(std::int64_t tick, rtc5::Point at, bool laser) {
@@ -62,7 +65,8 @@ void OverflowLog::close(std::size_t i, std::int64_t tick) {
     const rtc5::BitInfo& bit = info_of(edges[i]);
     const Spot field{edge.at.x / k_, edge.at.y / k_};
     const double from_s = static_cast<double>(edge.since) * 1e-5;
-    all_.push_back({std::string(bit.name), std::string(bit.meaning), from_s, static_cast<double>(tick) * 1e-5, field, track_.on_part(field, from_s), 0, edge.beyond / k_, edge.marking});
+    all_.push_back({std::string(bit.name), std::string(bit.meaning), from_s, static_cast<double>(tick) * 1e-5, field,
+                    track_.on_part(field, from_s), 0, edge.beyond / k_, edge.marking});
 }
 
 void OverflowLog::finish(std::int64_t tick) {

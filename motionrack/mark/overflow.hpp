@@ -19,11 +19,11 @@ using sim::Spot;
 struct Overflow {
     std::string name, meaning;  ///< of the bit: "FLY_X_OVERFLOW"
     double from_s = 0, to_s = 0;
-    Spot field;            ///< where the card should have put the spot at from_s, mm; beyond the field
-    Spot part;             ///< the same place in the part's coordinates: where on the drawing
+    Spot field;               ///< where the card should have put the spot at from_s, mm; beyond the field
+    Spot part;                ///< the same place in the part's coordinates: where on the drawing
     std::size_t part_no = 0;  ///< which part, from 0 on
-    double beyond_mm = 0;  ///< how far beyond the edge it was at most
-    bool marking = false;  ///< the laser was on in some of it: the marks there are displaced
+    double beyond_mm = 0;     ///< how far beyond the edge it was at most
+    bool marking = false;     ///< the laser was on in some of it: the marks there are displaced
 };
 
 /// Listens to a card's samples.

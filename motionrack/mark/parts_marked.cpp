@@ -8,7 +8,9 @@ namespace motionrack::mark {
 
 namespace {
 
-double seconds(std::int64_t tick) { return static_cast<double>(tick) * 1e-5; }
+double seconds(std::int64_t tick) {
+    return static_cast<double>(tick) * 1e-5;
+}
 
 /// How far the belt goes until the part is where the drawing is meant.
 double way_of(const Job& job, std::size_t part) {
@@ -17,9 +19,12 @@ double way_of(const Job& job, std::size_t part) {
 
 PartFate fate_of(rtc5::StartFate fate) {
     switch (fate) {
-        case rtc5::StartFate::begun: return PartFate::marked;
-        case rtc5::StartFate::busy: return PartFate::lost_busy;
-        default: return PartFate::lost_too_many;
+        case rtc5::StartFate::begun:
+            return PartFate::marked;
+        case rtc5::StartFate::busy:
+            return PartFate::lost_busy;
+        default:
+            return PartFate::lost_too_many;
     }
 }
 
@@ -63,7 +68,8 @@ parts::Deviation together(const std::vector<PartMarked>& all) {
 
 }  // namespace
 
-void share_out(const Job& job, const Prepared& prepared, const std::vector<PartRun>& runs, const parts::Track& track, std::span<const parts::MarkedPoint> points, Marked& out) {
+void share_out(const Job& job, const Prepared& prepared, const std::vector<PartRun>& runs, const parts::Track& track,
+               std::span<const parts::MarkedPoint> points, Marked& out) {
     const auto own_place = [&](Spot belt, double way) { return way == 0 ? belt : track.carried(belt, way); };
     PartMarked none;
     none.fate = PartFate::not_started;
@@ -90,17 +96,20 @@ void share_out(const Job& job, const Prepared& prepared, const std::vector<PartR
             own.at = own_place(own.at, way);
             if (!own.first && out.points.size() > part.first_point) {
                 const Spot before = out.points.back().at;
-                part.marked_mm += std::sqrt((own.at.x - before.x) * (own.at.x - before.x) + (own.at.y - before.y) * (own.at.y - before.y));
+                part.marked_mm += std::sqrt((own.at.x - before.x) * (own.at.x - before.x) +
+                                            (own.at.y - before.y) * (own.at.y - before.y));
             }
             out.points.push_back(own);
         }
         part.points = at - part.first_point;
         for (Overflow& o : out.overflows)
-            if (o.from_s >= part.begin_s && o.from_s < until) o.part_no = begun[i].part, o.part = own_place(o.part, way);
+            if (o.from_s >= part.begin_s && o.from_s < until)
+                o.part_no = begun[i].part, o.part = own_place(o.part, way);
     }
     for (std::size_t i = 0; i < out.parts.size(); ++i) out.parts[i].shown = shown_place(job, prepared, track, i);
     for (PartMarked& part : out.parts)
-        part.deviation = parts::compare(std::span(out.points).subspan(part.first_point, part.points), prepared.of(part.drawing).segments);
+        part.deviation = parts::compare(std::span(out.points).subspan(part.first_point, part.points),
+                                        prepared.of(part.drawing).segments);
     out.deviation = together(out.parts);
 }
 

@@ -13,11 +13,18 @@ constexpr std::size_t most_rows = 40;
 std::string lost_text(const PartMarked& part, std::size_t number) {
     switch (part.fate) {
         case PartFate::lost_busy:
-            return fmt::format("part {}: its start at {:.5f} s was lost, because the list of a part before it was still running; mark faster, or let the parts come further apart\n", number, part.begin_s);
+            return fmt::format(
+                "part {}: its start at {:.5f} s was lost, because the list of a part before it was still running; mark "
+                "faster, or let the parts come further apart\n",
+                number, part.begin_s);
         case PartFate::lost_too_many:
-            return fmt::format("part {}: its start at {:.5f} s was lost, because eight were waiting already; move the sensor nearer, or let the parts come further apart\n", number, part.begin_s);
+            return fmt::format(
+                "part {}: its start at {:.5f} s was lost, because eight were waiting already; move the sensor nearer, "
+                "or let the parts come further apart\n",
+                number, part.begin_s);
         default:
-            return fmt::format("part {}: was not started, because the card begins it after the part before it\n", number);
+            return fmt::format("part {}: was not started, because the card begins it after the part before it\n",
+                               number);
     }
 }
 
@@ -28,7 +35,8 @@ std::string parts_text(const Job& job, const Marked& marked) {
     std::string text;
     const auto to = std::back_inserter(text);
     const std::size_t all = marked.parts.size();
-    fmt::format_to(to, "parts: {} of {} marked\n{:>6} {:>8} {:>11} {:>11} {:>10} {:>10} {:>10}\n", all - marked.parts_lost(), all, "part", "number", "from s", "to s", "worst mm", "rms mm",
+    fmt::format_to(to, "parts: {} of {} marked\n{:>6} {:>8} {:>11} {:>11} {:>10} {:>10} {:>10}\n",
+                   all - marked.parts_lost(), all, "part", "number", "from s", "to s", "worst mm", "rms mm",
                    "missing mm");
     std::size_t rows = 0, hidden = 0;
     for (std::size_t i = 0; i < all; ++i) {
@@ -36,7 +44,8 @@ std::string parts_text(const Job& job, const Marked& marked) {
         if (++rows > most_rows && i + 1 < all) {
             ++hidden;
         } else if (part.fate == PartFate::marked) {
-            fmt::format_to(to, "{:>6} {:>8} {:>11.5f} {:>11.5f} {:>10.4f} {:>10.4f} {:>10.3f}\n", i + 1, part.number, part.begin_s, part.end_s, part.deviation.worst_mm, part.deviation.rms_mm,
+            fmt::format_to(to, "{:>6} {:>8} {:>11.5f} {:>11.5f} {:>10.4f} {:>10.4f} {:>10.3f}\n", i + 1, part.number,
+                           part.begin_s, part.end_s, part.deviation.worst_mm, part.deviation.rms_mm,
                            part.deviation.missing_mm);
         } else {
             text += lost_text(part, i + 1);

@@ -20,7 +20,7 @@ namespace motionrack::mark {
 namespace {
 
 constexpr int column = 380, line_width = 3 * column + 2 * 16;  // px; three columns and the gaps between them
-constexpr double wide_from = 2.6;                              // width to height from which parts stand one below the other
+constexpr double wide_from = 2.6;  // width to height from which parts stand one below the other
 
 /// What a sheet needs beside the style that trace's pictures bring; a page has its own.
 constexpr const char* sheet_style =
@@ -38,8 +38,12 @@ struct Part {
     int width = column, height = 0;
 };
 
-Box grown(const Box& box, double by) { return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}}; }
-double size_of(const Box& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
+Box grown(const Box& box, double by) {
+    return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
+}
+double size_of(const Box& box) {
+    return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
 
 /// The place of the drawing that is nearest.
 Spot nearest_on(std::span<const parts::Segment> segments, Spot p) {
@@ -48,7 +52,8 @@ Spot nearest_on(std::span<const parts::Segment> segments, Spot p) {
     for (const parts::Segment& s : segments) {
         const Spot way{s.to.x - s.from.x, s.to.y - s.from.y};
         const double length2 = way.x * way.x + way.y * way.y;
-        const double t = length2 > 0 ? std::clamp(((p.x - s.from.x) * way.x + (p.y - s.from.y) * way.y) / length2, 0.0, 1.0) : 0;
+        const double t =
+            length2 > 0 ? std::clamp(((p.x - s.from.x) * way.x + (p.y - s.from.y) * way.y) / length2, 0.0, 1.0) : 0;
         const Spot on{s.from.x + t * way.x, s.from.y + t * way.y};
         const double off = (on.x - p.x) * (on.x - p.x) + (on.y - p.y) * (on.y - p.y);
         if (off < least) least = off, best = on;
@@ -62,7 +67,8 @@ constexpr std::size_t most_parts = 24;  ///< in one picture
 std::vector<Node> side_by_side(const Marked& marked, const auto& nodes_of_part) {
     std::vector<Node> out;
     for (std::size_t i = 0; i < std::min(marked.parts.size(), most_parts); ++i)
-        for (const Node& node : nodes_of_part(marked.parts[i])) out.push_back({marked.parts[i].shown(node.at), node.first});
+        for (const Node& node : nodes_of_part(marked.parts[i]))
+            out.push_back({marked.parts[i].shown(node.at), node.first});
     return out;
 }
 std::vector<Node> marks_of(const Marked& marked, const PartMarked& part) {
@@ -72,11 +78,15 @@ std::vector<Node> marks_of(const Marked& marked) {
     return side_by_side(marked, [&](const PartMarked& part) { return marks_of(marked, part); });
 }
 std::vector<Node> drawings_of(const Prepared& prepared, const Marked& marked) {
-    return side_by_side(marked, [&](const PartMarked& part) { return nodes_of(std::span<const parts::Segment>(prepared.of(part.drawing).segments)); });
+    return side_by_side(marked, [&](const PartMarked& part) {
+        return nodes_of(std::span<const parts::Segment>(prepared.of(part.drawing).segments));
+    });
 }
 /// The part that has the worst place of all.
 std::size_t worst_part(const Marked& marked) {
-    const auto worst = std::max_element(marked.parts.begin(), marked.parts.end(), [](const PartMarked& a, const PartMarked& b) { return a.deviation.worst_mm < b.deviation.worst_mm; });
+    const auto worst = std::max_element(
+        marked.parts.begin(), marked.parts.end(),
+        [](const PartMarked& a, const PartMarked& b) { return a.deviation.worst_mm < b.deviation.worst_mm; });
     return static_cast<std::size_t>(worst - marked.parts.begin());
 }
 std::string of_part(const Marked& marked) {
@@ -108,7 +118,8 @@ std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, co
     std::string out;
     std::size_t drawn = 0;
     for (const Overflow& o : overflows)
-        if (o.marking && drawn++ < most) out += plot.cross(place(o), fmt::format("{} at {:.5f} s, by {:.3f} mm", o.name, o.from_s, o.beyond_mm));
+        if (o.marking && drawn++ < most)
+            out += plot.cross(place(o), fmt::format("{} at {:.5f} s, by {:.3f} mm", o.name, o.from_s, o.beyond_mm));
     return out;
 }
 
@@ -118,20 +129,29 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
     part.width = scene.wide() ? line_width : column;
     const double shape = (scene.box.high.y - scene.box.low.y) / std::max(scene.box.high.x - scene.box.low.x, 1e-9);
     constexpr double margin = 34;
-    part.height = static_cast<int>(std::clamp((part.width - 2 * margin) * shape + 2 * margin, scene.wide() ? 130.0 : 240.0, 460.0));
+    part.height = static_cast<int>(
+        std::clamp((part.width - 2 * margin) * shape + 2 * margin, scene.wide() ? 130.0 : 240.0, 460.0));
     const Plot plot(scene.box, part.width, part.height, margin);
     const std::size_t parts = scene.out.on.parts.size();
-    part.body = plot.grid() + (parts > 1 ? std::string() : plot.outline(scene.out.field, "box")) + plot.strokes(scene.drawing, "planned");
+    part.body = plot.grid() + (parts > 1 ? std::string() : plot.outline(scene.out.field, "box")) +
+                plot.strokes(scene.drawing, "planned");
     if (marked == nullptr) {
-        part.words.push_back(fmt::format("{:.3f} mm in {}", scene.out.drawing_mm, rack::counted(scene.out.strokes, "stroke")));
-        if (parts > 1) part.words.push_back(fmt::format("on each of {} parts{}", parts, parts > most_parts ? fmt::format(", of which {} are shown", most_parts) : ""));
+        part.words.push_back(
+            fmt::format("{:.3f} mm in {}", scene.out.drawing_mm, rack::counted(scene.out.strokes, "stroke")));
+        if (parts > 1)
+            part.words.push_back(
+                fmt::format("on each of {} parts{}", parts,
+                            parts > most_parts ? fmt::format(", of which {} are shown", most_parts) : ""));
         part.body += plot.strokes(scene.drawing, "drawn");
     } else {
         const parts::Deviation& d = marked->deviation;
-        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm{}; rms {}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y, of_part(*marked), shown_length(d.rms_mm)),
-                      d.missing_mm > 0 ? fmt::format("{} of the drawing not marked", shown_length(d.missing_mm)) : "all of the drawing marked"};
+        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm{}; rms {}", shown_length(d.worst_mm), d.worst_at.x,
+                                  d.worst_at.y, of_part(*marked), shown_length(d.rms_mm)),
+                      d.missing_mm > 0 ? fmt::format("{} of the drawing not marked", shown_length(d.missing_mm))
+                                       : "all of the drawing marked"};
         part.body += plot.strokes(marks_of(*marked), look);
-        part.body += crosses(plot, marked->overflows, [&](const Overflow& o) { return marked->parts[o.part_no].shown(o.part); });
+        part.body +=
+            crosses(plot, marked->overflows, [&](const Overflow& o) { return marked->parts[o.part_no].shown(o.part); });
         const std::size_t worst = worst_part(*marked);
         if (d.worst_mm > 0 && worst < most_parts) part.body += plot.ring(marked->parts[worst].shown(d.worst_at));
     }
@@ -158,7 +178,8 @@ Part field_of(const Scene& scene) {
         if (!goes_on) row.push_back({a.at, true});
         row.push_back({b.at, false});
     }
-    part.body = plot.grid() + plot.outline(out.field, "box") + plot.strokes(jumps, "jumps") + plot.strokes(marks, out.off ? "driven" : "without") +
+    part.body = plot.grid() + plot.outline(out.field, "box") + plot.strokes(jumps, "jumps") +
+                plot.strokes(marks, out.off ? "driven" : "without") +
                 (out.off ? plot.outline(out.on.reach, "reach") : std::string()) +
                 crosses(plot, out.on.overflows, [](const Overflow& o) { return o.field; }) + plot.scale_bar();
     return part;
@@ -176,9 +197,12 @@ Part worst_of(const Scene& scene, const Marked& marked, const char* title, const
     part.height = 300;
     const Plot plot(grown({middle, middle}, reach), part.width, part.height);
     part.title = title;
-    part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm{}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y, of_part(marked)), fmt::format("marked at {:.5f} s", d.worst_s)};
-    part.body = plot.strokes(nodes_of(std::span<const parts::Segment>(segments)), "planned") + plot.strokes(marks_of(marked, worst), look) +
-                plot.line(on, d.worst_at, "off-by") + plot.ring(d.worst_at) + plot.scale_bar();
+    part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm{}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y,
+                              of_part(marked)),
+                  fmt::format("marked at {:.5f} s", d.worst_s)};
+    part.body = plot.strokes(nodes_of(std::span<const parts::Segment>(segments)), "planned") +
+                plot.strokes(marks_of(marked, worst), look) + plot.line(on, d.worst_at, "off-by") +
+                plot.ring(d.worst_at) + plot.scale_bar();
     return part;
 }
 
@@ -207,7 +231,11 @@ std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const Ou
     for (const std::vector<Part>* row : {&parts.whole, &parts.details})
         for (const Part& p : *row)
             if (!p.body.empty())
-                pictures.push_back({p.title, p.words, trace::svg_head({p.width, p.height, false}, fmt::format("{}: {}", p.title, fmt::join(p.words, "; "))) + p.body + "</svg>\n", p.width > column});
+                pictures.push_back({p.title, p.words,
+                                    trace::svg_head({p.width, p.height, false},
+                                                    fmt::format("{}: {}", p.title, fmt::join(p.words, "; "))) +
+                                        p.body + "</svg>\n",
+                                    p.width > column});
     return pictures;
 }
 
@@ -218,16 +246,21 @@ std::string picture_svg(const Prepared& prepared, const Outcome& out) {
     int x = margin, y = margin, widest = 0;
     const auto put = [&](const Part& p) {
         body += fmt::format("<text class=\"title\" x=\"{}\" y=\"{}\">{}</text>\n", x, y + 14, p.title);
-        for (std::size_t i = 0; i < p.words.size(); ++i) body += trace::svg_text(x, y + 31 + 15 * static_cast<int>(i), "start", p.words[i]);
-        body += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n{}</svg>\n", x, y + heading, p.width, p.height, p.width, p.height, p.body);
-        body += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"6\"/>\n", x, y + heading, p.width, p.height);
+        for (std::size_t i = 0; i < p.words.size(); ++i)
+            body += trace::svg_text(x, y + 31 + 15 * static_cast<int>(i), "start", p.words[i]);
+        body += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n{}</svg>\n", x,
+                            y + heading, p.width, p.height, p.width, p.height, p.body);
+        body += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"6\"/>\n", x,
+                            y + heading, p.width, p.height);
         widest = std::max(widest, x + p.width);
     };
     const bool wide = parts.whole.front().width > column;
     for (const Part& p : parts.whole) {
         put(p);
-        if (wide) y += heading + p.height + gap;
-        else x += p.width + gap;
+        if (wide)
+            y += heading + p.height + gap;
+        else
+            x += p.width + gap;
     }
     if (!wide) y += heading + parts.whole.front().height + gap;
     x = margin;
@@ -237,15 +270,23 @@ std::string picture_svg(const Prepared& prepared, const Outcome& out) {
     }
     y += heading + parts.details.front().height + gap;
     x = margin;
-    for (const auto& [look, name] : {std::pair{"planned", "drawing"}, {"driven", "marked with correction"}, {"without", "marked without"}, {"box", "field"}, {"jumps", "laser off"}}) {
+    for (const auto& [look, name] : {std::pair{"planned", "drawing"},
+                                     {"driven", "marked with correction"},
+                                     {"without", "marked without"},
+                                     {"box", "field"},
+                                     {"jumps", "laser off"}}) {
         if (look == std::string_view("driven") && !out.off) continue;
-        body += fmt::format("<path class=\"{}\" d=\"M{} {}h26\"/>\n", look, x, y + 4) + trace::svg_text(x + 34, y + 8, "start", name);
+        body += fmt::format("<path class=\"{}\" d=\"M{} {}h26\"/>\n", look, x, y + 4) +
+                trace::svg_text(x + 34, y + 8, "start", name);
         x += 34 + 7 * static_cast<int>(std::string_view(name).size()) + 18;
     }
-    body += fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"7\"/>\n", x + 8, y + 4) + trace::svg_text(x + 24, y + 8, "start", "worst place");
+    body += fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"7\"/>\n", x + 8, y + 4) +
+            trace::svg_text(x + 24, y + 8, "start", "worst place");
     trace::SvgLook look;
     look.width = widest + margin, look.height = y + foot, look.standalone = true;
-    return trace::svg_head(look, "The marked part") + sheet_style + fmt::format("<rect class=\"ground\" width=\"{}\" height=\"{}\"/>\n", look.width, look.height) + body + "</svg>\n";
+    return trace::svg_head(look, "The marked part") + sheet_style +
+           fmt::format("<rect class=\"ground\" width=\"{}\" height=\"{}\"/>\n", look.width, look.height) + body +
+           "</svg>\n";
 }
 
 }  // namespace motionrack::mark

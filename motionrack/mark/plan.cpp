@@ -31,15 +31,17 @@ class List {
         const double bits_ms = mm_s * k_ / 1000;
         const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::speed);
         if (bits_ms < range.least || bits_ms > range.greatest)
-            refuse(fmt::format("{} of {:g} mm/s is {:g} bits/ms; the card takes {:g} to {:g}, which is {:g} to {:g} mm/s", name, mm_s, bits_ms, range.least,
-                               range.greatest, range.least * 1000 / k_, range.greatest * 1000 / k_));
+            refuse(fmt::format(
+                "{} of {:g} mm/s is {:g} bits/ms; the card takes {:g} to {:g}, which is {:g} to {:g} mm/s", name, mm_s,
+                bits_ms, range.least, range.greatest, range.least * 1000 / k_, range.greatest * 1000 / k_));
         put(op, {bits_ms});
     }
     double bits(double mm) {
         const double out = std::floor(mm * k_ + 0.5);
         const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::coordinate);
         if (!(out >= range.least && out <= range.greatest))
-            refuse(fmt::format("a place at {:g} mm is beyond the card's virtual field of {:g} mm each way", mm, range.greatest / k_));
+            refuse(fmt::format("a place at {:g} mm is beyond the card's virtual field of {:g} mm each way", mm,
+                               range.greatest / k_));
         return out;
     }
     void refuse(std::string sentence) {
@@ -97,7 +99,8 @@ void put_fly(List& list, const Job& job, const Prepared& prepared, const Followi
     list.put(Op::set_rot_center_list, {list.bits(centre.x), list.bits(centre.y)});
     const double resolution = 360 * unit / job.fly.scale_factor;
     if (std::fabs(resolution) < rtc5::least_resolution)
-        list.refuse(fmt::format("{:g} counts a turn; under {:g} the card's rotary correction is off", resolution, rtc5::least_resolution));
+        list.refuse(fmt::format("{:g} counts a turn; under {:g} the card's rotary correction is off", resolution,
+                                rtc5::least_resolution));
     list.put(words ? Op::set_fly_rot_pos : Op::set_fly_rot, {resolution});
 }
 
@@ -122,7 +125,8 @@ void put_offset(List& list, const Job& job, const Following& following) {
 void put_settings(List& list, const Job& job) {
     list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_mm_s);
     list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_mm_s);
-    list.put(Op::set_scanner_delays, {job.pace.jump_delay_us / 10, job.pace.mark_delay_us / 10, job.pace.polygon_delay_us / 10});
+    list.put(Op::set_scanner_delays,
+             {job.pace.jump_delay_us / 10, job.pace.mark_delay_us / 10, job.pace.polygon_delay_us / 10});
     list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
 }
 
@@ -133,7 +137,8 @@ void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
         if (e.sweep == 0)
             list.put(Op::mark_abs, {list.bits(e.to.x + shift.x), list.bits(e.to.y + shift.y)});
         else
-            list.put(Op::arc_abs, {list.bits(e.centre.x + shift.x), list.bits(e.centre.y + shift.y), -e.sweep * (180 / pi)});
+            list.put(Op::arc_abs,
+                     {list.bits(e.centre.x + shift.x), list.bits(e.centre.y + shift.y), -e.sweep * (180 / pi)});
     }
 }
 
@@ -147,11 +152,15 @@ void put_wait(List& list, const Job& job, const Following& following, double way
 }
 
 /// Each batch waits, parked where it will begin, so that the waiting spot does not go out of the field with the part.
-Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, const Following& following, const Drawing& drawing) {
+Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, const Following& following,
+                         const Drawing& drawing) {
     const double margin = job.fly.margin_mm, sense = job.sense();
     Box field = prepared.field();
     field = {{field.low.x + margin, field.low.y + margin}, {field.high.x - margin, field.high.y - margin}};
-    if (!(field.low.x < field.high.x)) return fail(Trouble::refused, fmt::format("A margin of {:g} mm leaves nothing of a field of {:.3f} mm. Nothing was marked.", margin, field.high.x - field.low.x + 2 * margin));
+    if (!(field.low.x < field.high.x))
+        return fail(Trouble::refused,
+                    fmt::format("A margin of {:g} mm leaves nothing of a field of {:.3f} mm. Nothing was marked.",
+                                margin, field.high.x - field.low.x + 2 * margin));
     const Direction d = direction_of(following.track);
     const Spot movement{d.x * sense, d.y * sense};
     MOTIONRACK_TRY(const std::vector<Batch> batches, batches_of(drawing, field, movement));
@@ -165,7 +174,8 @@ Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, c
             put_wait(list, job, following, batch.at_mm);
             if (following.corrects) list.put(Op::park_return, {1, list.bits(begin.x), list.bits(begin.y)});
         }
-        for (std::size_t i = 0; i < batch.strokes.size(); ++i) put_stroke(list, batch.strokes[i], shift, i > 0 || !waits);
+        for (std::size_t i = 0; i < batch.strokes.size(); ++i)
+            put_stroke(list, batch.strokes[i], shift, i > 0 || !waits);
     }
     return {};
 }
@@ -173,7 +183,8 @@ Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, c
 }  // namespace
 
 Box Prepared::field() const {
-    return {{rtc5::field_least / bits_per_mm, rtc5::field_least / bits_per_mm}, {rtc5::field_greatest / bits_per_mm, rtc5::field_greatest / bits_per_mm}};
+    return {{rtc5::field_least / bits_per_mm, rtc5::field_least / bits_per_mm},
+            {rtc5::field_greatest / bits_per_mm, rtc5::field_greatest / bits_per_mm}};
 }
 
 Following following_of(const Job& job, double factor) {
@@ -184,9 +195,12 @@ Following following_of(const Job& job, double factor) {
 
 double counts_per_unit(const Job& job, const Following& following) {
     switch (following.mode) {
-        case FlyMode::mcbsp: return job.sender.bits_per_mm;
-        case FlyMode::simulated: return following.simulated_speed != 0 ? 1e6 / following.simulated_speed : 0;
-        default: return following.track.counts_per_unit;
+        case FlyMode::mcbsp:
+            return job.sender.bits_per_mm;
+        case FlyMode::simulated:
+            return following.simulated_speed != 0 ? 1e6 / following.simulated_speed : 0;
+        default:
+            return following.track.counts_per_unit;
     }
 }
 
@@ -206,7 +220,11 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
         part.segments = segments_of(part.drawing);
         elements += part.segments.size();
         if (elements > most_elements)
-            return fail(Trouble::bad_input, fmt::format("The drawings of {} parts with their numbers have more than {} lines. Nothing was marked; mark fewer parts at once.", different, most_elements), {}, job.file);
+            return fail(Trouble::bad_input,
+                        fmt::format("The drawings of {} parts with their numbers have more than {} lines. Nothing was "
+                                    "marked; mark fewer parts at once.",
+                                    different, most_elements),
+                        {}, job.file);
         if (i == 0)
             static_cast<PartDrawing&>(out) = std::move(part);
         else
@@ -216,20 +234,28 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
     if (job.lens) out.lens = job.lens->lens();
     if (job.optics.ct5) {
         MOTIONRACK_TRY(const std::string bytes, load(*job.optics.ct5));
-        MOTIONRACK_TRY(const rtc5::CorrectionFile file,
-                       rtc5::read_ct5({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, *job.optics.ct5));
-        if (!file.checksum_known) out.notes.push_back(fmt::format("{} is of an older program, whose checksum is not known; it was not checked.", *job.optics.ct5));
+        MOTIONRACK_TRY(
+            const rtc5::CorrectionFile file,
+            rtc5::read_ct5({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, *job.optics.ct5));
+        if (!file.checksum_known)
+            out.notes.push_back(fmt::format(
+                "{} is of an older program, whose checksum is not known; it was not checked.", *job.optics.ct5));
         if (job.lens) {
             if (file.bits_per_mm() > 0 && file.bits_per_mm() != out.bits_per_mm)
-                out.notes.push_back(fmt::format("{} is made for {:g} bits/mm, the lens for {:g}: what is marked has another size.", *job.optics.ct5, file.bits_per_mm(), out.bits_per_mm));
+                out.notes.push_back(
+                    fmt::format("{} is made for {:g} bits/mm, the lens for {:g}: what is marked has another size.",
+                                *job.optics.ct5, file.bits_per_mm(), out.bits_per_mm));
             if (job.optics.correction) out.table = rtc5::table_of(file);
         } else {
             // Without a lens the field behind the table is the one that it is made for.
             if (file.bits_per_mm() > 0)
                 out.bits_per_mm = file.bits_per_mm();
             else
-                out.notes.push_back(fmt::format("{} does not say for how many bits/mm it is made; {:g} are taken, as bits_per_mm says.", *job.optics.ct5, out.bits_per_mm));
-            out.notes.push_back(fmt::format("There is no [lens]: the optics are taken to be those that {} corrects.", *job.optics.ct5));
+                out.notes.push_back(
+                    fmt::format("{} does not say for how many bits/mm it is made; {:g} are taken, as bits_per_mm says.",
+                                *job.optics.ct5, out.bits_per_mm));
+            out.notes.push_back(
+                fmt::format("There is no [lens]: the optics are taken to be those that {} corrects.", *job.optics.ct5));
         }
     } else if (job.lens && job.optics.correction) {
         MOTIONRACK_TRY(const rtc5::CorrectionFile file, rtc5::correction_of(*out.lens));
@@ -238,7 +264,8 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
     return out;
 }
 
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following, std::size_t marked) {
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following,
+                                           std::size_t marked) {
     List list(prepared.bits_per_mm);
     const Drawing& drawing = prepared.of(marked).drawing;
     if (job.parts && job.parts->start == PartStart::equidistant && marked + 1 < job.parts->size())
@@ -255,7 +282,8 @@ Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepa
     return list.take();
 }
 
-Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared, const Following& following) {
+Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared,
+                                                  const Following& following) {
     List list(prepared.bits_per_mm);
     put_fly(list, job, prepared, following);
     list.put(Op::fly_return, {0, 0});

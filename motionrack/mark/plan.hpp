@@ -23,7 +23,9 @@ struct Prepared : PartDrawing {
     std::vector<std::string> notes;            ///< what the user should know before
 
     /// Of the part that is marked `marked`th, from 0 on.
-    const PartDrawing& of(std::size_t marked) const { return marked == 0 || further.empty() ? *this : further[marked - 1]; }
+    const PartDrawing& of(std::size_t marked) const {
+        return marked == 0 || further.empty() ? *this : further[marked - 1];
+    }
     /// mm that the card's output reaches.
     Box field() const;
 };
@@ -45,9 +47,10 @@ double counts_per_unit(const Job& job, const Following& following);
 /// Whole counts of a way that the belt goes, with their sign.
 double counts_of(const Job& job, const Following& following, double way);
 
-/// The list of the part that is marked `marked`th, up to and with set_end_of_list. Errors: refused: a speed, place or scale that the card
-/// does not take; with waits, a drawing that does not come into the field.
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following, std::size_t marked = 0);
+/// The list of the part that is marked `marked`th, up to and with set_end_of_list. Errors: refused: a speed, place or
+/// scale that the card does not take; with waits, a drawing that does not come into the field.
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following,
+                                           std::size_t marked = 0);
 /// Before the first start: asks for the encoders to become 0 at it. Errors: as list_of.
 Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared, const Following& following);
 

@@ -14,8 +14,8 @@ namespace {
 
 using trace::coordinate;
 
-constexpr double eye_px = 0.12;              // what is not seen
-constexpr std::size_t most_nodes = 40'000;   // of one row of strokes: about 12 bytes each
+constexpr double eye_px = 0.12;             // what is not seen
+constexpr std::size_t most_nodes = 40'000;  // of one row of strokes: about 12 bytes each
 constexpr double least_width_mm = 1e-4;
 
 /// The part of a -> b in the box; false: none. Liang and Barsky.
@@ -25,8 +25,10 @@ bool clip(const Box& box, Spot& a, Spot& b) {
     const auto side = [&](double along, double room) {
         if (along == 0) return room >= 0;
         const double at = room / along;
-        if (along < 0) begin = std::max(begin, at);
-        else end = std::min(end, at);
+        if (along < 0)
+            begin = std::max(begin, at);
+        else
+            end = std::min(end, at);
         return begin <= end;
     };
     if (!side(-way.x, a.x - box.low.x) || !side(way.x, box.high.x - a.x) || !side(-way.y, a.y - box.low.y) ||
@@ -74,7 +76,8 @@ std::string shown_length(double mm) {
 }
 
 Plot::Plot(const Box& box, int width, int height, double margin) : width_(width), height_(height) {
-    const double wide = std::max(box.high.x - box.low.x, least_width_mm), high = std::max(box.high.y - box.low.y, least_width_mm);
+    const double wide = std::max(box.high.x - box.low.x, least_width_mm),
+                 high = std::max(box.high.y - box.low.y, least_width_mm);
     scale_ = std::min((width - 2 * margin) / wide, (height - 2 * margin) / high);
     low_ = {(box.low.x + box.high.x) / 2 - width / scale_ / 2, (box.low.y + box.high.y) / 2 - height / scale_ / 2};
 }
@@ -87,7 +90,8 @@ std::vector<Node> Plot::clipped(std::span<const Node> nodes) const {
         if (nodes[i].first) continue;
         Spot a = nodes[i - 1].at, b = nodes[i].at;
         if (!clip(window, a, b)) continue;
-        if (nodes[i - 1].first || out.empty() || a.x != out.back().at.x || a.y != out.back().at.y) out.push_back({a, true});
+        if (nodes[i - 1].first || out.empty() || a.x != out.back().at.x || a.y != out.back().at.y)
+            out.push_back({a, true});
         out.push_back({b, false});
     }
     return out;
@@ -121,17 +125,20 @@ std::string Plot::grid() const {
     for (double k = std::ceil(low_.x / step); x(k * step) <= width_; k += 1) {
         const std::string at = coordinate(x(k * step));
         out += fmt::format("<path class=\"grid\" d=\"M{} 0V{}\"/>\n", at, height_);
-        if (x(k * step) > 30 && x(k * step) < width_ - 16) out += trace::svg_text(x(k * step), height_ - 5.0, "middle", trace::number(k * step));
+        if (x(k * step) > 30 && x(k * step) < width_ - 16)
+            out += trace::svg_text(x(k * step), height_ - 5.0, "middle", trace::number(k * step));
     }
     for (double k = std::ceil(low_.y / step); y(k * step) >= 0; k += 1) {
         out += fmt::format("<path class=\"grid\" d=\"M0 {}H{}\"/>\n", coordinate(y(k * step)), width_);
-        if (y(k * step) > 14 && y(k * step) < height_ - 22) out += trace::svg_text(5, y(k * step) - 3, "start", trace::number(k * step));
+        if (y(k * step) > 14 && y(k * step) < height_ - 22)
+            out += trace::svg_text(5, y(k * step) - 3, "start", trace::number(k * step));
     }
     return out;
 }
 
 std::string Plot::outline(const Box& box, const char* look) const {
-    const std::vector<Node> corners = {{box.low, true}, {{box.high.x, box.low.y}}, {box.high}, {{box.low.x, box.high.y}}, {box.low}};
+    const std::vector<Node> corners = {
+        {box.low, true}, {{box.high.x, box.low.y}}, {box.high}, {{box.low.x, box.high.y}}, {box.low}};
     return strokes(corners, look);
 }
 
@@ -141,18 +148,21 @@ std::string Plot::line(Spot from, Spot to, const char* look) const {
 }
 
 std::string Plot::ring(Spot at) const {
-    return fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"9\"/>\n", coordinate(x(at.x)), coordinate(y(at.y)));
+    return fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"9\"/>\n", coordinate(x(at.x)),
+                       coordinate(y(at.y)));
 }
 
 std::string Plot::cross(Spot at, const std::string& title) const {
-    return fmt::format("<path class=\"over\" d=\"M{0} {1}m-5-5l10 10m0-10l-10 10\"><title>{2}</title></path>\n", coordinate(x(at.x)),
-                       coordinate(y(at.y)), trace::escaped(title));
+    return fmt::format("<path class=\"over\" d=\"M{0} {1}m-5-5l10 10m0-10l-10 10\"><title>{2}</title></path>\n",
+                       coordinate(x(at.x)), coordinate(y(at.y)), trace::escaped(title));
 }
 
 std::string Plot::scale_bar() const {
     const double bar = trace::nice_step(width_mm(), 10), left = width_ - 14 - bar * scale_, at = height_ - 24.0;
-    return fmt::format("<path class=\"scale\" d=\"M{0} {1}v5h{2}v-5\"/>\n", coordinate(left), coordinate(at), coordinate(bar * scale_)) +
-           "<g class=\"halo\">" + trace::svg_text(left + bar * scale_ / 2, at - 1, "middle", shown_length(bar)) + "</g>\n";
+    return fmt::format("<path class=\"scale\" d=\"M{0} {1}v5h{2}v-5\"/>\n", coordinate(left), coordinate(at),
+                       coordinate(bar * scale_)) +
+           "<g class=\"halo\">" + trace::svg_text(left + bar * scale_ / 2, at - 1, "middle", shown_length(bar)) +
+           "</g>\n";
 }
 
 }  // namespace motionrack::mark

@@ -1,4 +1,5 @@
-// A rectangle of a picture that shows a part of the plane in mm, Y up: lines clipped to it and thinned to what the eye can see.
+// A rectangle of a picture that shows a part of the plane in mm, Y up: lines clipped to it and thinned to what the eye
+// can see.
 #pragma once
 
 #include <motionrack/mark/drawing.hpp>

@@ -10,11 +10,16 @@ namespace {
 
 std::string verdict_text(const Outcome& out) {
     if (!out.on.overflows.empty())
-        return fmt::format("The correction left the field {} times, first at {:.5f} s ({}); the mirrors stayed at its edge meanwhile.",
-                           out.on.overflows.size() + out.on.lost_overflows, out.on.overflows.front().from_s, out.on.overflows.front().name);
-    if (out.on.parts_lost() > 0) return fmt::format("{} of {} parts were not marked, because their starts were lost.", out.on.parts_lost(), out.on.parts.size());
+        return fmt::format(
+            "The correction left the field {} times, first at {:.5f} s ({}); the mirrors stayed at its edge meanwhile.",
+            out.on.overflows.size() + out.on.lost_overflows, out.on.overflows.front().from_s,
+            out.on.overflows.front().name);
+    if (out.on.parts_lost() > 0)
+        return fmt::format("{} of {} parts were not marked, because their starts were lost.", out.on.parts_lost(),
+                           out.on.parts.size());
     std::string text = fmt::format("Marked within {} of the drawing", shown_length(out.on.deviation.worst_mm));
-    if (out.on.deviation.missing_mm > 0) text += fmt::format("; {} of it were not marked", shown_length(out.on.deviation.missing_mm));
+    if (out.on.deviation.missing_mm > 0)
+        text += fmt::format("; {} of it were not marked", shown_length(out.on.deviation.missing_mm));
     return text + ".";
 }
 
@@ -31,34 +36,46 @@ std::vector<std::string> row_of(const char* name, const Marked& m) {
 }
 
 trace::ReportTable deviations(const Outcome& out) {
-    trace::ReportTable t{"Deviations", "Marks on the part against the drawing", {"", "Worst", "RMS", "Not marked", "Marked", "Time", "Laser on", "Energy"}, {}};
+    trace::ReportTable t{"Deviations",
+                         "Marks on the part against the drawing",
+                         {"", "Worst", "RMS", "Not marked", "Marked", "Time", "Laser on", "Energy"},
+                         {}};
     t.rows.push_back(row_of(out.off ? "With correction" : "Without correction", out.on));
     if (out.off) t.rows.push_back(row_of("Without correction", *out.off));
     return t;
 }
 
 trace::ReportTable overflows(const Marked& m) {
-    trace::ReportTable t{"Overflows", "Each stretch in which the corrected position was outside the field",
-                         {"Flag", "Meaning", "From", "To", "At most beyond", "On the drawing", "Laser"}, {}};
+    trace::ReportTable t{"Overflows",
+                         "Each stretch in which the corrected position was outside the field",
+                         {"Flag", "Meaning", "From", "To", "At most beyond", "On the drawing", "Laser"},
+                         {}};
     for (const Overflow& o : m.overflows)
-        t.rows.push_back({o.name, o.meaning, fmt::format("{:.5f} s", o.from_s), fmt::format("{:.5f} s", o.to_s), fmt::format("{:.3f} mm", o.beyond_mm),
-                          fmt::format("{:.3f}, {:.3f} mm", o.part.x, o.part.y), o.marking ? "on" : "off"});
+        t.rows.push_back({o.name, o.meaning, fmt::format("{:.5f} s", o.from_s), fmt::format("{:.5f} s", o.to_s),
+                          fmt::format("{:.3f} mm", o.beyond_mm), fmt::format("{:.3f}, {:.3f} mm", o.part.x, o.part.y),
+                          o.marking ? "on" : "off"});
     return t;
 }
 
 trace::ReportTable parts_table(const Marked& m) {
-    trace::ReportTable t{"Parts", "What became of each, in the order in which they pass", {"Part", "Number", "Fate", "From", "To", "Worst", "RMS", "Not marked"}, {}};
+    trace::ReportTable t{"Parts",
+                         "What became of each, in the order in which they pass",
+                         {"Part", "Number", "Fate", "From", "To", "Worst", "RMS", "Not marked"},
+                         {}};
     for (std::size_t i = 0; i < m.parts.size(); ++i) {
         const PartMarked& p = m.parts[i];
-        t.rows.push_back({fmt::format("{}", i + 1), p.fate == PartFate::marked ? fmt::format("{}", p.number) : "", name_of(p.fate), fmt::format("{:.5f} s", p.begin_s),
-                          fmt::format("{:.5f} s", p.end_s), fmt::format("{:.4f} mm", p.deviation.worst_mm), fmt::format("{:.4f} mm", p.deviation.rms_mm),
+        t.rows.push_back({fmt::format("{}", i + 1), p.fate == PartFate::marked ? fmt::format("{}", p.number) : "",
+                          name_of(p.fate), fmt::format("{:.5f} s", p.begin_s), fmt::format("{:.5f} s", p.end_s),
+                          fmt::format("{:.4f} mm", p.deviation.worst_mm), fmt::format("{:.4f} mm", p.deviation.rms_mm),
                           fmt::format("{:.3f} mm", p.deviation.missing_mm)});
     }
     return t;
 }
 
 void add_numbers(const Job& job, const Outcome& out, trace::ReportData& data) {
-    const auto add = [&](const char* label, std::string value, const char* unit) { data.numbers.push_back({label, std::move(value), unit}); };
+    const auto add = [&](const char* label, std::string value, const char* unit) {
+        data.numbers.push_back({label, std::move(value), unit});
+    };
     add("Worst deviation", fmt::format("{:.4f}", out.on.deviation.worst_mm), "mm");
     if (out.off) add("The same without correction", fmt::format("{:.4f}", out.off->deviation.worst_mm), "mm");
     add("RMS deviation", fmt::format("{:.4f}", out.on.deviation.rms_mm), "mm");
@@ -67,8 +84,11 @@ void add_numbers(const Job& job, const Outcome& out, trace::ReportData& data) {
     add("Energy", fmt::format("{:.3f}", out.on.energy_j), "J");
     add("Least room in the field", fmt::format("{:.2f}", room_of(out, out.on).mm), "mm");
     if (!out.fits_factor) return;
-    if (job.belt.profile.empty() && !out.fits_any) add("It just fits at", fmt::format("{:.5g}", *out.fits_factor * job.belt.speed), job.belt.rotary ? "degrees/s" : "mm/s");
-    else add("It fits up to", fmt::format("{:.4g}", *out.fits_factor), "times the speed");
+    if (job.belt.profile.empty() && !out.fits_any)
+        add("It just fits at", fmt::format("{:.5g}", *out.fits_factor * job.belt.speed),
+            job.belt.rotary ? "degrees/s" : "mm/s");
+    else
+        add("It fits up to", fmt::format("{:.4g}", *out.fits_factor), "times the speed");
 }
 
 void add_series(const Outcome& out, trace::ReportData& data) {
@@ -94,14 +114,18 @@ trace::ReportData report_of(const Job& job, const Prepared& prepared, const Outc
     data.verdict = {out.on.good(), verdict_text(out)};
     add_numbers(job, out, data);
     data.pictures = pictures_of(prepared, out);
-    data.pictures_hint = "Wide and pale is the drawing, thin is what was marked; a ring is the worst place, a cross an overflow of the field.";
+    data.pictures_hint =
+        "Wide and pale is the drawing, thin is what was marked; a ring is the worst place, a cross an overflow of the "
+        "field.";
     data.tables.push_back(deviations(out));
     if (job.parts) data.tables.push_back(parts_table(out.on));
     if (!out.on.overflows.empty()) data.tables.push_back(overflows(out.on));
     trace::ReportTable known{"Warnings and notes", "What to know of this job", {""}, {}};
     for (const std::string& warning : warnings_of(out)) known.rows.push_back({"Warning: " + warning});
-    if (out.on.lost_overflows > 0) known.rows.push_back({fmt::format("{} more overflows were not kept.", out.on.lost_overflows)});
-    if (out.on.lost_points > 0) known.rows.push_back({fmt::format("{} more points were marked than the pictures keep.", out.on.lost_points)});
+    if (out.on.lost_overflows > 0)
+        known.rows.push_back({fmt::format("{} more overflows were not kept.", out.on.lost_overflows)});
+    if (out.on.lost_points > 0)
+        known.rows.push_back({fmt::format("{} more points were marked than the pictures keep.", out.on.lost_points)});
     for (const std::string& note : out.notes) known.rows.push_back({note});
     if (!known.rows.empty()) data.tables.push_back(std::move(known));
     add_series(out, data);

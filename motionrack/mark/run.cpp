@@ -26,12 +26,14 @@ class StationSink final : public rtc5::Sink {
             open_ += b.laser[i];
             if ((b.first + static_cast<std::int64_t>(i)) % step_ != 0) continue;
             course_.push_back({static_cast<double>(b.first + static_cast<std::int64_t>(i)) * 1e-5,
-                              station_.spot({static_cast<double>(b.x[i]), static_cast<double>(b.y[i])}),
-                              static_cast<double>(open_) / static_cast<double>(rtc5::half_us_per_tick * step_)});
+                               station_.spot({static_cast<double>(b.x[i]), static_cast<double>(b.y[i])}),
+                               static_cast<double>(open_) / static_cast<double>(rtc5::half_us_per_tick * step_)});
             open_ = 0;
         }
     }
-    void laser(std::int64_t half_us, bool on) override { station_.laser(half_us - begin_ * rtc5::half_us_per_tick, on); }
+    void laser(std::int64_t half_us, bool on) override {
+        station_.laser(half_us - begin_ * rtc5::half_us_per_tick, on);
+    }
     std::vector<FieldSample> take_course() { return std::move(course_); }
 
   private:
@@ -44,7 +46,7 @@ class StationSink final : public rtc5::Sink {
 /// A run that nobody looks at: quick.
 struct Quick {
     double ticks = 0;
-    double beyond_mm = 0;  ///< how far the corrected position was beyond the field; 0 or less: it fits
+    double beyond_mm = 0;    ///< how far the corrected position was beyond the field; 0 or less: it fits
     bool some_lost = false;  ///< starts; those of which eight waited are lost at any speed
     bool fits() const { return beyond_mm <= 0 && !some_lost; }
 };
@@ -55,7 +57,8 @@ Result<Quick> run_quick(const Job& job, const Prepared& prepared, double factor,
     Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
     const rtc5::Extent& e = line->card().extent();
     if (!e.empty())
-        out.beyond_mm = std::max({rtc5::field_least - e.least_x, rtc5::field_least - e.least_y, e.greatest_x - rtc5::field_greatest, e.greatest_y - rtc5::field_greatest}) /
+        out.beyond_mm = std::max({rtc5::field_least - e.least_x, rtc5::field_least - e.least_y,
+                                  e.greatest_x - rtc5::field_greatest, e.greatest_y - rtc5::field_greatest}) /
                         prepared.bits_per_mm;
     return out;
 }
@@ -66,7 +69,8 @@ constexpr double marked_at = 0.9;
 /// The greatest factor of the speed at which everything fits.
 class FitSearch {
   public:
-    FitSearch(const Job& job, const Prepared& prepared, const Watch& watch) : job_(job), prepared_(prepared), watch_(watch) {}
+    FitSearch(const Job& job, const Prepared& prepared, const Watch& watch)
+        : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, Outcome& out) {
         const double greatest = std::min(1000.0, parts::greatest_track_speed / top_speed());
@@ -100,7 +104,8 @@ class FitSearch {
   private:
     double top_speed() const {
         double top = 0;
-        for (const parts::SpeedPoint& point : following_of(job_).track.profile) top = std::max(top, std::fabs(point.speed));
+        for (const parts::SpeedPoint& point : following_of(job_).track.profile)
+            top = std::max(top, std::fabs(point.speed));
         return top;
     }
     Result<bool> fits(double factor, Outcome& out) {
@@ -118,8 +123,8 @@ class FitSearch {
     double tried_ = 0;
 };
 
-Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Following& following, double expected_ticks, const std::function<void(double)>& progress,
-                         const Watch& watch) {
+Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Following& following, double expected_ticks,
+                         const std::function<void(double)>& progress, const Watch& watch) {
     parts::StationSettings settings;
     settings.galvo = job.galvo;
     settings.lens = prepared.lens;
@@ -130,22 +135,35 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     MOTIONRACK_TRY(const std::unique_ptr<Line> line, Line::make(job, prepared, following));
     Engine& card = line->card();
     OverflowLog overflows(prepared.bits_per_mm, station.track());
-    StationSink sink(station, overflows, line->begin(), static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
-    MOTIONRACK_CHECK(line->run(&sink, [&](std::int64_t tick) { if (progress) progress(static_cast<double>(tick) / expected_ticks); }, watch));
+    StationSink sink(station, overflows, line->begin(),
+                     static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
+    MOTIONRACK_CHECK(line->run(
+        &sink,
+        [&](std::int64_t tick) {
+            if (progress) progress(static_cast<double>(tick) / expected_ticks);
+        },
+        watch));
     const std::int64_t end = card.tick() - line->begin();
     // The mirrors and the laser come to their rest a little later.
-    card.run_until(card.tick() + static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) + job.laser.off_delay_us / 10) + 2, &sink);
+    card.run_until(card.tick() +
+                       static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) +
+                                                 job.laser.off_delay_us / 10) +
+                       2,
+                   &sink);
     station.workpiece().finish();
     overflows.finish(card.tick() - line->begin());
     Marked out;
     out.lost_points = station.workpiece().lost_points();
     out.seconds = static_cast<double>(end) * 1e-5;
-    out.duty = end > 0 ? static_cast<double>(card.state().laser.on_time) / (static_cast<double>(end) * rtc5::half_us_per_tick) : 0;
+    out.duty =
+        end > 0 ? static_cast<double>(card.state().laser.on_time) / (static_cast<double>(end) * rtc5::half_us_per_tick)
+                : 0;
     out.marked_mm = station.workpiece().length_mm();
     out.energy_j = station.workpiece().energy_j();
     const rtc5::Extent& e = card.extent();
     const double k = prepared.bits_per_mm;
-    out.reach = e.empty() ? box_of(prepared.drawing) : Box{{e.least_x / k, e.least_y / k}, {e.greatest_x / k, e.greatest_y / k}};
+    out.reach = e.empty() ? box_of(prepared.drawing)
+                          : Box{{e.least_x / k, e.least_y / k}, {e.greatest_x / k, e.greatest_y / k}};
     out.course = sink.take_course();
     out.overflows = overflows.all();
     out.lost_overflows = overflows.lost();
@@ -154,15 +172,21 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
 }
 
 bool moves(const parts::TrackSettings& track) {
-    return std::any_of(track.profile.begin(), track.profile.end(), [](const parts::SpeedPoint& p) { return p.speed != 0; });
+    return std::any_of(track.profile.begin(), track.profile.end(),
+                       [](const parts::SpeedPoint& p) { return p.speed != 0; });
 }
 
 /// Waits promise that everything is marked where it should be.
 Result<void> refuse_too_fast(const Job& job, const Quick& now, const Outcome& out) {
-    const std::string fast = job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.speed)) : "the speeds of the profile";
-    const std::string slow = job.belt.profile.empty() ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.speed)) : fmt::format("{:.4g} times them", *out.fits_factor);
-    return fail(Trouble::refused, fmt::format("The belt is too fast: at {} marks go up to {:.3f} mm beyond the field before they are done, waits or not. It just fits at {}. "
-                                              "Nothing was marked; slow the belt down, mark and jump faster, or leave the waits out to see what would be marked.",
+    const std::string fast =
+        job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.speed)) : "the speeds of the profile";
+    const std::string slow = job.belt.profile.empty()
+                                 ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.speed))
+                                 : fmt::format("{:.4g} times them", *out.fits_factor);
+    return fail(Trouble::refused, fmt::format("The belt is too fast: at {} marks go up to {:.3f} mm beyond the field "
+                                              "before they are done, waits or not. It just fits at {}. "
+                                              "Nothing was marked; slow the belt down, mark and jump faster, or leave "
+                                              "the waits out to see what would be marked.",
                                               fast, now.beyond_mm, slow));
 }
 
@@ -177,7 +201,8 @@ Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& w
     out.field = prepared.field();
     const Box box = box_of(prepared.drawing);
     const bool waits = out.waits = job.fly.waits != Waits::none;
-    out.drawing_in_field = waits || (box.low.x >= out.field.low.x && box.low.y >= out.field.low.y && box.high.x <= out.field.high.x && box.high.y <= out.field.high.y);
+    out.drawing_in_field = waits || (box.low.x >= out.field.low.x && box.low.y >= out.field.low.y &&
+                                     box.high.x <= out.field.high.x && box.high.y <= out.field.high.y);
     const Following with = following_of(job);
     Following without = with;
     without.corrects = false;

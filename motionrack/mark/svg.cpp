@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/svg.hpp>
@@ -17,8 +17,9 @@ namespace {
 
 constexpr int deepest = 64;
 constexpr double greatest_scale = 1e9;
-constexpr std::array<std::string_view, 13> passed_over = {"title",  "desc",  "metadata", "defs", "symbol", "clipPath", "mask", "pattern",
-                                                          "marker", "linearGradient", "radialGradient", "filter", "script"};
+constexpr std::array<std::string_view, 13> passed_over = {
+    "title",   "desc",   "metadata",       "defs",           "symbol", "clipPath", "mask",
+    "pattern", "marker", "linearGradient", "radialGradient", "filter", "script"};
 
 /// What an element has from the groups around it.
 struct Around {
@@ -33,12 +34,20 @@ class SvgReader {
         : text_(text), file_(file), pen_(drawing, tolerance) {}
 
     Result<void> read() {
-        if (text_.size() > most_svg_bytes) return fail(Trouble::bad_input, fmt::format("{} bytes; a drawing may have {}. Nothing was marked.", text_.size(), most_svg_bytes), {}, file_);
+        if (text_.size() > most_svg_bytes)
+            return fail(
+                Trouble::bad_input,
+                fmt::format("{} bytes; a drawing may have {}. Nothing was marked.", text_.size(), most_svg_bytes), {},
+                file_);
         pugi::xml_document document;
-        const pugi::xml_parse_result parsed = document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
-        if (!parsed) return wrong(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0)), fmt::format("this is not XML: {}", parsed.description()));
+        const pugi::xml_parse_result parsed =
+            document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+        if (!parsed)
+            return wrong(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0)),
+                         fmt::format("this is not XML: {}", parsed.description()));
         const pugi::xml_node root = document.document_element();
-        if (svg_name(root) != "svg") return wrong(offset(root), fmt::format("the outermost element is '{}', not svg", short_of(root.name())));
+        if (svg_name(root) != "svg")
+            return wrong(offset(root), fmt::format("the outermost element is '{}', not svg", short_of(root.name())));
         MOTIONRACK_TRY(const Affine to_mm, size_of(root));
         MOTIONRACK_CHECK(drawable(root));
         MOTIONRACK_CHECK(sheets(root, 0));
@@ -53,7 +62,8 @@ class SvgReader {
         at = std::min(at, text_.size());
         const std::string_view before = text_.substr(0, at);
         const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-        const Place place{static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1, static_cast<int>(at - line_begin) + 1};
+        const Place place{static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+                          static_cast<int>(at - line_begin) + 1};
         return fail(Trouble::bad_input, what + ". Nothing was marked.", place, file_);
     }
     static std::string short_of(std::string_view text) {
@@ -61,7 +71,9 @@ class SvgReader {
         for (const char c : text.substr(0, 40)) out += c >= ' ' && c < 127 ? c : '?';
         return out;
     }
-    static std::size_t offset(const pugi::xml_node& node) { return static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)); }
+    static std::size_t offset(const pugi::xml_node& node) {
+        return static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
+    }
 
     /// Where the value of an attribute begins in the text; the element's place if it is not found.
     std::size_t value_of(const pugi::xml_node& node, std::string_view name) const {
@@ -76,7 +88,9 @@ class SvgReader {
                 std::string_view key = text_.substr(word, i - word);
                 while (!key.empty() && (key.back() == '=' || key.back() <= ' ')) key.remove_suffix(1);
                 while (!key.empty() && key.front() <= ' ') key.remove_prefix(1);
-                if (key.size() >= name.size() && key.substr(key.size() - name.size()) == name && (key.size() == name.size() || key[key.size() - name.size() - 1] <= ' ')) return i + 1;
+                if (key.size() >= name.size() && key.substr(key.size() - name.size()) == name &&
+                    (key.size() == name.size() || key[key.size() - name.size() - 1] <= ' '))
+                    return i + 1;
                 quote = c;
             } else if (c == '>') {
                 break;
@@ -85,7 +99,8 @@ class SvgReader {
         return begin;
     }
     tl::unexpected<Error> wrong_in(const pugi::xml_node& node, const char* attribute, const DataError& error) const {
-        return wrong(value_of(node, attribute) + error.at, fmt::format("{} of {}: {}", attribute, short_of(node.name()), error.message));
+        return wrong(value_of(node, attribute) + error.at,
+                     fmt::format("{} of {}: {}", attribute, short_of(node.name()), error.message));
     }
 
     /// A length with its unit; `mm_unit`: what a bare number means. Nothing if the attribute is not there.
@@ -102,11 +117,13 @@ class SvgReader {
         if (!number) return wrong_in(node, name, number.error());
         std::string_view unit = std::string_view(attribute.value()).substr(scan.at());
         while (!unit.empty() && unit.back() <= ' ') unit.remove_suffix(1);
-        static constexpr std::pair<std::string_view, double> units[] = {{"", 0},          {"mm", 1},         {"cm", 10},       {"in", 25.4},
-                                                                        {"pt", 25.4 / 72}, {"pc", 25.4 / 6}, {"px", 25.4 / 96}};
+        static constexpr std::pair<std::string_view, double> units[] = {
+            {"", 0}, {"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}, {"pc", 25.4 / 6}, {"px", 25.4 / 96}};
         for (const auto& [known, mm] : units)
             if (unit == known) return std::optional<Length>(Length{*number, mm});
-        return wrong_in(node, name, {scan.at(), fmt::format("the unit '{}' is not known; mm, cm, in, pt, pc and px are", short_of(unit))});
+        return wrong_in(
+            node, name,
+            {scan.at(), fmt::format("the unit '{}' is not known; mm, cm, in, pt, pc and px are", short_of(unit))});
     }
     /// A length in user units, `otherwise` if the attribute is not there.
     Result<double> number(const pugi::xml_node& node, const char* name, double otherwise = 0) const {
@@ -146,7 +163,8 @@ class SvgReader {
         if (!found) return {};
         const std::string what = found->in_style ? fmt::format("{} in a style", found->name) : std::string(found->name);
         return wrong(value_of(node, found->in_style ? std::string_view("style") : found->name),
-                     fmt::format("{} of {}: this is not supported; make plain paths of it in the editor", what, short_of(node.name())));
+                     fmt::format("{} of {}: this is not supported; make plain paths of it in the editor", what,
+                                 short_of(node.name())));
     }
     /// Style sheets decide by selectors, which are not read: one that could change the lines is refused.
     Result<void> sheets(const pugi::xml_node& node, int depth) const {
@@ -154,7 +172,10 @@ class SvgReader {
         for (const pugi::xml_node child : node.children()) {
             if (svg_name(child) == "style") {
                 if (const std::string_view found = deciding_property(child.text().get()); !found.empty())
-                    return wrong(offset(child), fmt::format("the style sheet sets {}, and style sheets are not read; write it into the elements, or make plain paths in the editor", found));
+                    return wrong(offset(child),
+                                 fmt::format("the style sheet sets {}, and style sheets are not read; write it into "
+                                             "the elements, or make plain paths in the editor",
+                                             found));
             }
             MOTIONRACK_CHECK(sheets(child, depth + 1));
         }
@@ -164,8 +185,11 @@ class SvgReader {
     Result<void> element(const pugi::xml_node& node, const Around& around) {
         if (node.type() != pugi::node_element) return {};
         const std::string_view name = svg_name(node);
-        if (name.empty() || name == "style" || std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end()) return {};
-        if (around.depth > deepest) return wrong(offset(node), fmt::format("more than {} groups in one another", deepest));
+        if (name.empty() || name == "style" ||
+            std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end())
+            return {};
+        if (around.depth > deepest)
+            return wrong(offset(node), fmt::format("more than {} groups in one another", deepest));
         const Showing seen = showing(node, around.visible);
         if (!seen.displayed) return {};
         MOTIONRACK_CHECK(drawable(node));
@@ -174,23 +198,27 @@ class SvgReader {
             const auto own = read_transform(transform.value());
             if (!own) return wrong_in(node, "transform", own.error());
             to_mm = to_mm.after(*own);
-            if (!(to_mm.greatest_scale() <= greatest_scale && std::fabs(to_mm.e) <= greatest_scale && std::fabs(to_mm.f) <= greatest_scale))
+            if (!(to_mm.greatest_scale() <= greatest_scale && std::fabs(to_mm.e) <= greatest_scale &&
+                  std::fabs(to_mm.f) <= greatest_scale))
                 return wrong_in(node, "transform", {0, "this and the groups around it make the drawing too large"});
         }
         if (name == "g" || name == "a") {
-            for (const pugi::xml_node child : node.children()) MOTIONRACK_CHECK(element(child, {to_mm, seen.visible, around.depth + 1}));
+            for (const pugi::xml_node child : node.children())
+                MOTIONRACK_CHECK(element(child, {to_mm, seen.visible, around.depth + 1}));
             return {};
         }
         if (!seen.visible) return {};
         pen_.use(to_mm);
         MOTIONRACK_CHECK(shape(node, name));
-        if (!pen_.complete()) return wrong(offset(node), fmt::format("the drawing has more than {} lines and arcs", most_elements));
+        if (!pen_.complete())
+            return wrong(offset(node), fmt::format("the drawing has more than {} lines and arcs", most_elements));
         return {};
     }
 
     Result<void> shape(const pugi::xml_node& node, std::string_view name) {
         if (name == "path") {
-            if (const auto done = draw_path(node.attribute("d").value(), pen_); !done) return wrong_in(node, "d", done.error());
+            if (const auto done = draw_path(node.attribute("d").value(), pen_); !done)
+                return wrong_in(node, "d", done.error());
             return {};
         }
         if (name == "polyline" || name == "polygon") return points(node, name == "polygon");
@@ -206,7 +234,8 @@ class SvgReader {
             pen_.line_to({v[2], v[3]});
             return {};
         }
-        return wrong(offset(node), fmt::format("the element '{}' is not supported; make a path of it in the editor", short_of(name)));
+        return wrong(offset(node),
+                     fmt::format("the element '{}' is not supported; make a path of it in the editor", short_of(name)));
     }
 
     Result<void> points(const pugi::xml_node& node, bool closed) {

@@ -1,9 +1,10 @@
 // Drawings as SVG: outlines of path, line, polyline, polygon, rect, circle and ellipse, in groups with transforms.
 //
-// Millimetres: with width or height in mm (cm, in, pt, pc, px = 1/96 in) and a viewBox, the size says how long a user unit is; without a
-// unit, a user unit is a millimetre. Y points up afterwards. Fills, colours and widths are not looked at; definitions, titles and an
-// editor's own elements are passed over, and so is what is not displayed or not visible. All else that would show is refused with its place: text
-// (make it paths), use, image, nested svg, clipping, masks, dashes, markers, filters, percentages, and style sheets that set one of these.
+// Millimetres: with width or height in mm (cm, in, pt, pc, px = 1/96 in) and a viewBox, the size says how long a user
+// unit is; without a unit, a user unit is a millimetre. Y points up afterwards. Fills, colours and widths are not
+// looked at; definitions, titles and an editor's own elements are passed over, and so is what is not displayed or not
+// visible. All else that would show is refused with its place: text (make it paths), use, image, nested svg, clipping,
+// masks, dashes, markers, filters, percentages, and style sheets that set one of these.
 #pragma once
 
 #include <motionrack/mark/drawing.hpp>

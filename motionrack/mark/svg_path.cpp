@@ -17,29 +17,48 @@ namespace {
 tl::unexpected<DataError> wrong(std::size_t at, std::string message) {
     return tl::unexpected<DataError>(DataError{at, std::move(message)});
 }
-bool blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
-bool digit(char c) { return c >= '0' && c <= '9'; }
-char shown(char c) { return c >= ' ' && c < 127 ? c : '?'; }
+bool blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
+}
+bool digit(char c) {
+    return c >= '0' && c <= '9';
+}
+char shown(char c) {
+    return c >= ' ' && c < 127 ? c : '?';
+}
 
 /// How many numbers a command takes; -1: there is no such command.
 int numbers_of(char upper) {
     switch (upper) {
-        case 'M': case 'L': case 'T': return 2;
-        case 'H': case 'V': return 1;
-        case 'C': return 6;
-        case 'S': case 'Q': return 4;
-        case 'A': return 7;
-        case 'Z': return 0;
-        default: return -1;
+        case 'M':
+        case 'L':
+        case 'T':
+            return 2;
+        case 'H':
+        case 'V':
+            return 1;
+        case 'C':
+            return 6;
+        case 'S':
+        case 'Q':
+            return 4;
+        case 'A':
+            return 7;
+        case 'Z':
+            return 0;
+        default:
+            return -1;
     }
 }
 
 struct PathState {
-    Spot control;        ///< of the last curve
-    char last = 'M';     ///< last command, upper case
+    Spot control;     ///< of the last curve
+    char last = 'M';  ///< last command, upper case
 };
 
-Spot mirrored(Spot at, Spot control) { return {2 * at.x - control.x, 2 * at.y - control.y}; }
+Spot mirrored(Spot at, Spot control) {
+    return {2 * at.x - control.x, 2 * at.y - control.y};
+}
 
 /// From end points to the centre, as SVG's appendix on arcs has it.
 void arc(Pen& pen, double rx, double ry, double turn_deg, bool large, bool sweep_positive, Spot to) {
@@ -70,16 +89,41 @@ void draw(Pen& pen, PathState& s, char upper, bool relative, const std::array<do
     const auto point = [&](std::size_t i) { return Spot{base.x + n[i], base.y + n[i + 1]}; };
     Spot control = at;
     switch (upper) {
-        case 'M': pen.move_to(point(0)); control = pen.at(); break;
-        case 'L': pen.line_to(point(0)); break;
-        case 'H': pen.line_to({base.x + n[0], at.y}); break;
-        case 'V': pen.line_to({at.x, base.y + n[0]}); break;
-        case 'C': control = point(2); pen.cubic_to(point(0), control, point(4)); break;
-        case 'S': control = point(0); pen.cubic_to(s.last == 'C' || s.last == 'S' ? mirrored(at, s.control) : at, control, point(2)); break;
-        case 'Q': control = point(0); pen.quadratic_to(control, point(2)); break;
-        case 'T': control = s.last == 'Q' || s.last == 'T' ? mirrored(at, s.control) : at; pen.quadratic_to(control, point(0)); break;
-        case 'A': arc(pen, n[0], n[1], n[2], n[3] != 0, n[4] != 0, point(5)); break;
-        default: pen.close(); break;
+        case 'M':
+            pen.move_to(point(0));
+            control = pen.at();
+            break;
+        case 'L':
+            pen.line_to(point(0));
+            break;
+        case 'H':
+            pen.line_to({base.x + n[0], at.y});
+            break;
+        case 'V':
+            pen.line_to({at.x, base.y + n[0]});
+            break;
+        case 'C':
+            control = point(2);
+            pen.cubic_to(point(0), control, point(4));
+            break;
+        case 'S':
+            control = point(0);
+            pen.cubic_to(s.last == 'C' || s.last == 'S' ? mirrored(at, s.control) : at, control, point(2));
+            break;
+        case 'Q':
+            control = point(0);
+            pen.quadratic_to(control, point(2));
+            break;
+        case 'T':
+            control = s.last == 'Q' || s.last == 'T' ? mirrored(at, s.control) : at;
+            pen.quadratic_to(control, point(0));
+            break;
+        case 'A':
+            arc(pen, n[0], n[1], n[2], n[3] != 0, n[4] != 0, point(5));
+            break;
+        default:
+            pen.close();
+            break;
     }
     s.control = control;
     s.last = upper;
@@ -100,7 +144,9 @@ bool Scan::number_next() const {
 }
 
 tl::expected<double, DataError> Scan::number() {
-    if (!number_next()) return wrong(at_, done() ? "a number is missing at the end" : fmt::format("a number should stand where '{}' stands", shown(peek())));
+    if (!number_next())
+        return wrong(at_, done() ? "a number is missing at the end"
+                                 : fmt::format("a number should stand where '{}' stands", shown(peek())));
     const std::size_t begin = at_;
     if (text_[at_] == '+') ++at_;
     double value = 0;
@@ -130,7 +176,9 @@ tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen) {
         }
         const char upper = static_cast<char>(command >= 'a' && command <= 'z' ? command - 32 : command);
         const int count = numbers_of(upper);
-        if (count < 0 || (again && count == 0)) return wrong(at, again ? "a number without a command" : fmt::format("'{}' is no command of a path", shown(command)));
+        if (count < 0 || (again && count == 0))
+            return wrong(
+                at, again ? "a number without a command" : fmt::format("'{}' is no command of a path", shown(command)));
         if (!begun && upper != 'M') return wrong(at, "a path must begin with M or m");
         begun = true;
         std::array<double, 7> numbers{};
@@ -156,7 +204,10 @@ namespace {
 /// The transform of that name; nothing if it does not take so many numbers.
 std::optional<Affine> transform_of(std::string_view name, const std::vector<double>& n) {
     const std::size_t k = n.size();
-    const auto tangent = [](double degrees) { const SinCos s = sin_cos(degrees * (pi / 180)); return s.sin / s.cos; };
+    const auto tangent = [](double degrees) {
+        const SinCos s = sin_cos(degrees * (pi / 180));
+        return s.sin / s.cos;
+    };
     if (name == "matrix" && k == 6) return Affine{n[0], n[1], n[2], n[3], n[4], n[5]};
     if (name == "translate" && (k == 1 || k == 2)) return Affine{1, 0, 0, 1, n[0], k == 2 ? n[1] : 0};
     if (name == "scale" && (k == 1 || k == 2)) return Affine{n[0], 0, 0, k == 2 ? n[1] : n[0], 0, 0};
@@ -193,7 +244,10 @@ tl::expected<Affine, DataError> read_transform(std::string_view data) {
         if (scan.done()) return wrong(scan.at(), "a ')' is missing in the transform");
         scan.take();
         const auto one = transform_of(name, numbers);
-        if (!one) return wrong(begin, "there are the transforms matrix (6 numbers), translate and scale (1 or 2), rotate (1 or 3), skewX and skewY (1)");
+        if (!one)
+            return wrong(begin,
+                         "there are the transforms matrix (6 numbers), translate and scale (1 or 2), rotate (1 or 3), "
+                         "skewX and skewY (1)");
         out = out.after(*one);
     }
     return out;

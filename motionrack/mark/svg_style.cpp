@@ -1,14 +1,14 @@
-#include <motionrack/mark/svg_style.hpp>
-
 #include <algorithm>
 #include <array>
+#include <motionrack/mark/svg_style.hpp>
 #include <string>
 
 namespace motionrack::mark {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> changing = {"clip-path", "mask", "stroke-dasharray", "filter", "marker", "marker-start", "marker-mid", "marker-end"};
+constexpr std::array<std::string_view, 8> changing = {"clip-path", "mask",         "stroke-dasharray", "filter",
+                                                      "marker",    "marker-start", "marker-mid",       "marker-end"};
 constexpr std::array<std::string_view, 4> hiding = {"display", "visibility", "transform", "d"};
 constexpr std::string_view svg_namespace = "http://www.w3.org/2000/svg";
 
@@ -26,7 +26,8 @@ void declarations(std::string_view style, Found&& found) {
         const std::string_view one = style.substr(0, end);
         if (const std::size_t colon = one.find(':'); colon != std::string_view::npos) {
             std::string_view value = one.substr(colon + 1);
-            if (const std::size_t important = value.find('!'); important != std::string_view::npos) value = value.substr(0, important);
+            if (const std::size_t important = value.find('!'); important != std::string_view::npos)
+                value = value.substr(0, important);
             found(trimmed(one.substr(0, colon)), trimmed(value));
         }
         style.remove_prefix(std::min(end + 1, style.size()));
@@ -51,10 +52,12 @@ std::string_view property(const pugi::xml_node& node, std::string_view name) {
 std::optional<Unsupported> unsupported(const pugi::xml_node& node) {
     for (const std::string_view name : changing) {
         const std::string_view value = property(node, name);
-        if (!value.empty() && value != "none" && value != "inherit") return Unsupported{name, !in_style(node, name).empty()};
+        if (!value.empty() && value != "none" && value != "inherit")
+            return Unsupported{name, !in_style(node, name).empty()};
     }
     // As an attribute, a transform is read.
-    if (const std::string_view value = in_style(node, "transform"); !value.empty() && value != "none") return Unsupported{"transform", true};
+    if (const std::string_view value = in_style(node, "transform"); !value.empty() && value != "none")
+        return Unsupported{"transform", true};
     return std::nullopt;
 }
 
@@ -65,8 +68,12 @@ std::string_view deciding_property(std::string_view sheet) {
         if (open == std::string_view::npos) break;
         const std::size_t close = std::min(sheet.find('}', open), sheet.size());
         declarations(sheet.substr(open + 1, close - open - 1), [&](std::string_view key, std::string_view value) {
-            const auto is_one = [&](const auto& list) { return std::find(list.begin(), list.end(), key) != list.end(); };
-            if (out.empty() && value != "none" && value != "inherit" && value != "inline" && value != "visible" && (is_one(changing) || is_one(hiding))) out = key;
+            const auto is_one = [&](const auto& list) {
+                return std::find(list.begin(), list.end(), key) != list.end();
+            };
+            if (out.empty() && value != "none" && value != "inherit" && value != "inline" && value != "visible" &&
+                (is_one(changing) || is_one(hiding)))
+                out = key;
             if (out.empty() && key == "display" && value == "none") out = key;
         });
         sheet.remove_prefix(std::min(close + 1, sheet.size()));
@@ -85,7 +92,8 @@ Showing showing(const pugi::xml_node& node, bool inherited) {
 std::string_view svg_name(const pugi::xml_node& node) {
     const std::string_view name = node.name();
     const std::size_t colon = name.find(':');
-    const std::string declared = colon == std::string_view::npos ? "xmlns" : "xmlns:" + std::string(name.substr(0, colon));
+    const std::string declared =
+        colon == std::string_view::npos ? "xmlns" : "xmlns:" + std::string(name.substr(0, colon));
     for (pugi::xml_node at = node; at; at = at.parent()) {
         const std::string_view space = at.attribute(declared.c_str()).value();
         if (space.empty()) continue;

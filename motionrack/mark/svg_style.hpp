@@ -1,4 +1,5 @@
-// What an element of an SVG file says of its look, as far as it changes what is drawn: whether it shows, and what would change its lines.
+// What an element of an SVG file says of its look, as far as it changes what is drawn: whether it shows, and what would
+// change its lines.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,8 @@
 
 namespace motionrack::mark {
 
-/// The value of a property: the declaration in the element's style, else its attribute of that name; without blanks around. Empty: neither.
+/// The value of a property: the declaration in the element's style, else its attribute of that name; without blanks
+/// around. Empty: neither.
 std::string_view property(const pugi::xml_node& node, std::string_view name);
 
 /// Something that would change the lines of a drawing and is not drawn here.

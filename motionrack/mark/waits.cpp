@@ -14,8 +14,12 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double pieces_in_field = 4, batches_in_field = 20;
 
-double dot(Spot a, Spot b) { return a.x * b.x + a.y * b.y; }
-Spot between(Spot a, Spot b, double part) { return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)}; }
+double dot(Spot a, Spot b) {
+    return a.x * b.x + a.y * b.y;
+}
+Spot between(Spot a, Spot b, double part) {
+    return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+}
 
 /// From where to where along a direction.
 struct Reach {
@@ -53,7 +57,8 @@ std::vector<double> crossings(Spot at, const Element& e, Spot direction, double 
             const double c = (plane - middle) / radius, half = atan2(std::sqrt(std::max(0.0, 1 - c * c)), c);
             for (const double angle : {half, -half}) {
                 const double turns = (angle - begin) / e.sweep, whole = std::fabs(2 * pi / e.sweep);
-                for (double part = turns - whole * std::floor(turns / whole); part < 1; part += whole) out.push_back(part);
+                for (double part = turns - whole * std::floor(turns / whole); part < 1; part += whole)
+                    out.push_back(part);
             }
         });
     }
@@ -112,12 +117,17 @@ struct Piece {
 Result<void> check(const Piece& piece, const Box& field) {
     const Spot p = piece.stroke.from;
     if (!(piece.ways.low <= piece.ways.high))
-        return fail(Trouble::refused, fmt::format("The stroke at {:.3f}, {:.3f} mm never is in the field, which goes from {:.3f}, {:.3f} to {:.3f}, {:.3f} mm without its margin. "
-                                                  "Nothing was marked; make the drawing smaller across the movement or move it.",
-                                                  p.x, p.y, field.low.x, field.low.y, field.high.x, field.high.y));
+        return fail(Trouble::refused,
+                    fmt::format("The stroke at {:.3f}, {:.3f} mm never is in the field, which goes from {:.3f}, {:.3f} "
+                                "to {:.3f}, {:.3f} mm without its margin. "
+                                "Nothing was marked; make the drawing smaller across the movement or move it.",
+                                p.x, p.y, field.low.x, field.low.y, field.high.x, field.high.y));
     if (piece.ways.high < 0)
-        return fail(Trouble::refused, fmt::format("The stroke at {:.3f}, {:.3f} mm has left the field {:.3f} mm before the job begins. Nothing was marked; move the drawing so much against "
-                                                  "the movement (x_mm, y_mm), or take a longer track delay.", p.x, p.y, -piece.ways.high));
+        return fail(Trouble::refused,
+                    fmt::format("The stroke at {:.3f}, {:.3f} mm has left the field {:.3f} mm before the job begins. "
+                                "Nothing was marked; move the drawing so much against "
+                                "the movement (x_mm, y_mm), or take a longer track delay.",
+                                p.x, p.y, -piece.ways.high));
     return {};
 }
 
@@ -125,7 +135,8 @@ Result<void> check(const Piece& piece, const Box& field) {
 
 Result<std::vector<Batch>> batches_of(const Drawing& drawing, const Box& field, Spot movement) {
     const Spot size{field.high.x - field.low.x, field.high.y - field.low.y};
-    const double along = std::min(movement.x != 0 ? size.x / std::fabs(movement.x) : infinite, movement.y != 0 ? size.y / std::fabs(movement.y) : infinite);
+    const double along = std::min(movement.x != 0 ? size.x / std::fabs(movement.x) : infinite,
+                                  movement.y != 0 ? size.y / std::fabs(movement.y) : infinite);
     const double cell = along / pieces_in_field;
     Reach all;
     for (const Stroke& stroke : drawing.strokes) each_point(stroke, [&](Spot p) { all.take(dot(p, movement)); });
@@ -136,7 +147,10 @@ Result<std::vector<Batch>> batches_of(const Drawing& drawing, const Box& field, 
             cut(stroke, movement, all.high, cell, strokes);
         else
             strokes.push_back(stroke);
-        if (strokes.size() > most_elements) return fail(Trouble::refused, fmt::format("The drawing needs more than {} pieces to come into the field. Nothing was marked.", most_elements));
+        if (strokes.size() > most_elements)
+            return fail(Trouble::refused,
+                        fmt::format("The drawing needs more than {} pieces to come into the field. Nothing was marked.",
+                                    most_elements));
     }
     std::vector<Piece> pieces;
     for (Stroke& stroke : strokes) {
@@ -145,7 +159,8 @@ Result<std::vector<Batch>> batches_of(const Drawing& drawing, const Box& field, 
         MOTIONRACK_CHECK(check(piece, field));
         pieces.push_back(std::move(piece));
     }
-    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.ways.low < b.ways.low; });
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const Piece& a, const Piece& b) { return a.ways.low < b.ways.low; });
     std::vector<Batch> out;
     double begin = -infinite;
     for (Piece& piece : pieces) {

@@ -16,10 +16,14 @@ std::string text_of(const sweep::Row& row) {
     return out;
 }
 
-std::string text_of(const Error& error) { return std::string(trouble_head) + error.text(); }
+std::string text_of(const Error& error) {
+    return std::string(trouble_head) + error.text();
+}
 
 Result<sweep::Row> read_answer(std::string_view text) {
-    const auto damaged = [] { return fail(Trouble::bad_input, "A message of the server is no row of a sweep, or damaged; it was left out."); };
+    const auto damaged = [] {
+        return fail(Trouble::bad_input, "A message of the server is no row of a sweep, or damaged; it was left out.");
+    };
     if (text.starts_with(trouble_head)) return fail(Trouble::refused, std::string(text.substr(trouble_head.size())));
     if (!text.starts_with(row_head)) return damaged();
     text.remove_prefix(row_head.size());
@@ -29,7 +33,9 @@ Result<sweep::Row> read_answer(std::string_view text) {
         const std::size_t end = text.find('\n'), blank = text.find(' ');
         if (end == std::string_view::npos || blank >= end) return damaged();
         const std::string_view name = text.substr(0, blank);
-        if (std::none_of(columns.begin(), columns.end(), [&](const sweep::ResultColumn& column) { return column.name == name; })) return damaged();
+        if (std::none_of(columns.begin(), columns.end(),
+                         [&](const sweep::ResultColumn& column) { return column.name == name; }))
+            return damaged();
         out.emplace_back(name, text.substr(blank + 1, end - blank - 1));
         text.remove_prefix(end + 1);
     }

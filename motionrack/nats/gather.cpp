@@ -15,9 +15,17 @@ constexpr auto least_patience = std::chrono::seconds(10);
 
 class Gatherer {
   public:
-    Gatherer(const sweep::Sweep& sweep, sweep::Results& results, Queue& queue, const std::atomic<bool>& stop, const std::function<void(const sweep::WorkProgress&)>& progress,
+    Gatherer(const sweep::Sweep& sweep, sweep::Results& results, Queue& queue, const std::atomic<bool>& stop,
+             const std::function<void(const sweep::WorkProgress&)>& progress,
              const std::function<void(std::int64_t)>& waits)
-        : sweep_(sweep), results_(results), queue_(queue), stop_(stop), progress_(progress), waits_(waits), name_(name_of(sweep)), clock_(results) {
+        : sweep_(sweep),
+          results_(results),
+          queue_(queue),
+          stop_(stop),
+          progress_(progress),
+          waits_(waits),
+          name_(name_of(sweep)),
+          clock_(results) {
         for (std::int64_t i = 0; i < sweep.points(); ++i) points_.emplace(sweep.key(i), i);
     }
 
@@ -39,7 +47,8 @@ class Gatherer {
             if (!some && Clock::now() - heard > patience) {
                 if (waits_) waits_(patience.count());
                 patience *= 2;
-                // Should somebody have taken rows away, their points are run again; all others are in the queue and stay there once.
+                // Should somebody have taken rows away, their points are run again; all others are in the queue and
+                // stay there once.
                 MOTIONRACK_CHECK(offer());
             }
         }
@@ -90,8 +99,9 @@ class Gatherer {
 
 }  // namespace
 
-Result<void> gather(const sweep::Sweep& sweep, sweep::Results& results, const std::string& url, bool fresh, const std::atomic<bool>& stop,
-                    const std::function<void(const sweep::WorkProgress&)>& progress, const std::function<void(std::int64_t)>& waits) {
+Result<void> gather(const sweep::Sweep& sweep, sweep::Results& results, const std::string& url, bool fresh,
+                    const std::atomic<bool>& stop, const std::function<void(const sweep::WorkProgress&)>& progress,
+                    const std::function<void(std::int64_t)>& waits) {
     if (results.done() == results.points()) return {};
     MOTIONRACK_TRY(const std::unique_ptr<Queue> queue, Queue::open(url));
     return Gatherer(sweep, results, *queue, stop, progress, waits).run(fresh);

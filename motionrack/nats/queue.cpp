@@ -29,7 +29,8 @@ using Message = Handle<natsMsg, natsMsg_Destroy>;
 tl::unexpected<Error> trouble(natsStatus status, const char* what) {
     const char* last = nats_GetLastError(nullptr);
     const std::string why = last != nullptr && *last != '\0' ? last : natsStatus_GetText(status);
-    return fail(Trouble::io, fmt::format("{}: {}. Is nats-server running there, with JetStream (nats-server -js)?", what, why));
+    return fail(Trouble::io,
+                fmt::format("{}: {}. Is nats-server running there, with JetStream (nats-server -js)?", what, why));
 }
 
 /// Subjects have no dots inside a name.
@@ -39,8 +40,12 @@ std::string version_word() {
     return out;
 }
 
-std::string points_subject(const std::string& sweep, const std::string& key) { return fmt::format("motionrack.points.{}.{}.{}", version_word(), sweep, key); }
-std::string rows_subject(const std::string& sweep, const std::string& key) { return fmt::format("motionrack.rows.{}.{}.{}", version_word(), sweep, key); }
+std::string points_subject(const std::string& sweep, const std::string& key) {
+    return fmt::format("motionrack.points.{}.{}.{}", version_word(), sweep, key);
+}
+std::string rows_subject(const std::string& sweep, const std::string& key) {
+    return fmt::format("motionrack.rows.{}.{}.{}", version_word(), sweep, key);
+}
 
 /// Part `n` of a message's subject, from 0.
 std::string subject_word(natsMsg* message, int n) {
@@ -49,11 +54,14 @@ std::string subject_word(natsMsg* message, int n) {
     return std::string(rest.substr(0, rest.find('.')));
 }
 
-std::string_view bytes_of(natsMsg* message) { return {natsMsg_GetData(message), static_cast<std::size_t>(natsMsg_GetDataLength(message))}; }
+std::string_view bytes_of(natsMsg* message) {
+    return {natsMsg_GetData(message), static_cast<std::size_t>(natsMsg_GetDataLength(message))};
+}
 
 /// Nothing came: there is none, or the server is away and comes back.
 bool is_quiet(natsStatus status) {
-    return status == NATS_TIMEOUT || status == NATS_NO_RESPONDERS || status == NATS_NO_SERVER || status == NATS_CONNECTION_DISCONNECTED || status == NATS_NOT_FOUND;
+    return status == NATS_TIMEOUT || status == NATS_NO_RESPONDERS || status == NATS_NO_SERVER ||
+           status == NATS_CONNECTION_DISCONNECTED || status == NATS_NOT_FOUND;
 }
 
 class TakenPoint final : public Taken {
@@ -69,7 +77,8 @@ class TakenPoint final : public Taken {
     void renew() override { natsMsg_InProgress(message_.get(), nullptr); }
     Result<void> done() override {
         const natsStatus status = natsMsg_AckSync(message_.get(), nullptr, nullptr);
-        return status == NATS_OK ? Result<void>() : Result<void>(trouble(status, "The server did not hear that a point is done"));
+        return status == NATS_OK ? Result<void>()
+                                 : Result<void>(trouble(status, "The server did not hear that a point is done"));
     }
     void give_back() override { natsMsg_Nak(message_.get(), nullptr); }
 
@@ -89,11 +98,14 @@ class JetStreamQueue final : public Queue {
         if (status == NATS_OK) status = natsOptions_SetTimeout(options, 10'000);
         if (status == NATS_OK) status = natsOptions_SetMaxReconnect(options, -1);
         if (status == NATS_OK) status = natsOptions_SetReconnectWait(options, 500);
-        if (status == NATS_OK) status = natsOptions_SetErrorHandler(options, [](natsConnection*, natsSubscription*, natsStatus, void*) {}, nullptr);
+        if (status == NATS_OK)
+            status = natsOptions_SetErrorHandler(
+                options, [](natsConnection*, natsSubscription*, natsStatus, void*) {}, nullptr);
         natsConnection* connection = nullptr;
         if (status == NATS_OK) status = natsConnection_Connect(&connection, options);
         connection_.reset(connection);
-        if (status != NATS_OK) return trouble(status, fmt::format("There is no connection to {}", without_password(url)).c_str());
+        if (status != NATS_OK)
+            return trouble(status, fmt::format("There is no connection to {}", without_password(url)).c_str());
         jsCtx* js = nullptr;
         status = natsConnection_JetStream(&js, connection, nullptr);
         js_.reset(js);
@@ -102,10 +114,13 @@ class JetStreamQueue final : public Queue {
     }
 
     Result<void> offer(const std::string& sweep, const std::string& key, std::string_view text) override {
-        if (const auto most = natsConnection_GetMaxPayload(connection_.get()); static_cast<std::int64_t>(text.size()) > most)
-            return fail(Trouble::refused, fmt::format("A point of the sweep has {} bytes, and the server takes messages of at most {}. Nothing was queued; set max_payload of nats-server "
-                                                      "higher, or shorten the program.",
-                                                      text.size(), most));
+        if (const auto most = natsConnection_GetMaxPayload(connection_.get());
+            static_cast<std::int64_t>(text.size()) > most)
+            return fail(Trouble::refused,
+                        fmt::format("A point of the sweep has {} bytes, and the server takes messages of at most {}. "
+                                    "Nothing was queued; set max_payload of nats-server "
+                                    "higher, or shorten the program.",
+                                    text.size(), most));
         return put(points_subject(sweep, key), text, "A point cannot be queued");
     }
 
@@ -121,7 +136,8 @@ class JetStreamQueue final : public Queue {
             options.Config.MaxAckPending = -1;
             options.Config.InactiveThreshold = 60'000 * nanoseconds_a_ms;
             natsSubscription* made = nullptr;
-            const natsStatus status = js_PullSubscribe(&made, js_.get(), subject.c_str(), nullptr, nullptr, &options, nullptr);
+            const natsStatus status =
+                js_PullSubscribe(&made, js_.get(), subject.c_str(), nullptr, nullptr, &options, nullptr);
             if (is_quiet(status)) return out;
             if (status != NATS_OK) return trouble(status, "Rows cannot be fetched");
             answers_.reset(made);
@@ -138,11 +154,13 @@ class JetStreamQueue final : public Queue {
     }
 
     Result<void> forget(const std::string& sweep, const std::string& key) override {
-        for (const auto& [stream, subject] : {std::pair{points_stream, points_subject(sweep, key)}, std::pair{rows_stream, rows_subject(sweep, key)}}) {
+        for (const auto& [stream, subject] :
+             {std::pair{points_stream, points_subject(sweep, key)}, std::pair{rows_stream, rows_subject(sweep, key)}}) {
             jsOptions options;
             jsOptions_Init(&options);
             options.Stream.Purge.Subject = subject.c_str();
-            if (const natsStatus status = js_PurgeStream(js_.get(), stream, &options, nullptr); status != NATS_OK) return trouble(status, "Rows cannot be removed from the server");
+            if (const natsStatus status = js_PurgeStream(js_.get(), stream, &options, nullptr); status != NATS_OK)
+                return trouble(status, "Rows cannot be removed from the server");
         }
         return {};
     }
@@ -150,10 +168,13 @@ class JetStreamQueue final : public Queue {
     bool came_back() override {
         natsStatistics* statistics = nullptr;
         std::uint64_t reconnects = 0;
-        if (natsStatistics_Create(&statistics) == NATS_OK && natsConnection_GetStats(connection_.get(), statistics) == NATS_OK)
+        if (natsStatistics_Create(&statistics) == NATS_OK &&
+            natsConnection_GetStats(connection_.get(), statistics) == NATS_OK)
             natsStatistics_GetCounts(statistics, nullptr, nullptr, nullptr, nullptr, &reconnects);
         natsStatistics_Destroy(statistics);
-        if (reconnects == reconnects_ || natsConnection_Status(connection_.get()) != NATS_CONN_STATUS_CONNECTED || !make_streams()) return false;
+        if (reconnects == reconnects_ || natsConnection_Status(connection_.get()) != NATS_CONN_STATUS_CONNECTED ||
+            !make_streams())
+            return false;
         reconnects_ = reconnects;
         answers_.reset();
         points_.reset();
@@ -175,7 +196,9 @@ class JetStreamQueue final : public Queue {
         return std::unique_ptr<Taken>();
     }
 
-    Result<void> answer(const std::string& sweep, const std::string& key, std::string_view text) override { return put(rows_subject(sweep, key), text, "A row cannot be sent"); }
+    Result<void> answer(const std::string& sweep, const std::string& key, std::string_view text) override {
+        return put(rows_subject(sweep, key), text, "A row cannot be sent");
+    }
 
   private:
     /// Both streams, and the workers' share of the first. What is there stays as it is.
@@ -183,7 +206,8 @@ class JetStreamQueue final : public Queue {
         const std::string points = "motionrack.points.>", rows = "motionrack.rows.>";
         MOTIONRACK_CHECK(make_stream(points_stream, points.c_str(), js_WorkQueuePolicy));
         MOTIONRACK_CHECK(make_stream(rows_stream, rows.c_str(), js_LimitsPolicy));
-        const std::string name = "workers_" + version_word(), subject = fmt::format("motionrack.points.{}.>", version_word());
+        const std::string name = "workers_" + version_word(),
+                          subject = fmt::format("motionrack.points.{}.>", version_word());
         jsConsumerConfig consumer;
         jsConsumerConfig_Init(&consumer);
         consumer.Durable = name.c_str();
@@ -207,17 +231,21 @@ class JetStreamQueue final : public Queue {
         stream.Discard = js_DiscardNew;
         stream.DiscardNewPerSubject = true;
         const natsStatus status = js_AddStream(nullptr, js_.get(), &stream, nullptr, nullptr);
-        return status == NATS_OK ? Result<void>() : Result<void>(trouble(status, fmt::format("The stream {} cannot be made", name).c_str()));
+        return status == NATS_OK
+                   ? Result<void>()
+                   : Result<void>(trouble(status, fmt::format("The stream {} cannot be made", name).c_str()));
     }
 
     Result<void> join_workers() {
-        const std::string name = "workers_" + version_word(), subject = fmt::format("motionrack.points.{}.>", version_word());
+        const std::string name = "workers_" + version_word(),
+                          subject = fmt::format("motionrack.points.{}.>", version_word());
         jsSubOptions options;
         jsSubOptions_Init(&options);
         options.Stream = points_stream;
         options.Consumer = name.c_str();
         natsSubscription* made = nullptr;
-        const natsStatus status = js_PullSubscribe(&made, js_.get(), subject.c_str(), name.c_str(), nullptr, &options, nullptr);
+        const natsStatus status =
+            js_PullSubscribe(&made, js_.get(), subject.c_str(), name.c_str(), nullptr, &options, nullptr);
         if (status != NATS_OK) return trouble(status, "Points cannot be fetched");
         points_.reset(made);
         return {};
@@ -226,9 +254,11 @@ class JetStreamQueue final : public Queue {
     /// One message a subject; another one is refused, which is as good.
     Result<void> put(const std::string& subject, std::string_view text, const char* what) {
         jsErrCode code{};
-        const natsStatus status = js_Publish(nullptr, js_.get(), subject.c_str(), text.data(), static_cast<int>(text.size()), nullptr, &code);
+        const natsStatus status =
+            js_Publish(nullptr, js_.get(), subject.c_str(), text.data(), static_cast<int>(text.size()), nullptr, &code);
         const char* last = status == NATS_OK ? nullptr : nats_GetLastError(nullptr);
-        const bool there = code == JSStreamStoreFailedErr && last != nullptr && std::string_view(last).find("per subject") != std::string_view::npos;
+        const bool there = code == JSStreamStoreFailedErr && last != nullptr &&
+                           std::string_view(last).find("per subject") != std::string_view::npos;
         if (status == NATS_OK || there) return {};
         return trouble(status, what);
     }
@@ -243,7 +273,9 @@ class JetStreamQueue final : public Queue {
 
 std::string without_password(const std::string& url) {
     const std::size_t at = url.rfind('@'), slashes = url.find("//");
-    return at == std::string::npos || slashes == std::string::npos || slashes > at ? url : url.substr(0, slashes + 2) + url.substr(at + 1);
+    return at == std::string::npos || slashes == std::string::npos || slashes > at
+               ? url
+               : url.substr(0, slashes + 2) + url.substr(at + 1);
 }
 
 Result<std::unique_ptr<Queue>> Queue::open(const std::string& url) {

@@ -7,10 +7,10 @@
 //                         ▲               │ renew, while it runs
 //                         └── after 5 s ──┘ of silence: a worker that died; another one gets it
 //
-// Each subject takes one message and refuses the next, so a point stands in the queue once however often it is offered, and there is one row
-// a key however many workers made it. (Message ids would do the same for some minutes only, and would refuse a point that is offered
-// again on purpose.) A worker answers first and gives the point back as done then: what is lost between the two is made once more and
-// refused.
+// Each subject takes one message and refuses the next, so a point stands in the queue once however often it is offered,
+// and there is one row a key however many workers made it. (Message ids would do the same for some minutes only, and
+// would refuse a point that is offered again on purpose.) A worker answers first and gives the point back as done then:
+// what is lost between the two is made once more and refused.
 #pragma once
 
 #include <cstdint>
@@ -49,24 +49,27 @@ class Taken {
     virtual void give_back() = 0;
 };
 
-/// A connection with both streams. While the server is away calls wait for some seconds and fail with io; it is found again by itself.
+/// A connection with both streams. While the server is away calls wait for some seconds and fail with io; it is found
+/// again by itself.
 class Queue {
   public:
     /// `url`: nats://HOST:4222, nats://USER:PASSWORD@HOST:4222. Errors: io, there is no server, or it has no JetStream.
     static Result<std::unique_ptr<Queue>> open(const std::string& url);
     virtual ~Queue() = default;
 
-    // ---- gatherer; one thread ----
-    /// Puts a point into the queue, if it is not in it. Errors: io; refused, it is longer than the server's messages may be.
+    // ---- gatherer; one thread
+    /// Puts a point into the queue, if it is not in it. Errors: io; refused, it is longer than the server's messages
+    /// may be.
     virtual Result<void> offer(const std::string& sweep, const std::string& key, std::string_view text) = 0;
-    /// The next answers for this sweep, from the first one on the server on; waits at most `wait_ms` for one. Errors: io.
+    /// The next answers for this sweep, from the first one on the server on; waits at most `wait_ms` for one. Errors:
+    /// io.
     virtual Result<std::vector<Answer>> answers(const std::string& sweep, std::int64_t wait_ms) = 0;
     /// Removes what is left of a sweep, or of one point of it. Errors: io.
     virtual Result<void> forget(const std::string& sweep, const std::string& key = "*") = 0;
     /// Whether the server was away since this was asked last: then it may have lost something, and answers begins anew.
     virtual bool came_back() = 0;
 
-    // ---- worker; one thread ----
+    // ---- worker; one thread
     /// The next point of any sweep; waits at most `wait_ms` for one. Errors: io.
     virtual Result<std::unique_ptr<Taken>> take(std::int64_t wait_ms) = 0;
     /// The answer for a point; another one with this key is left out. Errors: io.

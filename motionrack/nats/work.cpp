@@ -51,7 +51,8 @@ class Signs {
 
 class Worker {
   public:
-    Worker(const WorkerSettings& settings, const std::atomic<bool>& stop, const std::function<void(std::int64_t)>& done) : settings_(settings), stop_(stop), done_(done) {}
+    Worker(const WorkerSettings& settings, const std::atomic<bool>& stop, const std::function<void(std::int64_t)>& done)
+        : settings_(settings), stop_(stop), done_(done) {}
 
     Result<void> run() {
         std::vector<std::unique_ptr<Queue>> queues;
@@ -78,7 +79,8 @@ class Worker {
                 last_ = Clock::now();
                 ++count_;
                 if (done_) done_(count_);
-            } else if (settings_.idle_s > 0 && std::chrono::duration<double>(Clock::now() - last_).count() > settings_.idle_s) {
+            } else if (settings_.idle_s > 0 &&
+                       std::chrono::duration<double>(Clock::now() - last_).count() > settings_.idle_s) {
                 return;
             }
         }
@@ -103,7 +105,10 @@ class Worker {
 
     Result<sweep::Row> run_point(const Taken& point) {
         if (point.times() > most_times)
-            return fail(Trouble::refused, fmt::format("{} workers had it and died, or were killed, before it was done. It was taken out of the queue; run it alone to see what happens.", most_times));
+            return fail(Trouble::refused,
+                        fmt::format("{} workers had it and died, or were killed, before it was done. It was taken out "
+                                    "of the queue; run it alone to see what happens.",
+                                    most_times));
         try {
             return sweep::run_point(point.text(), &stop_);
         } catch (const std::exception& e) {
@@ -124,6 +129,9 @@ class Worker {
 
 }  // namespace
 
-Result<void> work(const WorkerSettings& settings, const std::atomic<bool>& stop, const std::function<void(std::int64_t done)>& done) { return Worker(settings, stop, done).run(); }
+Result<void> work(const WorkerSettings& settings, const std::atomic<bool>& stop,
+                  const std::function<void(std::int64_t done)>& done) {
+    return Worker(settings, stop, done).run();
+}
 
 }  // namespace motionrack::nats

@@ -10,19 +10,26 @@ namespace motionrack::operate {
 Result<void> Machine::set_work_zero(char axis, double value) {
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named("The work zero was not set", axis));
     if (!std::isfinite(value)) return fail(Trouble::bad_input, "The work zero was not set: the value is not a number.");
-    if (stream_->has_work()) return fail(Trouble::refused, "The work zero was not set: the machine moves. Stop it, or wait until it stands.");
+    if (stream_->has_work())
+        return fail(Trouble::refused,
+                    "The work zero was not set: the machine moves. Stop it, or wait until it stands.");
     const bool inches = stream_->interpreter().modes().inch && found->kind == rack::AxisKind::linear;
-    if (const auto read = line(fmt::format("G10 L20 P0 {}{:.9f}", axis, inches ? value / 25.4 : value), 1); !read) return tl::unexpected<Error>(read.error());
+    if (const auto read = line(fmt::format("G10 L20 P0 {}{:.9f}", axis, inches ? value / 25.4 : value), 1); !read)
+        return tl::unexpected<Error>(read.error());
     return {};
 }
 
 Result<void> Machine::access(const BusAccess& access, std::function<void(std::uint32_t)> ready) {
     const bool stands = idle(state_);
     if (!stands || stream_->has_work())
-        return fail(Trouble::refused, fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.", name_of(state_)));
+        return fail(
+            Trouble::refused,
+            fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.",
+                        name_of(state_)));
     MOTIONRACK_CHECK(rack::card_for_access(rack_, access.card, access.bits, access.address, access.value.has_value()));
     if (access.value && access.bits < 32 && *access.value >> access.bits != 0)
-        return fail(Trouble::refused, fmt::format("{} does not fit into {} bits. Nothing was done.", *access.value, access.bits));
+        return fail(Trouble::refused,
+                    fmt::format("{} does not fit into {} bits. Nothing was done.", *access.value, access.bits));
     accesses_.push_back({access, std::move(ready)});
     return {};
 }

@@ -1,9 +1,8 @@
-#include <motionrack/operate/logbook.hpp>
-
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <ctime>
+#include <motionrack/operate/logbook.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -19,14 +18,18 @@ constexpr Duration keep_every = milliseconds(100);
 std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
     for (const AxisStatus& axis : axes)
-        out += fmt::format("{}{} {:.4f} {}{}", out.empty() ? "" : ", ", axis.letter, axis.commanded, axis.rotary ? "deg" : "mm", axis.trusted ? "" : " (not trusted)");
+        out += fmt::format("{}{} {:.4f} {}{}", out.empty() ? "" : ", ", axis.letter, axis.commanded,
+                           axis.rotary ? "deg" : "mm", axis.trusted ? "" : " (not trusted)");
     return out;
 }
 
 json axes_json(const std::vector<AxisStatus>& axes) {
     json out = json::array();
     for (const AxisStatus& axis : axes)
-        out.push_back({{"letter", std::string(1, axis.letter)}, {"place", axis.place}, {"commanded", axis.commanded}, {"trusted", axis.trusted}});
+        out.push_back({{"letter", std::string(1, axis.letter)},
+                       {"place", axis.place},
+                       {"commanded", axis.commanded},
+                       {"trusted", axis.trusted}});
     return out;
 }
 
@@ -61,10 +64,12 @@ void Logbook::write(Instant at, const std::string& kind, const std::string& text
 void Logbook::see_state(const Status& status) {
     const MachineState before = std::exchange(state_, status.state);
     if (before == state_) return;
-    write(status.at, "state", sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
+    write(status.at, "state",
+          sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
           json{{"state", name_of(state_)}, {"before", name_of(before)}}.dump());
     if (stands(state_) && !stands(before))
-        write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)), json{{"axes", axes_json(status.axes)}}.dump());
+        write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)),
+              json{{"axes", axes_json(status.axes)}}.dump());
     keep(status);
 }
 
@@ -75,7 +80,8 @@ void Logbook::see_job(const Status& status) {
     std::string text = fmt::format("{} began: {} lines.", status.program, status.lines);
     if (!program_runs_ && status.state == MachineState::error_stop) {
         event = "broken off";
-        text = sentence(fmt::format("{} broke off at line {} of {}: {}", status.program, status.line, status.lines, status.why));
+        text = sentence(
+            fmt::format("{} broke off at line {} of {}: {}", status.program, status.line, status.lines, status.why));
     } else if (!program_runs_ && status.state == MachineState::stopping) {
         event = "stopped";
         text = fmt::format("{} was stopped at line {} of {}.", status.program, status.line, status.lines);
@@ -83,7 +89,8 @@ void Logbook::see_job(const Status& status) {
         event = "ended";
         text = fmt::format("{} ended.", status.program);
     }
-    write(status.at, "job", text, json{{"name", status.program}, {"event", event}, {"line", status.line}, {"lines", status.lines}}.dump());
+    write(status.at, "job", text,
+          json{{"name", status.program}, {"event", event}, {"line", status.line}, {"lines", status.lines}}.dump());
     keep(status);
 }
 
@@ -98,20 +105,24 @@ void Logbook::see_alarms(const Status& status) {
             open_.insert(alarm.number);
             tell(alarm, "raised", alarm.text);
         }
-        if (!alarm.active && active_.erase(alarm.number) == 1) tell(alarm, "returned", fmt::format("Over: {}", alarm.text));
-        if (alarm.acknowledged && open_.erase(alarm.number) == 1) tell(alarm, "acknowledged", fmt::format("Acknowledged: {}", alarm.text));
+        if (!alarm.active && active_.erase(alarm.number) == 1)
+            tell(alarm, "returned", fmt::format("Over: {}", alarm.text));
+        if (alarm.acknowledged && open_.erase(alarm.number) == 1)
+            tell(alarm, "acknowledged", fmt::format("Acknowledged: {}", alarm.text));
     }
 }
 
 void Logbook::see_settings(const Status& status) {
     const auto percent = [&](const char* what, double& before, double value) {
         if (std::exchange(before, value) == value) return;
-        write(status.at, "setting", fmt::format("{} override {:g} %.", what, value * 100), json{{"name", what}, {"value", value}}.dump());
+        write(status.at, "setting", fmt::format("{} override {:g} %.", what, value * 100),
+              json{{"name", what}, {"value", value}}.dump());
     };
     percent("Feed", feed_, status.feed_override);
     percent("Rapid", rapid_, status.rapid_override);
     if (std::exchange(single_step_, status.single_step) != status.single_step)
-        write(status.at, "setting", fmt::format("Single step {}.", single_step_ ? "on" : "off"), json{{"name", "single step"}, {"value", single_step_}}.dump());
+        write(status.at, "setting", fmt::format("Single step {}.", single_step_ ? "on" : "off"),
+              json{{"name", "single step"}, {"value", single_step_}}.dump());
 }
 
 void Logbook::see_positions(const Status& status) {
@@ -119,8 +130,10 @@ void Logbook::see_positions(const Status& status) {
         const AxisStatus& axis = status.axes[i];
         if (axis.trusted == trusted_[i]) continue;
         trusted_[i] = axis.trusted;
-        write(status.at, "position", fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded, axis.rotary ? "deg" : "mm", axis.trusted ? "trusted" : "not trusted any more"),
-                       json{{"axes", axes_json({axis})}}.dump());
+        write(status.at, "position",
+              fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded,
+                          axis.rotary ? "deg" : "mm", axis.trusted ? "trusted" : "not trusted any more"),
+              json{{"axes", axes_json({axis})}}.dump());
         keep(status);
     }
 }
@@ -128,14 +141,21 @@ void Logbook::see_positions(const Status& status) {
 void Logbook::keep(const Status& status) {
     kept_ = status.at;
     if (journal_ == nullptr) return;
-    journal_->keep(kept_key, json{{"state", name_of(status.state)}, {"program", status.program_runs ? status.program : ""}, {"line", status.line}, {"axes", axes_json(status.axes)}}.dump());
+    journal_->keep(kept_key, json{{"state", name_of(status.state)},
+                                  {"program", status.program_runs ? status.program : ""},
+                                  {"line", status.line},
+                                  {"axes", axes_json(status.axes)}}
+                                 .dump());
 }
 
 LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config) {
     LastStanding out;
     const auto found = last.kept.find(kept_key);
     const json kept = json::parse(found == last.kept.end() ? "{}" : found->second, nullptr, false);
-    const auto text = [&](const char* key) { return kept.is_object() && kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>() : std::string(); };
+    const auto text = [&](const char* key) {
+        return kept.is_object() && kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>()
+                                                                               : std::string();
+    };
     std::string where;
     if (kept.is_object() && kept.contains("axes") && kept["axes"].is_array()) {
         for (const json& one : kept["axes"]) {
@@ -151,10 +171,15 @@ LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& con
     }
     if (last.clean) return out;
     const std::string program = text("program"), state = text("state");
-    const double line = kept.is_object() && kept.contains("line") && kept["line"].is_number() ? kept["line"].get<double>() : 0;
-    out.sentence = fmt::format("The run before this one was cut off ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}{}{}. No position is trusted: home the machine, or declare where it stands.",
-                               fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), state.empty() ? "" : fmt::format("; the machine's state was '{}'", state),
-                               program.empty() ? "" : fmt::format(", '{}' ran and was at line {}", program, line), where.empty() ? "" : fmt::format(", near {}", where));
+    const double line =
+        kept.is_object() && kept.contains("line") && kept["line"].is_number() ? kept["line"].get<double>() : 0;
+    out.sentence = fmt::format(
+        "The run before this one was cut off ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}{}{}. No position is trusted: "
+        "home the machine, or declare where it stands.",
+        fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)),
+        state.empty() ? "" : fmt::format("; the machine's state was '{}'", state),
+        program.empty() ? "" : fmt::format(", '{}' ran and was at line {}", program, line),
+        where.empty() ? "" : fmt::format(", near {}", where));
     return out;
 }
 

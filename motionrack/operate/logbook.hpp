@@ -19,7 +19,8 @@ namespace motionrack::operate {
 class Logbook {
   public:
     /// Hears every entry, too. `data`: JSON.
-    using Told = std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
+    using Told =
+        std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
     explicit Logbook(journal::Journal& journal) : Logbook(&journal, {}) {}
     /// `journal` may be nullptr, `told` empty.
     Logbook(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}

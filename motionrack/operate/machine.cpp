@@ -1,24 +1,31 @@
 // Orders: what may be asked in which state.
-#include <motionrack/operate/machine.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/operate/machine.hpp>
 #include <utility>
 
 namespace motionrack::operate {
 
 std::string_view name_of(MachineState state) {
     switch (state) {
-        case MachineState::disabled: return "disabled";
-        case MachineState::standstill: return "standstill";
-        case MachineState::homing: return "homing";
-        case MachineState::moving: return "moving";
-        case MachineState::jogging: return "jogging";
-        case MachineState::hold: return "hold";
-        case MachineState::stopping: return "stopping";
-        case MachineState::error_stop: return "error stop";
+        case MachineState::disabled:
+            return "disabled";
+        case MachineState::standstill:
+            return "standstill";
+        case MachineState::homing:
+            return "homing";
+        case MachineState::moving:
+            return "moving";
+        case MachineState::jogging:
+            return "jogging";
+        case MachineState::hold:
+            return "hold";
+        case MachineState::stopping:
+            return "stopping";
+        case MachineState::error_stop:
+            return "error stop";
     }
     return "";
 }
@@ -35,7 +42,11 @@ rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& st
 }  // namespace
 
 Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
-    : settings_(std::move(settings)), rack_(placed(config, settings_.standing)), desk_(rack_), tap_(rack_.kernel()), probe_(rack_.kernel()) {
+    : settings_(std::move(settings)),
+      rack_(placed(config, settings_.standing)),
+      desk_(rack_),
+      tap_(rack_.kernel()),
+      probe_(rack_.kernel()) {
     if (rack::grating_bus_of(rack_) != nullptr) frames_.emplace(rack_);
     rack_.input_log().keep_no_more();
 }
@@ -60,14 +71,18 @@ void Machine::quit() {
     });
 }
 
-// ---- what may be asked --------------------------------------------------------------------------------------------------------------
+// ---- what may be asked
 
 /// Standing and enabled.
 Result<void> Machine::ready(const char* what) {
-    const auto refuse = [&](const std::string& why) { return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why)); };
+    const auto refuse = [&](const std::string& why) {
+        return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why));
+    };
     if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
-    if (state_ == MachineState::error_stop) return refuse("the machine stopped on an error; see its alarm, mend the cause and reset it first");
-    if (state_ != MachineState::standstill) return refuse(fmt::format("the machine is in state '{}'; stop it, or wait until it stands", name_of(state_)));
+    if (state_ == MachineState::error_stop)
+        return refuse("the machine stopped on an error; see its alarm, mend the cause and reset it first");
+    if (state_ != MachineState::standstill)
+        return refuse(fmt::format("the machine is in state '{}'; stop it, or wait until it stands", name_of(state_)));
     return {};
 }
 
@@ -79,7 +94,8 @@ Result<const rack::RackAxis*> Machine::axis_named(const char* what, char letter)
 Result<void> Machine::all_enabled(const char* what, std::string_view axes) const {
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
-            return fail(Trouble::refused, fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
+            return fail(Trouble::refused,
+                        fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
     return {};
 }
 
@@ -87,15 +103,21 @@ Result<void> Machine::all_enabled(const char* what, std::string_view axes) const
 Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(ready(what));
     MOTIONRACK_CHECK(all_enabled(what, {control::axis_letters.data(), control::axis_letters.size()}));
-    if (!positions_wanted_.empty()) return fail(Trouble::refused, fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
+    if (!positions_wanted_.empty())
+        return fail(
+            Trouble::refused,
+            fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!trusted_[static_cast<std::size_t>(axis.index())])
-            return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare where it stands. Nothing was moved.", what, axis.letter));
+            return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
+                                                      "where it stands. Nothing was moved.",
+                                                      what, axis.letter));
     return {};
 }
 
 Result<void> Machine::enable(bool on, std::string_view axes) {
-    for (const char letter : axes) MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
+    for (const char letter : axes)
+        MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
     if (!on) stop();
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
@@ -142,14 +164,18 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
 
 Result<void> Machine::hold() {
     if (state_ != MachineState::moving)
-        return fail(Trouble::refused, fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.", name_of(state_)));
+        return fail(Trouble::refused,
+                    fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.",
+                                name_of(state_)));
     stream_->hold();
     return {};
 }
 
 Result<void> Machine::resume() {
     if (state_ != MachineState::hold)
-        return fail(Trouble::refused, fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.", name_of(state_)));
+        return fail(Trouble::refused,
+                    fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
+                                name_of(state_)));
     stream_->resume();
     enter(MachineState::moving);
     return {};
@@ -164,7 +190,8 @@ void Machine::stop() {
     home_wanted_.reset();
     jogs_.clear();
     stop_wanted_ = true;
-    if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging || state_ == MachineState::hold)
+    if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging ||
+        state_ == MachineState::hold)
         enter(MachineState::stopping);
 }
 
@@ -187,7 +214,8 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     MOTIONRACK_CHECK(axis_named("Not jogged", axis));
-    if (!std::isfinite(distance) || !(speed > 0)) return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
+    if (!std::isfinite(distance) || !(speed > 0))
+        return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
     jogs_.push_back({axis, speed, distance});
     enter(MachineState::jogging);
     return {};
@@ -195,8 +223,10 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
-    if (!stream_->has_room()) return fail(Trouble::refused, "Not jogged: there is no room for another jog until others are driven.");
-    if (!std::isfinite(speed) || !(speed > 0)) return fail(Trouble::bad_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
+    if (!stream_->has_room())
+        return fail(Trouble::refused, "Not jogged: there is no room for another jog until others are driven.");
+    if (!std::isfinite(speed) || !(speed > 0))
+        return fail(Trouble::bad_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
     control::Move move;
     int moving = 0;
@@ -204,10 +234,13 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
         const double from = stream_->interpreter().position()[i], slack = control::gcode::limit_slack;
         if (target[i] == from) continue;
         if (!std::isfinite(target[i]) || !limits[i].present)
-            return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.", control::axis_letters[i], target[i]));
+            return fail(Trouble::bad_input,
+                        fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.",
+                                    control::axis_letters[i], target[i]));
         if (target[i] < limits[i].min_position - slack || target[i] > limits[i].max_position + slack)
-            return fail(Trouble::refused, fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.", control::axis_letters[i],
-                                                      limits[i].min_position, limits[i].max_position, target[i]));
+            return fail(Trouble::refused, fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.",
+                                                      control::axis_letters[i], limits[i].min_position,
+                                                      limits[i].max_position, target[i]));
         ++moving;
         move.haste = std::min(move.haste, speed / limits[i].max_speed);
     }
@@ -251,7 +284,9 @@ void Machine::set_coolant(bool mist, bool flood) {
 }
 
 Result<void> Machine::forget_offsets() {
-    if (stream_->has_work()) return fail(Trouble::refused, "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
+    if (stream_->has_work())
+        return fail(Trouble::refused,
+                    "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
     stream_->forget_offsets();
     return {};
 }

@@ -8,8 +8,8 @@
 //                            │  └─┴──home─► homing       ▼
 //                            └◄───────reset────────── error stop          stop() from every state, always accepted
 //
-// Only the motion thread touches the rack. What a front end posts runs there between two runs of the kernel, often in the middle of a
-// drive: so orders only note what is wanted, and the motion thread's loop does it.
+// Only the motion thread touches the rack. What a front end posts runs there between two runs of the kernel, often in
+// the middle of a drive: so orders only note what is wanted, and the motion thread's loop does it.
 #pragma once
 
 #include <atomic>
@@ -33,10 +33,10 @@
 namespace motionrack::operate {
 
 struct MachineSettings {
-    /// Called every slice on the motion thread, which hears what was posted and asks again until it is true: the world may run on.
-    /// It waits a few ms at most. Empty: as fast as possible.
+    /// Called every slice on the motion thread, which hears what was posted and asks again until it is true: the world
+    /// may run on. It waits a few ms at most. Empty: as fast as possible.
     std::function<bool(Instant now)> pace = {};
-    std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
+    std::function<void(const Status&)> on_status = {};               ///< every slice, on the motion thread
     std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
     std::vector<Standing> standing = {};  ///< axes that do not begin where the rack's file says
     std::string alarm = {};               ///< the machine begins with it, if there is one
@@ -47,25 +47,26 @@ struct MachineSettings {
 
 class Machine {
   public:
-    /// Builds and starts the rack. Axes of a rack without any home switch stand where its file says; the others' positions are not
-    /// trusted; but see `standing`. Errors: as Rack::path_axes.
+    /// Builds and starts the rack. Axes of a rack without any home switch stand where its file says; the others'
+    /// positions are not trusted; but see `standing`. Errors: as Rack::path_axes.
     static Result<std::unique_ptr<Machine>> make(const rack::RackConfig& config, MachineSettings settings);
     ~Machine();
 
-    // ---- from any thread ---------------------------------------------------------------------------------------------------------------
+    // ---- from any thread
     /// Runs `work` on the motion thread, soon and in order.
     void post(std::function<void()> work);
     /// The loop ends after the present slice; motion that runs is stopped first.
     void quit();
 
-    // ---- the motion thread -------------------------------------------------------------------------------------------------------------
+    // ---- the motion thread
     /// Works until quit().
     void run();
     /// Somebody else who is to see every slice's status, on the motion thread. Before run().
     void listen(std::function<void(const Status&)> call) { listeners_.push_back(std::move(call)); }
 
-    // ---- orders, posted; refused ones (Trouble::refused) change nothing ----------------------------------------------------------------
-    /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody. Errors: bad_input.
+    // ---- orders, posted; refused ones (Trouble::refused) change nothing
+    /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody.
+    /// Errors: bad_input.
     Result<void> enable(bool on, std::string_view axes = {});
     /// Checks a program whole, then begins it. Errors: bad_input, its first problem with line and column.
     Result<void> begin_program(std::string text, std::string name);
@@ -82,8 +83,9 @@ class Machine {
     Result<void> jog(char axis, double speed);
     /// Jogs by a distance.
     Result<void> jog_by(char axis, double distance, double speed);
-    /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run; stop() ends them.
-    /// Modes stay as they are. Errors: refused, also where no axis may go; bad_input, an axis that the machine has not, or no speed.
+    /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run;
+    /// stop() ends them. Modes stay as they are. Errors: refused, also where no axis may go; bad_input, an axis that
+    /// the machine has not, or no speed.
     Result<void> jog_to(const control::Point& target, double speed);
     /// Homes these axes; empty: all that have a home switch.
     Result<void> home(std::string axes);
@@ -99,18 +101,18 @@ class Machine {
     bool acknowledge(std::int64_t alarm);
     /// What this place of an axis is called in the active work coordinates, as G10 L20 does; mm or degrees.
     Result<void> set_work_zero(char axis, double value);
-    /// One access of the host to a card, done by the loop while the machine stands; `ready` hears what was read, later. A card that moves
-    /// axes is not trusted after a write: they must be homed, or declared. Refused: the machine does not stand still, the access is none
-    /// of this card.
+    /// One access of the host to a card, done by the loop while the machine stands; `ready` hears what was read, later.
+    /// A card that moves axes is not trusted after a write: they must be homed, or declared. Refused: the machine does
+    /// not stand still, the access is none of this card.
     struct BusAccess {
         std::string card;
-        int bits = 16;               ///< a width of the card's bus
-        std::uint32_t address = 0;   ///< on the host's bus
+        int bits = 16;                       ///< a width of the card's bus
+        std::uint32_t address = 0;           ///< on the host's bus
         std::optional<std::uint32_t> value;  ///< written; without one it is read, with all effects
     };
     Result<void> access(const BusAccess& access, std::function<void(std::uint32_t)> ready);
 
-    // ---- looking, on the motion thread -------------------------------------------------------------------------------------------------
+    // ---- looking, on the motion thread
     const Status& status() const { return status_; }
     MachineState state() const { return state_; }
     /// A stop, a reset or a declared position is not carried out yet.
@@ -125,7 +127,8 @@ class Machine {
     const control::Stream& stream() const { return *stream_; }
     rack::Rack& rack() { return rack_; }
     rack::WireDesk& wires() { return desk_; }
-    /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if there is one.
+    /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if
+    /// there is one.
     rack::WireTap& tap() { return tap_; }
     rack::Probe& probe() { return probe_; }
     const rack::FrameWatch* frames() const { return frames_ ? &*frames_ : nullptr; }

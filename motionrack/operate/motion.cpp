@@ -9,10 +9,11 @@ namespace motionrack::operate {
 
 bool Machine::can_home() const {
     const rack::RackConfig& config = rack_.config();
-    return std::any_of(config.axes.begin(), config.axes.end(), [&](const rack::RackAxis& axis) { return config.can_home(axis); });
+    return std::any_of(config.axes.begin(), config.axes.end(),
+                       [&](const rack::RackAxis& axis) { return config.can_home(axis); });
 }
 
-// ---- who holds the card's axes ------------------------------------------------------------------------------------------------------
+// ---- who holds the card's axes
 
 /// `known`: nobody could find out by homing.
 Result<void> Machine::stand(rack::RunningAxis& axis, bool known) {
@@ -62,7 +63,7 @@ Result<control::Axis*> Machine::take_axis(char letter) {
     return fail(Trouble::bad_input, fmt::format("There is no axis {}.", letter));
 }
 
-// ---- the loop -----------------------------------------------------------------------------------------------------------------------
+// ---- the loop
 
 void Machine::run() {
     while (!quit_) step();
@@ -119,7 +120,8 @@ void Machine::watch_button() {
 void Machine::come_to_rest() {
     stop_wanted_ = false;
     home_stop_ = false;
-    if (reset_wanted_ && button_pressed()) status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
+    if (reset_wanted_ && button_pressed())
+        status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
     if (std::exchange(reset_wanted_, false) && !button_pressed()) {
         stream_->forget_modes();
         tools_off();
@@ -127,12 +129,13 @@ void Machine::come_to_rest() {
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
     if (state_ == MachineState::stopping) enter(MachineState::standstill);
-    for (std::size_t i = 0; i < enabled_.size(); ++i) enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
+    for (std::size_t i = 0; i < enabled_.size(); ++i)
+        enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
     const bool any = std::find(enabled_.begin(), enabled_.end(), true) != enabled_.end();
     if (!any && state_ == MachineState::standstill) enter(MachineState::disabled);
 }
 
-// ---- lines and programs -------------------------------------------------------------------------------------------------------------
+// ---- lines and programs
 
 void Machine::feed_program() {
     std::string_view text;
@@ -156,11 +159,14 @@ void Machine::drive() {
     const Result<control::StreamState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
     switch (*driven) {
-        case control::StreamState::waiting: host().pass(milliseconds(1)); break;
+        case control::StreamState::waiting:
+            host().pass(milliseconds(1));
+            break;
         case control::StreamState::held:
         case control::StreamState::paused:
             if (state_ == MachineState::moving)
-                enter(MachineState::hold, *driven == control::StreamState::held ? "held; resume goes on" : "the program waits; resume goes on");
+                enter(MachineState::hold, *driven == control::StreamState::held ? "held; resume goes on"
+                                                                                : "the program waits; resume goes on");
             host().pass(settings_.slice);
             break;
         case control::StreamState::rest:
@@ -169,11 +175,12 @@ void Machine::drive() {
             program_runs_ = false;
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;
-        case control::StreamState::driving: break;
+        case control::StreamState::driving:
+            break;
     }
 }
 
-// ---- by hand ------------------------------------------------------------------------------------------------------------------------
+// ---- by hand
 
 void Machine::jog_all() {
     for (const JogOrder& order : std::exchange(jogs_, {})) {
@@ -195,7 +202,8 @@ void Machine::jog_all() {
         axis.step(now());
         const control::AxisState state = axis.state();
         if (state == control::AxisState::standstill || state == control::AxisState::error) {
-            if (const Result<void> good = axis.wait(Duration{0}); !good && good.error().trouble == Trouble::machine) status_.why = good.error().message;
+            if (const Result<void> good = axis.wait(Duration{0}); !good && good.error().trouble == Trouble::machine)
+                status_.why = good.error().message;
             jogging_.erase(jogging_.begin() + static_cast<std::ptrdiff_t>(i));
         } else {
             ++i;
@@ -214,7 +222,8 @@ void Machine::home_all() {
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
-        if (axis.begun) trusted_[static_cast<std::size_t>(rack_.config().axis(axis.letter)->index())] = axis.outcome.homed;
+        if (axis.begun)
+            trusted_[static_cast<std::size_t>(rack_.config().axis(axis.letter)->index())] = axis.outcome.homed;
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (!homed.ended && homed.ended.error().trouble == Trouble::machine) return failed(homed.ended.error());
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
@@ -233,12 +242,13 @@ void Machine::change_positions() {
     if (!done) status_.why = done.error().message;
 }
 
-// ---- what is told -------------------------------------------------------------------------------------------------------------------
+// ---- what is told
 
 /// What moves, or was to move, in a few words.
 std::string Machine::at_work() const {
     if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->line_driven());
-    if (state_ == MachineState::moving || state_ == MachineState::hold) return fmt::format("line {}", stream_->line_driven());
+    if (state_ == MachineState::moving || state_ == MachineState::hold)
+        return fmt::format("line {}", stream_->line_driven());
     return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
 }
 
@@ -250,13 +260,16 @@ void Machine::failed(const Error& error) {
     tools_off();
     const bool pressed = button_pressed();
     if (pressed) trusted_.fill(false);  // it stopped without a ramp
-    raise(pressed ? button_name : what, error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
+    raise(pressed ? button_name : what,
+          error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
     enter(MachineState::error_stop, status_.alarms.back().text);
 }
 
 void Machine::raise(std::string source, std::string text) {
     std::vector<Alarm>& alarms = status_.alarms;
-    alarms.erase(std::remove_if(alarms.begin(), alarms.end(), [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }), alarms.end());
+    alarms.erase(std::remove_if(alarms.begin(), alarms.end(),
+                                [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),
+                 alarms.end());
     if (alarms.size() >= settings_.most_alarms) alarms.erase(alarms.begin());
     alarms.push_back({next_alarm_++, now(), std::move(source), std::move(text)});
 }

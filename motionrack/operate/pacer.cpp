@@ -1,9 +1,8 @@
-#include <motionrack/operate/pacer.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/operate/pacer.hpp>
 
 namespace motionrack::operate {
 
@@ -15,9 +14,12 @@ constexpr Duration longest_wait = milliseconds(5);
 
 std::string_view name_of(ClockMode mode) {
     switch (mode) {
-        case ClockMode::real: return "real";
-        case ClockMode::free: return "free";
-        case ClockMode::paused: return "paused";
+        case ClockMode::real:
+            return "real";
+        case ClockMode::free:
+            return "free";
+        case ClockMode::paused:
+            return "paused";
     }
     return "";
 }
@@ -34,7 +36,8 @@ Duration Lateness::within(double part) const {
     std::int64_t left = count_ - static_cast<std::int64_t>(std::ceil(part * static_cast<double>(count_)));
     for (std::size_t i = counts_.size(); i-- > 0;) {
         left -= counts_[i];
-        if (left < 0) return i + 1 == counts_.size() ? greatest_ : std::min(greatest_, static_cast<std::int64_t>(i) * width);
+        if (left < 0)
+            return i + 1 == counts_.size() ? greatest_ : std::min(greatest_, static_cast<std::int64_t>(i) * width);
     }
     return Duration{0};
 }
@@ -43,7 +46,9 @@ Pacer::Pacer(live::Clock& clock, ClockMode mode, double factor) : clock_(clock),
 
 Result<void> Pacer::set(ClockMode mode, double factor) {
     if (!(factor >= least_factor && factor <= greatest_factor))
-        return fail(Trouble::bad_input, fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor, least_factor, greatest_factor));
+        return fail(Trouble::bad_input,
+                    fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor,
+                                least_factor, greatest_factor));
     mode_ = mode;
     factor_ = factor;
     step_end_ = last_;
@@ -53,9 +58,13 @@ Result<void> Pacer::set(ClockMode mode, double factor) {
 
 Result<void> Pacer::step(Duration duration) {
     if (mode_ != ClockMode::paused)
-        return fail(Trouble::refused, fmt::format("Time steps only while it is paused; its mode is '{}'. Pause it first.", name_of(mode_)));
+        return fail(
+            Trouble::refused,
+            fmt::format("Time steps only while it is paused; its mode is '{}'. Pause it first.", name_of(mode_)));
     if (duration <= Duration{0} || duration > whole_seconds(3600))
-        return fail(Trouble::bad_input, fmt::format("A step of time is 100 ps to 3600 s, not {} s. Nothing was changed.", to_seconds(duration)));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("A step of time is 100 ps to 3600 s, not {} s. Nothing was changed.", to_seconds(duration)));
     step_end_ = std::max(step_end_, last_) + duration;
     return {};
 }

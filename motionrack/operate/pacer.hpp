@@ -1,4 +1,5 @@
-// How fast a rack's time goes beside the computer's: step for step with it, N times as fast, as fast as it can, or not at all.
+// How fast a rack's time goes beside the computer's: step for step with it, N times as fast, as fast as it can, or not
+// at all.
 //
 //   computer ────┬───────────┬───────────┬──────► s      rack's instants are due at  base + (instant - base) / factor
 //   rack     ────┴─2 ms──────┴─2 ms──────┴──────►        too early: the motion thread waits; late: it hurries, and the lateness is counted
@@ -50,7 +51,8 @@ class Pacer {
 
     /// Errors: bad_input, a factor out of its range.
     Result<void> set(ClockMode mode, double factor);
-    /// Lets so much time go by, as fast as it can. Errors: refused unless paused; bad_input below 100 ps or above 3600 s.
+    /// Lets so much time go by, as fast as it can. Errors: refused unless paused; bad_input below 100 ps or above 3600
+    /// s.
     Result<void> step(Duration duration);
 
     ClockMode mode() const { return mode_; }

@@ -12,14 +12,14 @@
 namespace motionrack::operate {
 
 enum class MachineState : std::uint8_t {
-    disabled,    ///< takes no motion until an axis is enabled
+    disabled,  ///< takes no motion until an axis is enabled
     standstill,
     homing,
-    moving,      ///< drives lines of G-code
+    moving,  ///< drives lines of G-code
     jogging,
-    hold,        ///< stands in a program, which goes on with resume
+    hold,  ///< stands in a program, which goes on with resume
     stopping,
-    error_stop   ///< stopped by the machine; reset ends it
+    error_stop  ///< stopped by the machine; reset ends it
 };
 /// "standstill", "error stop".
 std::string_view name_of(MachineState state);
@@ -28,27 +28,29 @@ constexpr bool idle(MachineState state) {
     return state == MachineState::disabled || state == MachineState::standstill || state == MachineState::error_stop;
 }
 /// Whether nothing moves in it.
-constexpr bool stands(MachineState state) { return idle(state) || state == MachineState::hold; }
+constexpr bool stands(MachineState state) {
+    return idle(state) || state == MachineState::hold;
+}
 
 /// An alarm as ISA-18.2 has them: it is there until it was acknowledged and its cause is gone.
 struct Alarm {
     std::int64_t number = 0;  ///< from 1
     Instant at{};
-    std::string source;       ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine"
+    std::string source;  ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine"
     std::string text;
     bool active = true, acknowledged = false;
 };
 
 struct AxisStatus {
     char letter = 'X';
-    bool rotary = false;        ///< degrees instead of mm
-    bool trusted = false;       ///< the positions mean places of the machine
+    bool rotary = false;   ///< degrees instead of mm
+    bool trusted = false;  ///< the positions mean places of the machine
     bool enabled = false;
-    double commanded = 0;       ///< what the card's pulses say
-    double actual = 0;          ///< what the encoder says; commanded without one
-    double place = 0;           ///< where the table really is, whatever any counter says
-    double speed = 0;           ///< a second, signed
-    std::int64_t pulses = 0;    ///< the card's counters
+    double commanded = 0;     ///< what the card's pulses say
+    double actual = 0;        ///< what the encoder says; commanded without one
+    double place = 0;         ///< where the table really is, whatever any counter says
+    double speed = 0;         ///< a second, signed
+    std::int64_t pulses = 0;  ///< the card's counters
     std::int64_t counts = 0;
 };
 
@@ -64,10 +66,10 @@ struct Status {
     Instant at{};
     std::int64_t sequence = 0;  ///< of this picture, from 1
     MachineState state = MachineState::disabled;
-    std::string why;            ///< the sentence that stopped it last, or why it holds
+    std::string why;  ///< the sentence that stopped it last, or why it holds
     std::vector<AxisStatus> axes;
-    std::string program;        ///< name; empty: none was begun
-    std::int32_t line = 0;      ///< being driven
+    std::string program;    ///< name; empty: none was begun
+    std::int32_t line = 0;  ///< being driven
     std::int32_t lines = 0;
     bool program_runs = false, single_step = false;
     control::gcode::Spindle spindle = control::gcode::Spindle::off;  ///< as the last program or line has passed it

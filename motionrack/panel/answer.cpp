@@ -15,14 +15,24 @@ Answer refused_answer(int status, std::string_view trouble, std::string message)
 }
 
 Answer error_answer(const Error& error) {
-    const auto make = [&](int status, std::string_view trouble) { return refused_answer(status, trouble, error.message); };
+    const auto make = [&](int status, std::string_view trouble) {
+        return refused_answer(status, trouble, error.message);
+    };
     Answer answer;
     switch (error.trouble) {
-        case Trouble::bad_input: answer = make(400, "bad_input"); break;
+        case Trouble::bad_input:
+            answer = make(400, "bad_input");
+            break;
         case Trouble::refused:
-        case Trouble::stopped: answer = make(409, "refused"); break;
-        case Trouble::machine: answer = make(500, "machine"); break;
-        case Trouble::io: answer = make(500, "io"); break;
+        case Trouble::stopped:
+            answer = make(409, "refused");
+            break;
+        case Trouble::machine:
+            answer = make(500, "machine");
+            break;
+        case Trouble::io:
+            answer = make(500, "io");
+            break;
     }
     if (error.place.line > 0) answer.body["error"]["line"] = error.place.line;
     if (error.place.column > 0) answer.body["error"]["column"] = error.place.column;
@@ -30,9 +40,15 @@ Answer error_answer(const Error& error) {
 }
 
 json to_json(const Event& event) {
-    return {{"number", event.number}, {"at", to_seconds(event.at)}, {"kind", event.kind}, {"text", event.text}, {"data", event.data}};
+    return {{"number", event.number},
+            {"at", to_seconds(event.at)},
+            {"kind", event.kind},
+            {"text", event.text},
+            {"data", event.data}};
 }
 
-std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string text_of(const json& value) {
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 }  // namespace motionrack::panel

@@ -16,7 +16,8 @@ struct Caller {
     std::string session;  ///< one connection or token: what holds the control lease
 };
 
-/// `status` as in HTTP: 200, 400 bad_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine, 503 gone.
+/// `status` as in HTTP: 200, 400 bad_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine, 503
+/// gone.
 struct Answer {
     int status = 200;
     nlohmann::json body;  ///< {"done":true, ...} or {"error":{"trouble","message","line","column"}}

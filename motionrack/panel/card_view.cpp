@@ -1,10 +1,9 @@
 // One card, whatever it is.
-#include <motionrack/panel/card_view.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <motionrack/panel/card_view.hpp>
 #include <motionrack/panel/channels.hpp>
 
 namespace motionrack::panel {
@@ -15,9 +14,12 @@ namespace {
 
 std::string_view name_of(Access access) {
     switch (access) {
-        case Access::read: return "read";
-        case Access::write: return "write";
-        case Access::read_clears: return "read clears";
+        case Access::read:
+            return "read";
+        case Access::write:
+            return "write";
+        case Access::read_clears:
+            return "read clears";
     }
     return "";
 }
@@ -25,15 +27,26 @@ std::string_view name_of(Access access) {
 json fields_of(const RegisterInfo& reg) {
     json out = json::array();
     for (const FieldInfo& field : reg.fields)
-        out.push_back({{"name", field.name}, {"mask", field.mask}, {"low", std::countr_zero(field.mask)}, {"bits", std::popcount(field.mask)}, {"meaning", field.meaning}});
+        out.push_back({{"name", field.name},
+                       {"mask", field.mask},
+                       {"low", std::countr_zero(field.mask)},
+                       {"bits", std::popcount(field.mask)},
+                       {"meaning", field.meaning}});
     return out;
 }
 
 json commands_of(const CardMap& map) {
     json out = json::array();
     for (const CommandInfo& command : map.commands)
-        out.push_back({{"name", command.name}, {"code", command.code}, {"data_bytes", command.data_bytes}, {"least", command.least}, {"greatest", command.greatest},
-                       {"unit", command.unit}, {"answer_bytes", command.answer_bytes}, {"reproduced", command.reproduced}, {"meaning", command.meaning}});
+        out.push_back({{"name", command.name},
+                       {"code", command.code},
+                       {"data_bytes", command.data_bytes},
+                       {"least", command.least},
+                       {"greatest", command.greatest},
+                       {"unit", command.unit},
+                       {"answer_bytes", command.answer_bytes},
+                       {"reproduced", command.reproduced},
+                       {"meaning", command.meaning}});
     return out;
 }
 
@@ -41,14 +54,21 @@ json machines_of(const CardMap& map) {
     json out = json::array();
     for (const MachineInfo& machine : map.machines) {
         json states = json::array(), ways = json::array();
-        for (const StateInfo& state : machine.states) states.push_back({{"name", state.name}, {"meaning", state.meaning}});
-        for (const TransitionInfo& way : machine.transitions) ways.push_back({{"from", way.from}, {"to", way.to}, {"when", way.when}});
-        out.push_back({{"name", machine.name}, {"meaning", machine.meaning}, {"states", std::move(states)}, {"transitions", std::move(ways)}});
+        for (const StateInfo& state : machine.states)
+            states.push_back({{"name", state.name}, {"meaning", state.meaning}});
+        for (const TransitionInfo& way : machine.transitions)
+            ways.push_back({{"from", way.from}, {"to", way.to}, {"when", way.when}});
+        out.push_back({{"name", machine.name},
+                       {"meaning", machine.meaning},
+                       {"states", std::move(states)},
+                       {"transitions", std::move(ways)}});
     }
     return out;
 }
 
-const rack::RackCard& config_of(const rack::Rack& rack, const rack::Card& card) { return *rack.config().card(card.name()); }
+const rack::RackCard& config_of(const rack::Rack& rack, const rack::Card& card) {
+    return *rack.config().card(card.name());
+}
 
 }  // namespace
 
@@ -58,21 +78,43 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
     const CardMap& map = card.map();
     json registers = json::array();
     for (const RegisterInfo& reg : map.registers)
-        registers.push_back({{"name", reg.name}, {"offset", reg.offset}, {"width", reg.width}, {"access", name_of(reg.access)}, {"per_axis", reg.per_axis},
-                             {"bank", reg.bank}, {"meaning", reg.meaning}, {"fields", fields_of(reg)}});
+        registers.push_back({{"name", reg.name},
+                             {"offset", reg.offset},
+                             {"width", reg.width},
+                             {"access", name_of(reg.access)},
+                             {"per_axis", reg.per_axis},
+                             {"bank", reg.bank},
+                             {"meaning", reg.meaning},
+                             {"fields", fields_of(reg)}});
     json pins = json::array();
     for (const rack::Pin& pin : rack::pins_of(config))
-        pins.push_back({{"name", pin.name}, {"direction", pin.direction == rack::PinDirection::input ? "input" : "output"}, {"volts", pin.volts > 0}, {"bits", pin.bits}, {"meaning", pin.doc}});
+        pins.push_back({{"name", pin.name},
+                        {"direction", pin.direction == rack::PinDirection::input ? "input" : "output"},
+                        {"volts", pin.volts > 0},
+                        {"bits", pin.bits},
+                        {"meaning", pin.doc}});
     json axes = json::array();
     for (const rack::RackAxis& axis : rack.config().axes)
-        if (axis.card == card.name()) axes.push_back({{"letter", std::string(1, axis.letter)}, {"channel", axis.channel}});
+        if (axis.card == card.name())
+            axes.push_back({{"letter", std::string(1, axis.letter)}, {"channel", axis.channel}});
     json widths = json::array();
     for (const int width : card.bus_widths()) widths.push_back(width);
     json channels = json::array();
     for (int channel = 0; channel < type.channel_count(); ++channel) channels.push_back(type.channel_name(channel));
-    return {{"name", card.name()}, {"type", config.type}, {"title", map.title}, {"slot", config.slot.value_or(-1)}, {"about", type.doc},
-            {"bus", {{"base", card.bus_base()}, {"widths", std::move(widths)}}}, {"axes", std::move(axes)}, {"registers", std::move(registers)},
-            {"commands", commands_of(map)}, {"machines", machines_of(map)}, {"pins", std::move(pins)}, {"values", card.value_names()}, {"quantities", card.quantity_names()}, {"channels", std::move(channels)}};
+    return {{"name", card.name()},
+            {"type", config.type},
+            {"title", map.title},
+            {"slot", config.slot.value_or(-1)},
+            {"about", type.doc},
+            {"bus", {{"base", card.bus_base()}, {"widths", std::move(widths)}}},
+            {"axes", std::move(axes)},
+            {"registers", std::move(registers)},
+            {"commands", commands_of(map)},
+            {"machines", machines_of(map)},
+            {"pins", std::move(pins)},
+            {"values", card.value_names()},
+            {"quantities", card.quantity_names()},
+            {"channels", std::move(channels)}};
 }
 
 json card_now(operate::Machine& machine, rack::Card& card) {
@@ -86,19 +128,23 @@ json card_now(operate::Machine& machine, rack::Card& card) {
             if (!word) continue;
             const auto bits = static_cast<std::uint32_t>(*word);
             json fields = json::object();
-            for (const FieldInfo& field : reg.fields) fields[std::string(field.name)] = (bits & field.mask) >> std::countr_zero(field.mask);
-            registers.push_back({{"name", name}, {"register", reg.name}, {"word", bits}, {"fields", std::move(fields)}});
+            for (const FieldInfo& field : reg.fields)
+                fields[std::string(field.name)] = (bits & field.mask) >> std::countr_zero(field.mask);
+            registers.push_back(
+                {{"name", name}, {"register", reg.name}, {"word", bits}, {"fields", std::move(fields)}});
         }
     }
     json values = json::array(), quantities = json::array(), pins = json::object();
     for (const std::string& name : card.value_names())
-        if (const Result<std::int64_t> value = card.inspect(name)) values.push_back({{"name", name}, {"value", *value}});
+        if (const Result<std::int64_t> value = card.inspect(name))
+            values.push_back({{"name", name}, {"value", *value}});
     for (const std::string_view name : card.quantity_names())
-        if (const std::optional<double> value = card.quantity(name)) quantities.push_back({{"name", name}, {"value", *value}});
+        if (const std::optional<double> value = card.quantity(name))
+            quantities.push_back({{"name", name}, {"value", *value}});
     for (const rack::Pin& pin : rack::pins_of(config))
         if (const Result<double> level = machine.wires().get(card.name() + "." + pin.name)) pins[pin.name] = *level;
-    return {{"name", card.name()}, {"at", to_seconds(machine.now())}, {"registers", std::move(registers)}, {"values", std::move(values)},
-            {"quantities", std::move(quantities)}, {"pins", std::move(pins)}};
+    return {{"name", card.name()},         {"at", to_seconds(machine.now())},     {"registers", std::move(registers)},
+            {"values", std::move(values)}, {"quantities", std::move(quantities)}, {"pins", std::move(pins)}};
 }
 
 }  // namespace motionrack::panel

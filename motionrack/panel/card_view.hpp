@@ -1,4 +1,5 @@
-// Cards as JSON, from their maps: what they are, and what they show at this moment, by peek, so that looking disturbs nothing.
+// Cards as JSON, from their maps: what they are, and what they show at this moment, by peek, so that looking disturbs
+// nothing.
 #pragma once
 
 #include <motionrack/operate/machine.hpp>
@@ -8,7 +9,8 @@ namespace motionrack::panel {
 
 /// What never changes: registers, fields, commands, states, pins, names of values.
 nlohmann::json card_facts(rack::Rack& rack, const rack::Card& card);
-/// Registers with their words, fields with their values, values, pins with their levels. On the motion thread, between runs.
+/// Registers with their words, fields with their values, values, pins with their levels. On the motion thread, between
+/// runs.
 nlohmann::json card_now(operate::Machine& machine, rack::Card& card);
 /// Of a databoard4002: its slope table as pictures of speed over distance. Errors: bad_input, it is another card.
 Result<nlohmann::json> slopes_now(rack::Rack& rack, const std::string& card);

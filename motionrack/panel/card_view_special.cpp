@@ -36,9 +36,16 @@ constexpr std::size_t shown_scales = 32;
 Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
     MOTIONRACK_CHECK(rack::card_named(rack, name));
     const db::Card* card = rack::databoard4002_card_of(rack, name);
-    if (card == nullptr) return fail(Trouble::bad_input, fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
-    return json{{"name", name}, {"slopes", {half_of("acceleration over the way gone", card->table(), db::SlopeTable::half), half_of("deceleration over the way to go", card->table(), 0)}},
-                {"moving", card->moving()}, {"rate", card->output_rate()}, {"hz", card->fout_hz()}, {"position", card->position()}};
+    if (card == nullptr)
+        return fail(Trouble::bad_input, fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
+    return json{{"name", name},
+                {"slopes",
+                 {half_of("acceleration over the way gone", card->table(), db::SlopeTable::half),
+                  half_of("deceleration over the way to go", card->table(), 0)}},
+                {"moving", card->moving()},
+                {"rate", card->output_rate()},
+                {"hz", card->fout_hz()},
+                {"position", card->position()}};
 }
 
 Result<json> frames_now(operate::Machine& machine) {
@@ -49,9 +56,12 @@ Result<json> frames_now(operate::Machine& machine) {
     const grating_bus::Frame* first = rows.empty() ? nullptr : rows.front().frame;
     std::string why;
     for (const rack::FrameRow& row : rows) {
-        json card = {{"name", row.card}, {"role", row.role}, {"stale", row.stale}, {"off", row.off}, {"age_us", row.age_us}, {"frames", row.frames},
-                     {"broken", row.broken}, {"untrue", row.untrue}, {"unlike", row.unlike}, {"agrees", row.agrees}};
-        if (!row.agrees) why += fmt::format("{}{} holds another frame than {}", why.empty() ? "" : "; ", row.card, rows.front().card);
+        json card = {{"name", row.card},     {"role", row.role},     {"stale", row.stale},   {"off", row.off},
+                     {"age_us", row.age_us}, {"frames", row.frames}, {"broken", row.broken}, {"untrue", row.untrue},
+                     {"unlike", row.unlike}, {"agrees", row.agrees}};
+        if (!row.agrees)
+            why +=
+                fmt::format("{}{} holds another frame than {}", why.empty() ? "" : "; ", row.card, rows.front().card);
         if (row.stale) why += fmt::format("{}{}'s frame is stale", why.empty() ? "" : "; ", row.card);
         if (row.frame != nullptr) {
             const auto positions = row.frame->positions();
@@ -60,11 +70,17 @@ Result<json> frames_now(operate::Machine& machine) {
             card["skew_ns"] = first != nullptr ? to_seconds(row.frame->instant() - first->instant()) * 1e9 : 0;
             card["scales"] = positions.size();
             card["positions"] = json::array();
-            for (std::size_t k = 0; k < positions.size() && k < shown_scales; ++k) card["positions"].push_back(static_cast<std::int32_t>(positions[k]));
+            for (std::size_t k = 0; k < positions.size() && k < shown_scales; ++k)
+                card["positions"].push_back(static_cast<std::int32_t>(positions[k]));
         }
         cards.push_back(std::move(card));
     }
-    json bus = {{"name", "bus"}, {"frame", first != nullptr ? json(first->sequence) : json()}, {"published", watch->published()}, {"cards", std::move(cards)}, {"agree", why.empty()}, {"why", why}};
+    json bus = {{"name", "bus"},
+                {"frame", first != nullptr ? json(first->sequence) : json()},
+                {"published", watch->published()},
+                {"cards", std::move(cards)},
+                {"agree", why.empty()},
+                {"why", why}};
     return json{{"at", to_seconds(machine.now())}, {"buses", {std::move(bus)}}};
 }
 

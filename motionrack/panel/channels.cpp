@@ -1,10 +1,9 @@
 // The list of channels, and reading those that somebody looks at.
-#include <motionrack/panel/channels.hpp>
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
+#include <motionrack/panel/channels.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -17,7 +16,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// "position_mm" -> "mm", "speed_deg_s" -> "deg/s"; from the end of a quantity's name.
 std::string_view unit_of(std::string_view name) {
     static constexpr std::pair<std::string_view, std::string_view> endings[] = {
-        {"_mm_s", "mm/s"}, {"_deg_s", "deg/s"}, {"_mm", "mm"}, {"_deg", "deg"}, {"_nm", "nm"}, {"_us", "us"}, {"_v", "V"}, {"_hz", "Hz"}, {"_j", "J"}};
+        {"_mm_s", "mm/s"}, {"_deg_s", "deg/s"}, {"_mm", "mm"}, {"_deg", "deg"}, {"_nm", "nm"},
+        {"_us", "us"},     {"_v", "V"},         {"_hz", "Hz"}, {"_j", "J"}};
     for (const auto& [ending, unit] : endings)
         if (name.size() > ending.size() && name.substr(name.size() - ending.size()) == ending) return unit;
     return "";
@@ -27,9 +27,12 @@ std::string_view unit_of(std::string_view name) {
 
 std::string_view name_of(ChannelLooks looks) {
     switch (looks) {
-        case ChannelLooks::edges: return "edges";
-        case ChannelLooks::anytime: return "anytime";
-        case ChannelLooks::slices: return "slices";
+        case ChannelLooks::edges:
+            return "edges";
+        case ChannelLooks::anytime:
+            return "anytime";
+        case ChannelLooks::slices:
+            return "slices";
     }
     return "";
 }
@@ -37,7 +40,8 @@ std::string_view name_of(ChannelLooks looks) {
 std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg) {
     if (!reg.per_axis) return {std::string(reg.name)};
     std::vector<std::string> out;
-    for (int channel = 0; channel < type.channel_count(); ++channel) out.push_back(fmt::format("{}.{}", type.channel_name(channel), reg.name));
+    for (int channel = 0; channel < type.channel_count(); ++channel)
+        out.push_back(fmt::format("{}.{}", type.channel_name(channel), reg.name));
     return out;
 }
 
@@ -48,9 +52,11 @@ ChannelBook::ChannelBook(operate::Machine& machine) {
     add_cards(machine.rack());
 }
 
-void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks, std::function<double()> read) {
+void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks,
+                      std::function<double()> read) {
     std::string key = name;
-    channels_.try_emplace(std::move(key), Channel{std::move(name), std::string(unit), std::string(text), looks, std::move(read)});
+    channels_.try_emplace(std::move(key),
+                          Channel{std::move(name), std::string(unit), std::string(text), looks, std::move(read)});
 }
 
 void ChannelBook::add_axes(operate::Machine& machine) {
@@ -61,22 +67,26 @@ void ChannelBook::add_axes(operate::Machine& machine) {
     };
     static constexpr Shown shown[] = {
         {"commanded", "{u}", "what the card's pulses say", [](const AxisStatus& axis) { return axis.commanded; }},
-        {"actual", "{u}", "what the encoder says; commanded without one", [](const AxisStatus& axis) { return axis.actual; }},
+        {"actual", "{u}", "what the encoder says; commanded without one",
+         [](const AxisStatus& axis) { return axis.actual; }},
         {"error", "{u}", "commanded - actual", [](const AxisStatus& axis) { return axis.commanded - axis.actual; }},
         {"speed", "{u}/s", "of the rotor, signed", [](const AxisStatus& axis) { return axis.speed; }},
     };
     const auto& axes = machine.rack().axes();
     for (std::size_t i = 0; i < axes.size(); ++i)
         for (const Shown& one : shown)
-            add(fmt::format("{}.{}", axes[i].config.letter, one.name), rack::with_unit(one.unit, axes[i].config.unit()), one.text, ChannelLooks::slices,
-                [&machine, i, get = one.get] { return i < machine.status().axes.size() ? get(machine.status().axes[i]) : unknown; });
+            add(fmt::format("{}.{}", axes[i].config.letter, one.name), rack::with_unit(one.unit, axes[i].config.unit()),
+                one.text, ChannelLooks::slices, [&machine, i, get = one.get] {
+                    return i < machine.status().axes.size() ? get(machine.status().axes[i]) : unknown;
+                });
 }
 
 void ChannelBook::add_quantities(rack::Rack& rack) {
     const sim::Kernel& kernel = rack.kernel();
     for (rack::QuantitiesOfPart& of : rack::quantities_of(rack))
         for (rack::Quantity& one : of.quantities)
-            add(of.part + "." + one.name, unit_of(one.name), one.doc, ChannelLooks::anytime, [&kernel, get = std::move(one.get)] { return get(kernel.now()); });
+            add(of.part + "." + one.name, unit_of(one.name), one.doc, ChannelLooks::anytime,
+                [&kernel, get = std::move(one.get)] { return get(kernel.now()); });
 }
 
 void ChannelBook::add_wires(operate::Machine& machine) {
@@ -84,7 +94,8 @@ void ChannelBook::add_wires(operate::Machine& machine) {
     for (const rack::WireDesk::Named& wire : wires.names()) {
         const std::string name(wire.name);
         const ChannelLooks looks = wire.volts || !wire.recorded ? ChannelLooks::anytime : ChannelLooks::edges;
-        add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", looks, [&wires, name] { return wires.get(name).value_or(unknown); });
+        add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", looks,
+            [&wires, name] { return wires.get(name).value_or(unknown); });
     }
 }
 
@@ -116,12 +127,18 @@ const Channel* ChannelBook::find(std::string_view name) const {
 
 Result<std::shared_ptr<ChannelSet>> ChannelBook::set_of(const std::vector<std::string>& names) {
     if (names.size() > Panel::most_channels)
-        return fail(Trouble::bad_input, fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.", names.size(), Panel::most_channels));
+        return fail(Trouble::bad_input,
+                    fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.",
+                                names.size(), Panel::most_channels));
     Held held;
     for (const std::string& name : names) {
         const Channel* channel = find(name);
         if (channel == nullptr)
-            return fail(Trouble::bad_input, fmt::format("There is no channel {}; the query channels lists those that there are. Nothing was changed.", rack::in_quotes(name)));
+            return fail(
+                Trouble::bad_input,
+                fmt::format(
+                    "There is no channel {}; the query channels lists those that there are. Nothing was changed.",
+                    rack::in_quotes(name)));
         held.channels.push_back(channel);
     }
     Held& known = sets_[names];

@@ -49,7 +49,8 @@ class ChannelBook {
     void show(std::int64_t sequence, Instant at);
 
   private:
-    void add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks, std::function<double()> read);
+    void add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks,
+             std::function<double()> read);
     void add_axes(operate::Machine& machine);
     void add_quantities(rack::Rack& rack);
     void add_wires(operate::Machine& machine);

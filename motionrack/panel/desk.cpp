@@ -1,8 +1,7 @@
 // What several orders share.
-#include <motionrack/panel/desk.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/panel/desk.hpp>
 
 namespace motionrack::panel {
 
@@ -25,7 +24,9 @@ void DrivenPath::add(const operate::Status& status) {
     point.at = status.at;
     double linear = 0, rotary = 0;
     for (const operate::AxisStatus& axis : status.axes) {
-        const auto i = static_cast<std::size_t>(std::find(control::axis_letters.begin(), control::axis_letters.end(), axis.letter) - control::axis_letters.begin());
+        const auto i = static_cast<std::size_t>(
+            std::find(control::axis_letters.begin(), control::axis_letters.end(), axis.letter) -
+            control::axis_letters.begin());
         const double error = axis.commanded - axis.actual;
         point.place[i] = axis.actual;
         (axis.rotary ? rotary : linear) += error * error;
@@ -33,7 +34,8 @@ void DrivenPath::add(const operate::Status& status) {
     point.error = std::sqrt(linear > 0 ? linear : rotary);
     if (!points_.empty()) {
         double far = 0;
-        for (std::size_t i = 0; i < point.place.size(); ++i) far = std::max(far, std::fabs(point.place[i] - points_.back().place[i]));
+        for (std::size_t i = 0; i < point.place.size(); ++i)
+            far = std::max(far, std::fabs(point.place[i] - points_.back().place[i]));
         if (far < apart) return;
     }
     if (points_.size() >= most) points_.pop_front();

@@ -1,4 +1,5 @@
-// What orders and queries work on: the machine, who holds it, and what the panel remembers. Only the motion thread uses it.
+// What orders and queries work on: the machine, who holds it, and what the panel remembers. Only the motion thread uses
+// it.
 #pragma once
 
 #include <deque>
@@ -58,7 +59,8 @@ class DrivenPath {
     struct Driven {
         Instant at{};
         control::Point place = {};  ///< as the encoders say
-        double error = 0;           ///< how far it was from where the card sent it: mm of X Y Z, or degrees where only others moved
+        double error =
+            0;  ///< how far it was from where the card sent it: mm of X Y Z, or degrees where only others moved
     };
     void add(const operate::Status& status);
     void clear() { points_.clear(); }
@@ -70,7 +72,11 @@ class DrivenPath {
 
 struct Desk {
     Desk(operate::Machine& machine_here, authority::ControlLease& lease_here, PanelSettings settings_here)
-        : machine(machine_here), lease(lease_here), settings(std::move(settings_here)), channels(machine), scope(machine, channels),
+        : machine(machine_here),
+          lease(lease_here),
+          settings(std::move(settings_here)),
+          channels(machine),
+          scope(machine, channels),
           facts(rack_facts(machine)) {
         for (const rack::RackAxis& axis : machine.rack().config().axes) letters += axis.letter;
     }
@@ -94,7 +100,9 @@ struct Desk {
         const bool taken = worker.post([this, work = std::move(work), ready]() mutable {
             machine.post([made = work(), ready = std::move(ready)]() mutable { ready(std::move(made)); });
         });
-        if (!taken) ready(fail(Trouble::refused, "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
+        if (!taken)
+            ready(fail(Trouble::refused,
+                       "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
     }
     /// The same of what is the answer itself.
     void aside(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {

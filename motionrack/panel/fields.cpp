@@ -26,14 +26,19 @@ bool one_of(std::string_view words, std::string_view text) {
     }
 }
 
-std::string range_of(const FieldRow& field) { return fmt::format("{} to {}{}{}", field.least, field.greatest, field.unit.empty() ? "" : " ", field.unit); }
+std::string range_of(const FieldRow& field) {
+    return fmt::format("{} to {}{}{}", field.least, field.greatest, field.unit.empty() ? "" : " ", field.unit);
+}
 
 Result<void> check_number(const AskRow& row, const FieldRow& field, const json& value) {
-    if (!value.is_number()) return wrong(row, fmt::format("{} must be a number ({}), not {}.", field.name, range_of(field), value.type_name()));
+    if (!value.is_number())
+        return wrong(row,
+                     fmt::format("{} must be a number ({}), not {}.", field.name, range_of(field), value.type_name()));
     const double number = value.get<double>();
     if (!std::isfinite(number) || number < field.least || number > field.greatest)
         return wrong(row, fmt::format("{} is {}; {} is possible.", field.name, number, range_of(field)));
-    if (field.type == FieldType::integer && number != std::floor(number)) return wrong(row, fmt::format("{} is {}, but must be a whole number.", field.name, number));
+    if (field.type == FieldType::integer && number != std::floor(number))
+        return wrong(row, fmt::format("{} is {}, but must be a whole number.", field.name, number));
     return {};
 }
 
@@ -41,7 +46,8 @@ Result<void> check_text(const AskRow& row, const FieldRow& field, const json& va
     if (!value.is_string()) return wrong(row, fmt::format("{} must be a text, not {}.", field.name, value.type_name()));
     const auto& text = value.get_ref<const std::string&>();
     if (static_cast<double>(text.size()) > field.greatest)
-        return wrong(row, fmt::format("{} has {} characters; {} are the most.", field.name, text.size(), field.greatest));
+        return wrong(row,
+                     fmt::format("{} has {} characters; {} are the most.", field.name, text.size(), field.greatest));
     return {};
 }
 
@@ -49,21 +55,28 @@ Result<void> check_field(const AskRow& row, const FieldRow& field, const json& v
     if (value.is_null() && field.or_null) return {};
     switch (field.type) {
         case FieldType::number:
-        case FieldType::integer: return check_number(row, field, value);
-        case FieldType::text: return check_text(row, field, value);
+        case FieldType::integer:
+            return check_number(row, field, value);
+        case FieldType::text:
+            return check_text(row, field, value);
         case FieldType::choice:
             if (!value.is_string() || !one_of(field.words, value.get_ref<const std::string&>()))
                 return wrong(row, fmt::format("{} must be one of {}.", field.name, field.words));
             return {};
         case FieldType::flag:
-            if (!value.is_boolean()) return wrong(row, fmt::format("{} must be true or false, not {}.", field.name, value.type_name()));
+            if (!value.is_boolean())
+                return wrong(row, fmt::format("{} must be true or false, not {}.", field.name, value.type_name()));
             return {};
         case FieldType::texts:
-            if (!value.is_array()) return wrong(row, fmt::format("{} must be a list of texts, not {}.", field.name, value.type_name()));
+            if (!value.is_array())
+                return wrong(row, fmt::format("{} must be a list of texts, not {}.", field.name, value.type_name()));
             if (static_cast<double>(value.size()) > field.greatest)
-                return wrong(row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.greatest));
+                return wrong(
+                    row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.greatest));
             for (const json& one : value)
-                if (!one.is_string()) return wrong(row, fmt::format("{} must be a list of texts; one of them is {}.", field.name, one.type_name()));
+                if (!one.is_string())
+                    return wrong(row, fmt::format("{} must be a list of texts; one of them is {}.", field.name,
+                                                  one.type_name()));
             return {};
     }
     return {};
@@ -72,30 +85,36 @@ Result<void> check_field(const AskRow& row, const FieldRow& field, const json& v
 }  // namespace
 
 Result<void> check_fields(const AskRow& row, const json& fields) {
-    if (!fields.is_object()) return wrong(row, fmt::format("its fields must be a JSON object, not {}.", fields.type_name()));
+    if (!fields.is_object())
+        return wrong(row, fmt::format("its fields must be a JSON object, not {}.", fields.type_name()));
     for (const auto& [name, value] : fields.items()) {
-        const auto found = std::find_if(row.fields.begin(), row.fields.end(), [&name = name](const FieldRow& field) { return field.name == name; });
+        const auto found = std::find_if(row.fields.begin(), row.fields.end(),
+                                        [&name = name](const FieldRow& field) { return field.name == name; });
         if (found == row.fields.end()) {
             std::string known;
             for (const FieldRow& field : row.fields) known += (known.empty() ? "" : ", ") + std::string(field.name);
-            return wrong(row, fmt::format("it has no field {}; it has: {}.", rack::in_quotes(name), known.empty() ? "none" : known));
+            return wrong(row, fmt::format("it has no field {}; it has: {}.", rack::in_quotes(name),
+                                          known.empty() ? "none" : known));
         }
         MOTIONRACK_CHECK(check_field(row, *found, value));
     }
     for (const FieldRow& field : row.fields)
-        if (field.required && !fields.contains(field.name)) return wrong(row, fmt::format("the field {} is missing: {}.", field.name, field.text));
+        if (field.required && !fields.contains(field.name))
+            return wrong(row, fmt::format("the field {} is missing: {}.", field.name, field.text));
     return {};
 }
 
 Result<json> fields_of_texts(const AskRow& row, const std::vector<std::pair<std::string, std::string>>& texts) {
     json fields = json::object();
     for (const auto& [name, text] : texts) {
-        const auto found = std::find_if(row.fields.begin(), row.fields.end(), [&name = name](const FieldRow& field) { return field.name == name; });
+        const auto found = std::find_if(row.fields.begin(), row.fields.end(),
+                                        [&name = name](const FieldRow& field) { return field.name == name; });
         const FieldType type = found == row.fields.end() ? FieldType::text : found->type;
         double number = 0;
         if (type == FieldType::number || type == FieldType::integer) {
             const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-            if (read.ec != std::errc{} || read.ptr != text.data() + text.size()) return wrong(row, fmt::format("{} is {}, which is no number.", name, rack::in_quotes(text)));
+            if (read.ec != std::errc{} || read.ptr != text.data() + text.size())
+                return wrong(row, fmt::format("{} is {}, which is no number.", name, rack::in_quotes(text)));
             fields[name] = number;
         } else if (type == FieldType::flag && (text == "true" || text == "false")) {
             fields[name] = text == "true";

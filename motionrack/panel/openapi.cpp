@@ -38,7 +38,9 @@ json schema_of(const FieldRow& field) {
             schema["type"] = "string";
             schema["enum"] = words_of(field.words);
             break;
-        case FieldType::flag: schema["type"] = "boolean"; break;
+        case FieldType::flag:
+            schema["type"] = "boolean";
+            break;
         case FieldType::texts:
             schema["type"] = "array";
             schema["items"] = {{"type", "string"}};
@@ -55,10 +57,16 @@ std::string who_may(const AskRow& row) {
 }
 
 json operation_of(const AskRow& row) {
-    json answers = {{"200", {{"description", row.gives.empty() ? std::string("done") : fmt::format("done; with {}", row.gives)},
-                             {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Done"}}}}}}}}}};
-    for (const char* status : {"400", "401", "403", "409", "500", "503"}) answers[status] = {{"$ref", "#/components/responses/Error"}};
-    json operation = {{"operationId", row.name}, {"summary", row.text}, {"description", who_may(row)}, {"responses", std::move(answers)}};
+    json answers = {
+        {"200",
+         {{"description", row.gives.empty() ? std::string("done") : fmt::format("done; with {}", row.gives)},
+          {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Done"}}}}}}}}}};
+    for (const char* status : {"400", "401", "403", "409", "500", "503"})
+        answers[status] = {{"$ref", "#/components/responses/Error"}};
+    json operation = {{"operationId", row.name},
+                      {"summary", row.text},
+                      {"description", who_may(row)},
+                      {"responses", std::move(answers)}};
     if (row.role == authority::Role::nobody) operation["security"] = json::array();
     return operation;
 }
@@ -70,25 +78,34 @@ json path_of_order(const AskRow& row) {
         schema["properties"][std::string(field.name)] = schema_of(field);
         if (field.required) schema["required"].push_back(field.name);
     }
-    if (!row.fields.empty()) operation["requestBody"] = {{"required", schema.contains("required")}, {"content", {{"application/json", {{"schema", std::move(schema)}}}}}};
+    if (!row.fields.empty())
+        operation["requestBody"] = {{"required", schema.contains("required")},
+                                    {"content", {{"application/json", {{"schema", std::move(schema)}}}}}};
     return {{"post", std::move(operation)}};
 }
 
 json path_of_query(const AskRow& row) {
     json operation = operation_of(row);
     for (const FieldRow& field : row.fields)
-        operation["parameters"].push_back({{"name", field.name}, {"in", "query"}, {"required", field.required}, {"schema", schema_of(field)}});
+        operation["parameters"].push_back(
+            {{"name", field.name}, {"in", "query"}, {"required", field.required}, {"schema", schema_of(field)}});
     return {{"get", std::move(operation)}};
 }
 
 json make_openapi() {
-    json api = {{"openapi", "3.0.3"},
-                {"info", {{"title", "Motionrack"}, {"version", "1"}, {"description", "A rack of motion-control cards, operated."}}},
-                {"security", {{{"token", json::array()}}}}};
+    json api = {
+        {"openapi", "3.0.3"},
+        {"info",
+         {{"title", "Motionrack"}, {"version", "1"}, {"description", "A rack of motion-control cards, operated."}}},
+        {"security", {{{"token", json::array()}}}}};
     for (const AskRow& row : orders()) api["paths"]["/api/" + std::string(row.name)] = path_of_order(row);
     for (const AskRow& row : queries()) api["paths"]["/api/" + std::string(row.name)] = path_of_query(row);
     api["components"] = {
-        {"securitySchemes", {{"token", {{"type", "http"}, {"scheme", "bearer"}, {"description", "from pairing; loopback without one may observe"}}}}},
+        {"securitySchemes",
+         {{"token",
+           {{"type", "http"},
+            {"scheme", "bearer"},
+            {"description", "from pairing; loopback without one may observe"}}}}},
         {"schemas",
          {{"Done", {{"type", "object"}, {"required", {"done"}}, {"properties", {{"done", {{"type", "boolean"}}}}}}},
           {"Error",
@@ -97,11 +114,15 @@ json make_openapi() {
              {{"error",
                {{"type", "object"},
                 {"properties",
-                 {{"trouble", {{"type", "string"}, {"enum", {"bad_input", "refused", "denied", "machine", "io", "limit"}}}},
+                 {{"trouble",
+                   {{"type", "string"}, {"enum", {"bad_input", "refused", "denied", "machine", "io", "limit"}}}},
                   {"message", {{"type", "string"}}},
                   {"line", {{"type", "integer"}}},
                   {"column", {{"type", "integer"}}}}}}}}}}}}},
-        {"responses", {{"Error", {{"description", "not done; a sentence says why"}, {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}}}}}};
+        {"responses",
+         {{"Error",
+           {{"description", "not done; a sentence says why"},
+            {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}}}}}};
     return api;
 }
 
@@ -109,16 +130,21 @@ std::string kind_of(const FieldRow& field) {
     switch (field.type) {
         case FieldType::number:
         case FieldType::integer:
-            return fmt::format("{} {} .. {}{}{}{}", field.type == FieldType::number ? "number" : "whole number", field.least, field.greatest, field.unit.empty() ? "" : " ",
-                               field.unit, field.or_null ? ", or null" : "");
-        case FieldType::text: return fmt::format("text, {} characters at most", field.greatest);
+            return fmt::format("{} {} .. {}{}{}{}", field.type == FieldType::number ? "number" : "whole number",
+                               field.least, field.greatest, field.unit.empty() ? "" : " ", field.unit,
+                               field.or_null ? ", or null" : "");
+        case FieldType::text:
+            return fmt::format("text, {} characters at most", field.greatest);
         case FieldType::choice: {
             std::string words(field.words);
-            for (std::size_t at = 0; (at = words.find('|', at)) != std::string::npos; at += 2) words.replace(at, 1, ", ");
+            for (std::size_t at = 0; (at = words.find('|', at)) != std::string::npos; at += 2)
+                words.replace(at, 1, ", ");
             return "one of " + words;
         }
-        case FieldType::flag: return "true or false";
-        case FieldType::texts: return fmt::format("list of texts, {} at most", field.greatest);
+        case FieldType::flag:
+            return "true or false";
+        case FieldType::texts:
+            return fmt::format("list of texts, {} at most", field.greatest);
     }
     return {};
 }
@@ -129,7 +155,9 @@ std::string section_of(const AskRow& row, std::string_view verb) {
     out += "\n\n";
     if (row.fields.empty()) return out;
     out += "| field | what it may be | |\n|---|---|---|\n";
-    for (const FieldRow& field : row.fields) out += fmt::format("| `{}`{} | {} | {} |\n", field.name, field.required ? "" : " (optional)", kind_of(field), field.text);
+    for (const FieldRow& field : row.fields)
+        out += fmt::format("| `{}`{} | {} | {} |\n", field.name, field.required ? "" : " (optional)", kind_of(field),
+                           field.text);
     return out + "\n";
 }
 
@@ -144,8 +172,10 @@ std::string api_reference() {
     std::string out =
         "# What can be asked of a served machine\n\n"
         "<!-- written by `motionrack describe api --markdown` -->\n\n"
-        "`motionrack serve` answers these over HTTP and, as `{\"id\":1,\"order\":NAME,...}` and `{\"id\":1,\"query\":NAME,...}`, over its WebSocket. Every order and every query is\n"
-        "declared once; checking, `/api/openapi.json` and this page are made from that. An answer is `{\"done\":true,...}` or\n"
+        "`motionrack serve` answers these over HTTP and, as `{\"id\":1,\"order\":NAME,...}` and "
+        "`{\"id\":1,\"query\":NAME,...}`, over its WebSocket. Every order and every query is\n"
+        "declared once; checking, `/api/openapi.json` and this page are made from that. An answer is "
+        "`{\"done\":true,...}` or\n"
         "`{\"error\":{\"trouble\":...,\"message\":...}}` with a sentence that says what was not done, and why.\n\n"
         "## Orders\n\n";
     for (const AskRow& row : orders()) out += section_of(row, "POST");

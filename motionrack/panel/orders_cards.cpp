@@ -14,14 +14,20 @@ namespace {
 
 Result<json> set_wire(Desk& desk, const json& fields) {
     const json& value = fields.at("value");
-    return taken(desk.machine.wires().set(fields.at("name").get_ref<const std::string&>(), value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
+    return taken(
+        desk.machine.wires().set(fields.at("name").get_ref<const std::string&>(),
+                                 value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
 }
 
 void access(Desk& desk, const json& fields, Ready ready) {
-    operate::Machine::BusAccess access{fields.at("card").get<std::string>(), static_cast<int>(fields.at("bits").get<double>()),
-                                       static_cast<std::uint32_t>(fields.at("address").get<double>()), {}};
+    operate::Machine::BusAccess access{fields.at("card").get<std::string>(),
+                                       static_cast<int>(fields.at("bits").get<double>()),
+                                       static_cast<std::uint32_t>(fields.at("address").get<double>()),
+                                       {}};
     if (fields.contains("value")) access.value = static_cast<std::uint32_t>(fields.at("value").get<double>());
-    const Result<void> taken = desk.machine.access(access, [ready](std::uint32_t value) { ready(json{{"value", value}}); });
+    const Result<void> taken = desk.machine.access(access, [ready](std::uint32_t value) {
+        ready(json{{"value", value}});
+    });
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
 
@@ -33,8 +39,10 @@ Result<operate::Pacer*> pacer_of(Desk& desk) {
 Result<json> set_clock(Desk& desk, const json& fields) {
     MOTIONRACK_TRY(operate::Pacer * pacer, pacer_of(desk));
     const auto& name = fields.at("mode").get_ref<const std::string&>();
-    for (const operate::ClockMode mode : {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
-        if (operate::name_of(mode) == name) return taken(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
+    for (const operate::ClockMode mode :
+         {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
+        if (operate::name_of(mode) == name)
+            return taken(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
     return fail(Trouble::bad_input, "There is no such mode of the clock.");
 }
 
@@ -45,18 +53,27 @@ Result<json> step_clock(Desk& desk, const json& fields) {
 
 constexpr std::array doers = {
     Doer{"set_wire", [](Desk& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
-    Doer{"press_estop", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1)); }},
-    Doer{"inject_fault", [](Desk& desk, const Caller&, const json& fields) {
-        return taken(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(), fields.at("target").get_ref<const std::string&>()));
-    }},
-    Doer{"write_register", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},
-    Doer{"read_register", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},
+    Doer{"press_estop",
+         [](Desk& desk, const Caller&, const json& fields) {
+             return taken(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1));
+         }},
+    Doer{"inject_fault",
+         [](Desk& desk, const Caller&, const json& fields) {
+             return taken(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(),
+                                             fields.at("target").get_ref<const std::string&>()));
+         }},
+    Doer{"write_register", nullptr,
+         [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},
+    Doer{"read_register", nullptr,
+         [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},
     Doer{"set_clock", [](Desk& desk, const Caller&, const json& fields) { return set_clock(desk, fields); }},
     Doer{"step_clock", [](Desk& desk, const Caller&, const json& fields) { return step_clock(desk, fields); }},
 };
 
 }  // namespace
 
-std::span<const Doer> card_doers() { return doers; }
+std::span<const Doer> card_doers() {
+    return doers;
+}
 
 }  // namespace motionrack::panel

@@ -1,4 +1,5 @@
-// Marking with a laser card of the rack while the rack runs: a job becomes a list, which the card works off over what its scan head sees.
+// Marking with a laser card of the rack while the rack runs: a job becomes a list, which the card works off over what
+// its scan head sees.
 //
 //   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──► work piece
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ using Commands = std::vector<rtc5::Command>;
 struct Lists {
     std::shared_ptr<const rtc5::Table> table;
     Commands main;
-    Commands arming;     ///< before the first part; empty: the list is begun at once
+    Commands arming;  ///< before the first part; empty: the list is begun at once
     double tracking_us = 0;
     bool follows = false;
     std::vector<std::string> notes;
@@ -47,15 +48,21 @@ void as_the_rack_has_it(mark::Job& job, const rack::RackConfig& config, const st
 }
 
 /// In the worker.
-Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, const std::string& text, const std::string& drawing, bool on_parts) {
+Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, const std::string& text,
+                       const std::string& drawing, bool on_parts) {
     mark::JobRead read = mark::read_job(text, "job");
     if (!read.job) return tl::unexpected<Error>(read.errors.front());
     mark::Job& job = *read.job;
-    if (job.parts) return fail(Trouble::refused, "The job has a section [parts]: the rack's own belt brings the parts here. Leave it out and give start = parts. Nothing was marked.");
+    if (job.parts)
+        return fail(Trouble::refused,
+                    "The job has a section [parts]: the rack's own belt brings the parts here. Leave it out and give "
+                    "start = parts. Nothing was marked.");
     as_the_rack_has_it(job, config, card);
     const auto load = [&drawing](const std::string& path) -> Result<std::string> {
         if (!drawing.empty()) return drawing;
-        return fail(Trouble::refused, fmt::format("The job names the file {}, and files of this computer are not read: send the drawing's text along. Nothing was marked.", path));
+        return fail(Trouble::refused, fmt::format("The job names the file {}, and files of this computer are not read: "
+                                                  "send the drawing's text along. Nothing was marked.",
+                                                  path));
     };
     MOTIONRACK_TRY(const mark::Prepared prepared, mark::prepare(job, load));
     const mark::Following following = mark::following_of(job);
@@ -74,7 +81,11 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
 /// On the motion thread, between runs.
 Result<json> begin(Desk& desk, const std::string& card, const Lists& lists) {
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
-    if (!engine.at_rest()) return fail(Trouble::refused, fmt::format("Card {} works off a list; wait for its end, or stop it with mark_stop. Nothing was marked.", card));
+    if (!engine.at_rest())
+        return fail(
+            Trouble::refused,
+            fmt::format("Card {} works off a list; wait for its end, or stop it with mark_stop. Nothing was marked.",
+                        card));
     if (lists.table) {
         MOTIONRACK_CHECK(engine.load_correction(lists.table, 1));
         MOTIONRACK_CHECK(engine.select_cor_table(1, 0));
@@ -104,9 +115,13 @@ Result<void> check_card(Desk& desk, const std::string& card) {
 void mark(Desk& desk, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
     if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
-    const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(), drawing = fields.value("drawing", ""),
-                       on_parts = fields.value("start", "now") == "parts"] { return lists_of(config, card, text, drawing, on_parts); };
-    desk.aside<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) { ready(lists ? begin(desk, card, *lists) : tl::unexpected<Error>(lists.error())); });
+    const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(),
+                       drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
+        return lists_of(config, card, text, drawing, on_parts);
+    };
+    desk.aside<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) {
+        ready(lists ? begin(desk, card, *lists) : tl::unexpected<Error>(lists.error()));
+    });
 }
 
 /// Starts are no longer taken, and what runs ends.
@@ -120,12 +135,15 @@ Result<json> stop(Desk& desk, const json& fields) {
 }
 
 constexpr std::array doers = {
-    Doer{"mark", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { mark(desk, fields, std::move(ready)); }},
+    Doer{"mark", nullptr,
+         [](Desk& desk, const Caller&, const json& fields, Ready ready) { mark(desk, fields, std::move(ready)); }},
     Doer{"mark_stop", [](Desk& desk, const Caller&, const json& fields) { return stop(desk, fields); }},
 };
 
 }  // namespace
 
-std::span<const Doer> mark_doers() { return doers; }
+std::span<const Doer> mark_doers() {
+    return doers;
+}
 
 }  // namespace motionrack::panel

@@ -11,44 +11,57 @@ using nlohmann::json;
 namespace {
 
 constexpr std::array control = {
-    Doer{"take_control", [](Desk& desk, const Caller& caller, const json& fields) {
-        return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false), operate::idle(desk.machine.state())));
-    }},
-    Doer{"release_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
-    Doer{"keep_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
-    Doer{"stop", [](Desk& desk, const Caller&, const json&) -> Result<json> {
-        desk.machine.stop();
-        return json::object();
-    }},
+    Doer{"take_control",
+         [](Desk& desk, const Caller& caller, const json& fields) {
+             return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false),
+                                          operate::idle(desk.machine.state())));
+         }},
+    Doer{"release_control",
+         [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
+    Doer{"keep_control",
+         [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
+    Doer{"stop",
+         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+             desk.machine.stop();
+             return json::object();
+         }},
 };
 
 constexpr std::array motion = {
-    Doer{"enable", [](Desk& desk, const Caller&, const json& fields) {
-        return taken(desk.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
-    }},
-    Doer{"home", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.home(fields.value("axes", ""))); }},
-    Doer{"jog", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-        const bool again = desk.machine.state() == operate::MachineState::jogging;
-        MOTIONRACK_CHECK(desk.machine.jog(letter, fields.at("speed").get<double>()));
-        return json{{"again", again}};
-    }},
-    Doer{"jog_by", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-        return taken(desk.machine.jog_by(letter, fields.at("distance").get<double>(), fields.at("speed").get<double>()));
-    }},
-    Doer{"jog_stop", [](Desk& desk, const Caller&, const json&) -> Result<json> {
-        if (desk.machine.state() == operate::MachineState::jogging) desk.machine.stop();
-        return json::object();
-    }},
-    Doer{"set_work_zero", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-        return taken(desk.machine.set_work_zero(letter, fields.at("value").get<double>()));
-    }},
-    Doer{"declare_position", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-        return taken(desk.machine.declare_position(letter, fields.at("position").get<double>()));
-    }},
+    Doer{"enable",
+         [](Desk& desk, const Caller&, const json& fields) {
+             return taken(desk.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
+         }},
+    Doer{"home", [](Desk& desk, const Caller&,
+                    const json& fields) { return taken(desk.machine.home(fields.value("axes", ""))); }},
+    Doer{"jog",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+             const bool again = desk.machine.state() == operate::MachineState::jogging;
+             MOTIONRACK_CHECK(desk.machine.jog(letter, fields.at("speed").get<double>()));
+             return json{{"again", again}};
+         }},
+    Doer{"jog_by",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+             return taken(
+                 desk.machine.jog_by(letter, fields.at("distance").get<double>(), fields.at("speed").get<double>()));
+         }},
+    Doer{"jog_stop",
+         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+             if (desk.machine.state() == operate::MachineState::jogging) desk.machine.stop();
+             return json::object();
+         }},
+    Doer{"set_work_zero",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+             return taken(desk.machine.set_work_zero(letter, fields.at("value").get<double>()));
+         }},
+    Doer{"declare_position",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+             return taken(desk.machine.declare_position(letter, fields.at("position").get<double>()));
+         }},
 };
 
 }  // namespace
@@ -60,10 +73,15 @@ Result<char> axis_of(Desk& desk, const json& fields) {
         if (text.size() == 1 && text[0] == axis.letter) return axis.letter;
         known += axis.letter;
     }
-    return fail(Trouble::bad_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.", text_of(fields.at("axis")), known));
+    return fail(Trouble::bad_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.",
+                                                text_of(fields.at("axis")), known));
 }
 
-std::span<const Doer> control_doers() { return control; }
-std::span<const Doer> motion_doers() { return motion; }
+std::span<const Doer> control_doers() {
+    return control;
+}
+std::span<const Doer> motion_doers() {
+    return motion;
+}
 
 }  // namespace motionrack::panel

@@ -15,7 +15,9 @@ struct Reading {
     control::gcode::Settings settings;
     double kept_back = 0;
 };
-Reading reading_of(Desk& desk) { return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->kept_back()}; }
+Reading reading_of(Desk& desk) {
+    return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->kept_back()};
+}
 
 /// The plan is there a little later than the motion.
 void plan_aside(Desk& desk, const Reading& reading, std::string text, std::string name) {
@@ -29,7 +31,8 @@ void plan_aside(Desk& desk, const Reading& reading, std::string text, std::strin
 }
 
 Result<json> begin(Desk& desk, const json& fields) {
-    const auto &text = fields.at("text").get_ref<const std::string&>(), &name = fields.at("name").get_ref<const std::string&>();
+    const auto &text = fields.at("text").get_ref<const std::string&>(),
+               &name = fields.at("name").get_ref<const std::string&>();
     const Reading reading = reading_of(desk);
     MOTIONRACK_CHECK(desk.machine.begin_program(text, name));
     desk.program = text;
@@ -39,42 +42,56 @@ Result<json> begin(Desk& desk, const json& fields) {
 }
 
 void check(Desk& desk, const json& fields, Ready ready) {
-    desk.aside([reading = reading_of(desk), text = fields.at("text").get<std::string>(), name = fields.value("name", ""), letters = desk.letters]() -> Result<json> {
-        return to_json(plan_program(text, name, reading.settings, reading.kept_back), letters);
-    }, std::move(ready));
+    desk.aside(
+        [reading = reading_of(desk), text = fields.at("text").get<std::string>(), name = fields.value("name", ""),
+         letters = desk.letters]() -> Result<json> {
+            return to_json(plan_program(text, name, reading.settings, reading.kept_back), letters);
+        },
+        std::move(ready));
 }
 
 constexpr std::array program = {
     Doer{"begin", [](Desk& desk, const Caller&, const json& fields) { return begin(desk, fields); }},
-    Doer{"check", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { check(desk, fields, std::move(ready)); }},
-    Doer{"line", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        if (const auto read = desk.machine.line(fields.at("text").get_ref<const std::string&>(), 1); !read) return tl::unexpected<Error>(read.error());
-        return json::object();
-    }},
+    Doer{"check", nullptr,
+         [](Desk& desk, const Caller&, const json& fields, Ready ready) { check(desk, fields, std::move(ready)); }},
+    Doer{"line",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             if (const auto read = desk.machine.line(fields.at("text").get_ref<const std::string&>(), 1); !read)
+                 return tl::unexpected<Error>(read.error());
+             return json::object();
+         }},
     Doer{"hold", [](Desk& desk, const Caller&, const json&) { return taken(desk.machine.hold()); }},
     Doer{"resume", [](Desk& desk, const Caller&, const json&) { return taken(desk.machine.resume()); }},
-    Doer{"reset", [](Desk& desk, const Caller&, const json&) -> Result<json> {
-        desk.machine.reset();
-        return json::object();
-    }},
-    Doer{"set_overrides", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        const operate::Status& status = desk.machine.status();
-        desk.machine.set_overrides(fields.value("feed", status.feed_override), fields.value("rapid", status.rapid_override));
-        return json::object();
-    }},
-    Doer{"set_single_step", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        desk.machine.set_single_step(fields.at("on").get<bool>());
-        return json::object();
-    }},
-    Doer{"acknowledge", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-        const auto number = fields.at("alarm").get<std::int64_t>();
-        if (desk.machine.acknowledge(number)) return json::object();
-        return fail(Trouble::bad_input, fmt::format("There is no alarm {} that is still there. Nothing was changed.", number));
-    }},
+    Doer{"reset",
+         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+             desk.machine.reset();
+             return json::object();
+         }},
+    Doer{"set_overrides",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             const operate::Status& status = desk.machine.status();
+             desk.machine.set_overrides(fields.value("feed", status.feed_override),
+                                        fields.value("rapid", status.rapid_override));
+             return json::object();
+         }},
+    Doer{"set_single_step",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             desk.machine.set_single_step(fields.at("on").get<bool>());
+             return json::object();
+         }},
+    Doer{"acknowledge",
+         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+             const auto number = fields.at("alarm").get<std::int64_t>();
+             if (desk.machine.acknowledge(number)) return json::object();
+             return fail(Trouble::bad_input,
+                         fmt::format("There is no alarm {} that is still there. Nothing was changed.", number));
+         }},
 };
 
 }  // namespace
 
-std::span<const Doer> program_doers() { return program; }
+std::span<const Doer> program_doers() {
+    return program;
+}
 
 }  // namespace motionrack::panel

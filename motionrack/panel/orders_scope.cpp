@@ -25,26 +25,36 @@ Result<json> arm(Desk& desk, const json& fields) {
 /// The data are written as JSON beside the motion.
 void look(Desk& desk, const json& fields, Ready ready) {
     const ScopeSettings& settings = desk.scope.settings();
-    json out = {{"state", name_of(desk.scope.state())}, {"channels", settings.channels}, {"trigger", settings.trigger}, {"mode", settings.again ? "run" : "single"}};
+    json out = {{"state", name_of(desk.scope.state())},
+                {"channels", settings.channels},
+                {"trigger", settings.trigger},
+                {"mode", settings.again ? "run" : "single"}};
     const std::shared_ptr<const Capture> capture = desk.scope.capture();
-    if (!capture || capture->number <= static_cast<std::int64_t>(number_of(fields, "since", 0))) return ready(std::move(out));
-    desk.aside([out = std::move(out), capture]() mutable -> Result<json> {
-        out["capture"] = to_json(*capture);
-        return out;
-    }, std::move(ready));
+    if (!capture || capture->number <= static_cast<std::int64_t>(number_of(fields, "since", 0)))
+        return ready(std::move(out));
+    desk.aside(
+        [out = std::move(out), capture]() mutable -> Result<json> {
+            out["capture"] = to_json(*capture);
+            return out;
+        },
+        std::move(ready));
 }
 
 constexpr std::array doers = {
     Doer{"scope_arm", [](Desk& desk, const Caller&, const json& fields) { return arm(desk, fields); }},
-    Doer{"scope_stop", [](Desk& desk, const Caller&, const json&) -> Result<json> {
-        desk.scope.stop();
-        return json::object();
-    }},
-    Doer{"scope", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { look(desk, fields, std::move(ready)); }},
+    Doer{"scope_stop",
+         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+             desk.scope.stop();
+             return json::object();
+         }},
+    Doer{"scope", nullptr,
+         [](Desk& desk, const Caller&, const json& fields, Ready ready) { look(desk, fields, std::move(ready)); }},
 };
 
 }  // namespace
 
-std::span<const Doer> scope_doers() { return doers; }
+std::span<const Doer> scope_doers() {
+    return doers;
+}
 
 }  // namespace motionrack::panel

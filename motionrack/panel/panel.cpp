@@ -1,10 +1,9 @@
 // Asking: checked in the caller's thread, done on the motion thread.
-#include <motionrack/panel/panel.hpp>
-
 #include <fmt/format.h>
 
 #include <motionrack/operate/logbook.hpp>
 #include <motionrack/panel/desk.hpp>
+#include <motionrack/panel/panel.hpp>
 #include <motionrack/panel/status_text.hpp>
 #include <utility>
 
@@ -27,11 +26,15 @@ std::string session_mark(std::string_view session) {
 class Panel::Inside {
   public:
     Inside(Panel& panel, operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings)
-        : panel_(panel), desk_(machine, lease, std::move(settings)), writer_(machine),
-          logbook_(desk_.settings.journal, [this](Instant at, const std::string& kind, const std::string& text, const std::string& data) {
-              desk_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
-          }) {
-        for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), card_doers(), scope_doers(), mark_doers(), looking_doers()})
+        : panel_(panel),
+          desk_(machine, lease, std::move(settings)),
+          writer_(machine),
+          logbook_(desk_.settings.journal,
+                   [this](Instant at, const std::string& kind, const std::string& text, const std::string& data) {
+                       desk_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
+                   }) {
+        for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), card_doers(),
+                                                  scope_doers(), mark_doers(), looking_doers()})
             for (const Doer& doer : table) doers_[doer.name] = &doer;
         for (const std::span<const AskRow> table : {orders(), queries()})
             for (const AskRow& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
@@ -54,9 +57,12 @@ class Panel::Inside {
 
     void carry_out(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply) {
         if (row.lease)
-            if (const Result<void> held = desk_.lease.check(caller.session); !held) return reply(error_answer(held.error()));
+            if (const Result<void> held = desk_.lease.check(caller.session); !held)
+                return reply(error_answer(held.error()));
         const Doer& doer = *doers_.at(row.name);
-        const auto ready = [this, &row, caller, fields, reply](Result<json> result) { finish(row, caller, fields, reply, std::move(result)); };
+        const auto ready = [this, &row, caller, fields, reply](Result<json> result) {
+            finish(row, caller, fields, reply, std::move(result));
+        };
         if (doer.later != nullptr) return doer.later(desk_, caller, fields, ready);
         ready(doer.now(desk_, caller, fields));
     }
@@ -78,7 +84,11 @@ class Panel::Inside {
         const std::uint64_t first = rack.kernel().dropped_conditions();
         for (std::uint64_t i = std::max(told_, first); i < first + all.size(); ++i) {
             const sim::Condition& condition = all[static_cast<std::size_t>(i - first)];
-            desk_.book.add({0, condition.at, "condition", rack.describe(condition), {{"device", rack.kernel().device_name(condition.device)}}});
+            desk_.book.add({0,
+                            condition.at,
+                            "condition",
+                            rack.describe(condition),
+                            {{"device", rack.kernel().device_name(condition.device)}}});
         }
         told_ = first + all.size();
     }
@@ -90,16 +100,22 @@ class Panel::Inside {
         const bool told = row.role != authority::Role::observe && !row.passing && !answer.body.value("again", false);
         answer.body.erase("again");
         if (!told) return reply(std::move(answer));
-        taken_.push_back({&row, caller, fields, [reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
-            reply(kept ? answer : refused_answer(500, "io", "The order was carried out, but could not be written into the journal: " + kept.error().message));
-        }});
+        taken_.push_back(
+            {&row, caller, fields, [reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
+                 reply(kept ? answer
+                            : refused_answer(500, "io",
+                                             "The order was carried out, but could not be written into the journal: " +
+                                                 kept.error().message));
+             }});
     }
 
-    /// Orders come into the journal behind what the machine became by them: what is answered is what a next run will know.
+    /// Orders come into the journal behind what the machine became by them: what is answered is what a next run will
+    /// know.
     void answer_orders() {
         for (Taken& one : std::exchange(taken_, {})) {
             const json data = {{"order", one.row->name}, {"user", one.caller.user}};
-            const Event& event = desk_.book.add({0, desk_.machine.now(), "order", sentence(*one.row, one.caller, one.fields), data});
+            const Event& event =
+                desk_.book.add({0, desk_.machine.now(), "order", sentence(*one.row, one.caller, one.fields), data});
             if (desk_.settings.journal != nullptr)
                 desk_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(one.safe));
             else
@@ -135,37 +151,52 @@ class Panel::Inside {
     std::uint64_t told_ = 0;
 };
 
-Panel::Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings) : inside_(std::make_unique<Inside>(*this, machine, lease, std::move(settings))) {}
+Panel::Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings)
+    : inside_(std::make_unique<Inside>(*this, machine, lease, std::move(settings))) {}
 
 Panel::~Panel() = default;
 
 void Panel::ask(const Caller& caller, std::string_view name, const json& fields, std::function<void(Answer)> reply) {
     const AskRow* row = find_row(name);
-    if (row == nullptr) return reply(refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));
+    if (row == nullptr)
+        return reply(
+            refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));
     if (caller.role < row->role)
-        return reply(refused_answer(caller.role == authority::Role::nobody ? 401 : 403, "denied",
-                                    fmt::format("{} needs the role {}; {} has the role {}. Nothing was done.", row->name, authority::name_of(row->role),
-                                                caller.user.empty() ? "the caller" : caller.user, authority::name_of(caller.role))));
+        return reply(
+            refused_answer(caller.role == authority::Role::nobody ? 401 : 403, "denied",
+                           fmt::format("{} needs the role {}; {} has the role {}. Nothing was done.", row->name,
+                                       authority::name_of(row->role), caller.user.empty() ? "the caller" : caller.user,
+                                       authority::name_of(caller.role))));
     if (const Result<void> good = check_fields(*row, fields); !good) return reply(error_answer(good.error()));
     if (row->elsewhere) {
         const auto& handlers = inside_->desk().settings.elsewhere;
         const auto found = handlers.find(row->name);
-        if (found == handlers.end()) return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));
+        if (found == handlers.end())
+            return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));
         return reply(found->second(caller, fields));
     }
-    inside_->desk().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] { inside_->carry_out(*row, caller, fields, answer); });
+    inside_->desk().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] {
+        inside_->carry_out(*row, caller, fields, answer);
+    });
 }
 
 void Panel::stop(const Caller& caller) {
     ask(caller, "stop", json::object(), [](const Answer&) {});
 }
 
-void Panel::subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready) {
-    inside_->desk().machine.post([this, channels = std::move(channels), ready = std::move(ready)] { ready(inside_->desk().channels.set_of(channels)); });
+void Panel::subscribe(std::vector<std::string> channels,
+                      std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready) {
+    inside_->desk().machine.post([this, channels = std::move(channels), ready = std::move(ready)] {
+        ready(inside_->desk().channels.set_of(channels));
+    });
 }
 
-void Panel::on_event(std::function<void(const Event&)> call) { inside_->desk().book.listen(std::move(call)); }
+void Panel::on_event(std::function<void(const Event&)> call) {
+    inside_->desk().book.listen(std::move(call));
+}
 
-const json& Panel::openapi() { return panel::openapi(); }
+const json& Panel::openapi() {
+    return panel::openapi();
+}
 
 }  // namespace motionrack::panel

@@ -1,5 +1,5 @@
-// Everything that a page or a program may ask of a machine that people operate: orders, queries, pictures, channels, events. As JSON,
-// without network; tables.hpp declares what there is.
+// Everything that a page or a program may ask of a machine that people operate: orders, queries, pictures, channels,
+// events. As JSON, without network; tables.hpp declares what there is.
 //
 //   any thread ──ask──► [ checked against the tables: name, fields, role, lease ] ──post──► Machine, motion thread
 //        ▲                                                                                        │
@@ -33,10 +33,11 @@ using Handler = std::function<Answer(const Caller& caller, const nlohmann::json&
 
 struct PanelSettings {
     std::string version = {}, boot = {};
-    std::string rack_text = {};                  ///< the rack file, for the query rack
-    operate::Pacer* pacer = nullptr;             ///< of the machine; nullptr: its clock cannot be changed
-    journal::Journal* journal = nullptr;         ///< orders and what the machine does are written to it, and orders are answered when they are safe
-    std::function<nlohmann::json()> link = {};   ///< status' "link"; called on the motion thread, never waits
+    std::string rack_text = {};       ///< the rack file, for the query rack
+    operate::Pacer* pacer = nullptr;  ///< of the machine; nullptr: its clock cannot be changed
+    journal::Journal* journal =
+        nullptr;  ///< orders and what the machine does are written to it, and orders are answered when they are safe
+    std::function<nlohmann::json()> link = {};  ///< status' "link"; called on the motion thread, never waits
     std::map<std::string, Handler, std::less<>> elsewhere = {};
     std::chrono::microseconds picture_every{5'000};  ///< of real time; 0: every slice
 };
@@ -66,17 +67,20 @@ class Panel {
     Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings);
     ~Panel();
 
-    // ---- any thread ----------------------------------------------------------------------------------------------------------------------
-    /// `name`: an order or a query of the tables. `reply` is called once, on any thread, when the order's journal entry is safe.
-    void ask(const Caller& caller, std::string_view name, const nlohmann::json& fields, std::function<void(Answer)> reply);
+    // ---- any thread
+    /// `name`: an order or a query of the tables. `reply` is called once, on any thread, when the order's journal entry
+    /// is safe.
+    void ask(const Caller& caller, std::string_view name, const nlohmann::json& fields,
+             std::function<void(Answer)> reply);
     /// STOP, from anyone; never waits.
     void stop(const Caller& caller);
-    /// The set of these channels; equal lists share one. `ready` is called once, on the motion thread. Errors: bad_input, unknown names or more
-    /// than most_channels.
+    /// The set of these channels; equal lists share one. `ready` is called once, on the motion thread. Errors:
+    /// bad_input, unknown names or more than most_channels.
     void subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready);
     /// The newest picture of the machine; never nullptr.
     std::shared_ptr<const Picture> picture() const { return std::atomic_load(&picture_); }
-    /// Everybody who is to hear of events; `call` is called on the motion thread and must not wait. Before Machine::run.
+    /// Everybody who is to hear of events; `call` is called on the motion thread and must not wait. Before
+    /// Machine::run.
     void on_event(std::function<void(const Event&)> call);
 
     /// What HTTP can ask, from the tables.

@@ -1,4 +1,5 @@
-// What the motion thread shows: pictures of the machine and values of channels. Made between two runs of the kernel, shared, never changed.
+// What the motion thread shows: pictures of the machine and values of channels. Made between two runs of the kernel,
+// shared, never changed.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace motionrack::panel {
 class Picture {
   public:
     /// `write` makes the JSON text; it must not look at anything that changes.
-    Picture(operate::Status status, std::function<std::string(const operate::Status&)> write) : status_(std::move(status)), write_(std::move(write)) {}
+    Picture(operate::Status status, std::function<std::string(const operate::Status&)> write)
+        : status_(std::move(status)), write_(std::move(write)) {}
 
     std::int64_t sequence() const { return status_.sequence; }
     Instant at() const { return status_.at; }

@@ -1,10 +1,9 @@
 // The dry run: the reader and the planner of the machine, with nothing behind them.
-#include <motionrack/panel/program_plan.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/path.hpp>
+#include <motionrack/panel/program_plan.hpp>
 
 namespace motionrack::panel {
 
@@ -18,12 +17,16 @@ constexpr double radians_a_chord = 0.15;
 void add_move(Polyline& line, const control::PlannedMove& planned) {
     const bool feed = planned.move.kind != control::MoveKind::traverse;
     const control::Geometry path = control::geometry_of(planned.move, planned.start);
-    const int chords = path.shape == control::PathShape::arc ? std::clamp(static_cast<int>(std::fabs(path.sweep) / radians_a_chord) + 1, 1, 1000) : 1;
-    for (int i = 1; i <= chords; ++i) line.add({control::position_at(path, path.length * i / chords), planned.move.line, feed});
+    const int chords = path.shape == control::PathShape::arc
+                           ? std::clamp(static_cast<int>(std::fabs(path.sweep) / radians_a_chord) + 1, 1, 1000)
+                           : 1;
+    for (int i = 1; i <= chords; ++i)
+        line.add({control::position_at(path, path.length * i / chords), planned.move.line, feed});
 }
 
 std::size_t axis_of(char letter) {
-    return static_cast<std::size_t>(std::find(control::axis_letters.begin(), control::axis_letters.end(), letter) - control::axis_letters.begin());
+    return static_cast<std::size_t>(std::find(control::axis_letters.begin(), control::axis_letters.end(), letter) -
+                                    control::axis_letters.begin());
 }
 
 /// Plans moves and sums them up.
@@ -51,7 +54,8 @@ class Sums {
         control::PlannedMove planned;
         while (planner_.pull(planned)) {
             const auto line = static_cast<std::size_t>(std::max(0, planned.move.line));
-            if (plan_.seconds_before.size() <= line) plan_.seconds_before.resize(line + 1, static_cast<float>(sum_.seconds));
+            if (plan_.seconds_before.size() <= line)
+                plan_.seconds_before.resize(line + 1, static_cast<float>(sum_.seconds));
             sum_.add(planned);
             if (planned.move.kind != control::MoveKind::dwell) add_move(line_, planned);
         }
@@ -70,7 +74,8 @@ double ProgramPlan::after(std::int32_t line) const {
     return seconds - static_cast<double>(seconds_before[at]);
 }
 
-ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings, double kept_back) {
+ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings,
+                         double kept_back) {
     ProgramPlan plan;
     plan.name = name;
     plan.check = control::gcode::check_program(text, settings, most_problems, name);
@@ -97,9 +102,18 @@ json place_json(const control::Point& place, const std::string& letters) {
 json to_json(const ProgramPlan& plan, const std::string& letters) {
     json problems = json::array();
     for (const auto& problem : plan.check.problems)
-        problems.push_back({{"line", problem.place.line}, {"column", problem.place.column}, {"message", problem.message}, {"word", problem.word}});
-    json out = {{"name", plan.name}, {"ok", plan.check.problems.empty()}, {"problems", std::move(problems)}, {"more_problems", plan.check.more_problems},
-                {"lines", plan.check.lines}, {"moves", plan.check.moves}, {"dwells", plan.check.dwells}, {"axes", letters}};
+        problems.push_back({{"line", problem.place.line},
+                            {"column", problem.place.column},
+                            {"message", problem.message},
+                            {"word", problem.word}});
+    json out = {{"name", plan.name},
+                {"ok", plan.check.problems.empty()},
+                {"problems", std::move(problems)},
+                {"more_problems", plan.check.more_problems},
+                {"lines", plan.check.lines},
+                {"moves", plan.check.moves},
+                {"dwells", plan.check.dwells},
+                {"axes", letters}};
     if (!plan.check.problems.empty()) return out;
     for (const char letter : letters) {
         out["least"][std::string(1, letter)] = plan.check.least[axis_of(letter)];

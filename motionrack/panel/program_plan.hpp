@@ -13,9 +13,9 @@ namespace motionrack::panel {
 struct ProgramPlan {
     std::string name;
     control::gcode::Check check;
-    std::vector<PathPoint> path;       ///< thinned
-    std::size_t thinned = 1;           ///< of how many places one was kept
-    std::vector<float> seconds_before; ///< of each line, from the program's begin; as planned at 100 %
+    std::vector<PathPoint> path;        ///< thinned
+    std::size_t thinned = 1;            ///< of how many places one was kept
+    std::vector<float> seconds_before;  ///< of each line, from the program's begin; as planned at 100 %
     double seconds = 0, path_mm = 0;
 
     /// Seconds that are left when `line` begins.
@@ -23,7 +23,8 @@ struct ProgramPlan {
 };
 
 /// Reads a program that begins as `settings` say and plans it. `kept_back`: see control::planner_for. Any thread.
-ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings, double kept_back);
+ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings,
+                         double kept_back);
 
 /// `letters`: of the machine's axes.
 nlohmann::json to_json(const ProgramPlan& plan, const std::string& letters);

@@ -15,7 +15,9 @@ namespace {
 
 Result<json> channels_of(Desk& desk) {
     json list = json::array();
-    for (const auto& [name, channel] : desk.channels.all()) list.push_back({{"name", name}, {"unit", channel.unit}, {"text", channel.text}, {"looks", name_of(channel.looks)}});
+    for (const auto& [name, channel] : desk.channels.all())
+        list.push_back(
+            {{"name", name}, {"unit", channel.unit}, {"text", channel.text}, {"looks", name_of(channel.looks)}});
     return json{{"channels", std::move(list)}};
 }
 
@@ -26,12 +28,14 @@ Result<json> rack_of(Desk& desk) {
 }
 
 Result<json> card_of(Desk& desk, const json& fields) {
-    MOTIONRACK_TRY(rack::Card * card, rack::card_named(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
+    MOTIONRACK_TRY(rack::Card * card,
+                   rack::card_named(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
     return card_now(desk.machine, *card);
 }
 
 /// Planned and driven, as JSON.
-json path_json(const ProgramPlan* plan, const std::vector<DrivenPath::Driven>& driven, const std::string& letters, std::int64_t number) {
+json path_json(const ProgramPlan* plan, const std::vector<DrivenPath::Driven>& driven, const std::string& letters,
+               std::int64_t number) {
     json out = plan != nullptr ? to_json(*plan, letters) : json::object();
     out["number"] = number;
     out["axes"] = letters;
@@ -56,17 +60,18 @@ void write_path(Desk& desk, const json& fields, Ready ready) {
     for (const DrivenPath::Driven& point : desk.driven.points())
         if (point.at > since) driven.push_back(point);
     const auto plan = desk.programs == static_cast<std::int64_t>(number_of(fields, "have", 0)) ? nullptr : desk.plan;
-    desk.aside([plan, driven = std::move(driven), letters = desk.letters, number = desk.plan ? desk.programs : 0]() -> Result<json> {
-        return path_json(plan.get(), driven, letters, number);
-    }, std::move(ready));
+    desk.aside([plan, driven = std::move(driven), letters = desk.letters, number = desk.plan ? desk.programs : 0]()
+                   -> Result<json> { return path_json(plan.get(), driven, letters, number); },
+               std::move(ready));
 }
 
 /// Once the worker is through with what came before: the plan of a program that has just begun.
 void path_of(Desk& desk, const json& fields, Ready ready) {
-    desk.aside([]() -> Result<json> { return json(); }, [&desk, fields, ready = std::move(ready)](Result<json> through) {
-        if (!through) return ready(std::move(through));
-        write_path(desk, fields, ready);
-    });
+    desk.aside([]() -> Result<json> { return json(); },
+               [&desk, fields, ready = std::move(ready)](Result<json> through) {
+                   if (!through) return ready(std::move(through));
+                   write_path(desk, fields, ready);
+               });
 }
 
 Result<json> events_of(Desk& desk, const json& fields) {
@@ -76,21 +81,30 @@ Result<json> events_of(Desk& desk, const json& fields) {
     std::vector<const Event*> found;
     for (const Event& event : desk.book.events())
         if (event.number > since) found.push_back(&event);
-    for (std::size_t i = found.size() - std::min(found.size(), limit); i < found.size(); ++i) list.push_back(to_json(*found[i]));
+    for (std::size_t i = found.size() - std::min(found.size(), limit); i < found.size(); ++i)
+        list.push_back(to_json(*found[i]));
     return json{{"events", std::move(list)}};
 }
 
 void journal_of(Desk& desk, const json& fields, Ready ready) {
     if (desk.settings.journal == nullptr) return ready(fail(Trouble::refused, "No journal is kept."));
-    journal::Question question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""), static_cast<int>(number_of(fields, "limit", 100))};
-    desk.aside([book = desk.settings.journal, question]() -> Result<json> {
-        MOTIONRACK_TRY(const std::vector<journal::Entry> entries, book->read(question));
-        json list = json::array();
-        for (const journal::Entry& entry : entries)
-            list.push_back({{"number", entry.number}, {"run", entry.run}, {"utc_ms", entry.utc_ms}, {"at", to_seconds(entry.at)}, {"kind", entry.kind}, {"text", entry.text},
-                            {"data", json::parse(entry.data.empty() ? "null" : entry.data, nullptr, false)}});
-        return json{{"journal", std::move(list)}};
-    }, std::move(ready));
+    journal::Question question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""),
+                               static_cast<int>(number_of(fields, "limit", 100))};
+    desk.aside(
+        [book = desk.settings.journal, question]() -> Result<json> {
+            MOTIONRACK_TRY(const std::vector<journal::Entry> entries, book->read(question));
+            json list = json::array();
+            for (const journal::Entry& entry : entries)
+                list.push_back({{"number", entry.number},
+                                {"run", entry.run},
+                                {"utc_ms", entry.utc_ms},
+                                {"at", to_seconds(entry.at)},
+                                {"kind", entry.kind},
+                                {"text", entry.text},
+                                {"data", json::parse(entry.data.empty() ? "null" : entry.data, nullptr, false)}});
+            return json{{"journal", std::move(list)}};
+        },
+        std::move(ready));
 }
 
 Result<json> control_of(Desk& desk) {
@@ -105,30 +119,42 @@ Result<json> homing_of(Desk& desk) {
 }
 
 constexpr std::array looking = {
-    Doer{"status", [](Desk& desk, const Caller&, const json&) -> Result<json> {
-        const StatusWriter writer(desk.machine);
-        return json{{"status", json::parse(writer.writer(desk)(desk.machine.status()))}};
-    }},
+    Doer{"status",
+         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+             const StatusWriter writer(desk.machine);
+             return json{{"status", json::parse(writer.writer(desk)(desk.machine.status()))}};
+         }},
     Doer{"channels", [](Desk& desk, const Caller&, const json&) { return channels_of(desk); }},
     Doer{"rack", [](Desk& desk, const Caller&, const json&) { return rack_of(desk); }},
     Doer{"card", [](Desk& desk, const Caller&, const json& fields) { return card_of(desk, fields); }},
-    Doer{"slopes", [](Desk& desk, const Caller&, const json& fields) { return slopes_now(desk.machine.rack(), fields.at("name").get<std::string>()); }},
+    Doer{"slopes",
+         [](Desk& desk, const Caller&, const json& fields) {
+             return slopes_now(desk.machine.rack(), fields.at("name").get<std::string>());
+         }},
     Doer{"frames", [](Desk& desk, const Caller&, const json&) { return frames_now(desk.machine); }},
-    Doer{"workpiece", [](Desk& desk, const Caller&, const json& fields) {
-        return workpiece_now(desk.machine, fields.at("scanner").get<std::string>(), static_cast<std::size_t>(number_of(fields, "points", 5000)));
-    }},
-    Doer{"path", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { path_of(desk, fields, std::move(ready)); }},
+    Doer{"workpiece",
+         [](Desk& desk, const Caller&, const json& fields) {
+             return workpiece_now(desk.machine, fields.at("scanner").get<std::string>(),
+                                  static_cast<std::size_t>(number_of(fields, "points", 5000)));
+         }},
+    Doer{"path", nullptr,
+         [](Desk& desk, const Caller&, const json& fields, Ready ready) { path_of(desk, fields, std::move(ready)); }},
     Doer{"events", [](Desk& desk, const Caller&, const json& fields) { return events_of(desk, fields); }},
-    Doer{"journal", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { journal_of(desk, fields, std::move(ready)); }},
-    Doer{"program", [](Desk& desk, const Caller&, const json&) -> Result<json> {
-        return json{{"name", desk.machine.status().program}, {"text", desk.program}};
-    }},
+    Doer{
+        "journal", nullptr,
+        [](Desk& desk, const Caller&, const json& fields, Ready ready) { journal_of(desk, fields, std::move(ready)); }},
+    Doer{"program",
+         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+             return json{{"name", desk.machine.status().program}, {"text", desk.program}};
+         }},
     Doer{"homing", [](Desk& desk, const Caller&, const json&) { return homing_of(desk); }},
     Doer{"control", [](Desk& desk, const Caller&, const json&) { return control_of(desk); }},
 };
 
 }  // namespace
 
-std::span<const Doer> looking_doers() { return looking; }
+std::span<const Doer> looking_doers() {
+    return looking;
+}
 
 }  // namespace motionrack::panel

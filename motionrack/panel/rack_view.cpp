@@ -1,10 +1,9 @@
 // Parts, wires and work pieces.
-#include <motionrack/panel/rack_view.hpp>
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <motionrack/panel/card_view.hpp>
+#include <motionrack/panel/rack_view.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -17,9 +16,18 @@ namespace {
 json axes_of(const rack::RackConfig& config) {
     json out = json::array();
     for (const rack::RackAxis& axis : config.axes)
-        out.push_back({{"letter", std::string(1, axis.letter)}, {"unit", axis.unit()}, {"card", axis.card}, {"channel", axis.channel}, {"min", axis.min_position},
-                       {"max", axis.max_position}, {"max_speed", axis.max_speed}, {"max_accel", axis.max_accel}, {"pulses_per_unit", axis.pulses_per_unit()},
-                       {"counts_per_unit", axis.counts_per_unit()}, {"servo", axis.servo.has_value()}, {"can_home", config.can_home(axis)}});
+        out.push_back({{"letter", std::string(1, axis.letter)},
+                       {"unit", axis.unit()},
+                       {"card", axis.card},
+                       {"channel", axis.channel},
+                       {"min", axis.min_position},
+                       {"max", axis.max_position},
+                       {"max_speed", axis.max_speed},
+                       {"max_accel", axis.max_accel},
+                       {"pulses_per_unit", axis.pulses_per_unit()},
+                       {"counts_per_unit", axis.counts_per_unit()},
+                       {"servo", axis.servo.has_value()},
+                       {"can_home", config.can_home(axis)}});
     return out;
 }
 
@@ -34,19 +42,33 @@ json names_of(const Parts& parts) {
 json parts_of(const rack::RackConfig& config) {
     json out = json::array();
     for (const rack::RackStage& stage : config.stages)
-        out.push_back({{"name", stage.name}, {"kind", "stage"}, {"card", stage.card}, {"output", stage.output}, {"input", stage.input}, {"servo", stage.servo.has_value()},
-                       {"min", stage.end_minus_mm}, {"max", stage.end_plus_mm}});
+        out.push_back({{"name", stage.name},
+                       {"kind", "stage"},
+                       {"card", stage.card},
+                       {"output", stage.output},
+                       {"input", stage.input},
+                       {"servo", stage.servo.has_value()},
+                       {"min", stage.end_minus_mm},
+                       {"max", stage.end_plus_mm}});
     for (const rack::RackTrack& track : config.tracks)
-        out.push_back({{"name", track.name}, {"kind", track.rotary ? "table" : "belt"}, {"unit", track.unit()}, {"card", track.card ? json(*track.card) : json()}, {"speed", track.speed}});
+        out.push_back({{"name", track.name},
+                       {"kind", track.rotary ? "table" : "belt"},
+                       {"unit", track.unit()},
+                       {"card", track.card ? json(*track.card) : json()},
+                       {"speed", track.speed}});
     for (const rack::RackScanner& scanner : config.scanners)
-        out.push_back({{"name", scanner.name}, {"kind", "scanner"}, {"card", scanner.card}, {"track", scanner.track ? json(*scanner.track) : json()},
+        out.push_back({{"name", scanner.name},
+                       {"kind", "scanner"},
+                       {"card", scanner.card},
+                       {"track", scanner.track ? json(*scanner.track) : json()},
                        {"bits_per_mm", scanner.bits_per_mm}});
     return out;
 }
 
 json faults_of(rack::Rack& rack) {
     json out = json::array();
-    for (const rack::FaultTarget& target : rack::fault_targets(rack)) out.push_back({{"target", target.name}, {"faults", target.faults}});
+    for (const rack::FaultTarget& target : rack::fault_targets(rack))
+        out.push_back({{"target", target.name}, {"faults", target.faults}});
     return out;
 }
 
@@ -57,10 +79,14 @@ json rack_facts(operate::Machine& machine) {
     const rack::RackConfig& config = rack.config();
     json cards = json::array(), joined = json::array(), wires = json::array();
     for (const auto& card : rack.cards()) cards.push_back(card_facts(rack, *card));
-    for (const rack::RackWire& wire : config.wires) joined.push_back({{"from", config.end_name(wire.from)}, {"to", config.end_name(wire.to)}});
+    for (const rack::RackWire& wire : config.wires)
+        joined.push_back({{"from", config.end_name(wire.from)}, {"to", config.end_name(wire.to)}});
     for (const rack::WireDesk::Named& wire : machine.wires().names())
         wires.push_back({{"name", wire.name}, {"volts", wire.volts}, {"bits", wire.bits}, {"drivable", wire.drivable}});
-    json out = {{"name", config.name}, {"stages", names_of(config.stages)}, {"tracks", names_of(config.tracks)}, {"scanners", names_of(config.scanners)}};
+    json out = {{"name", config.name},
+                {"stages", names_of(config.stages)},
+                {"tracks", names_of(config.tracks)},
+                {"scanners", names_of(config.scanners)}};
     out["parts"] = parts_of(config);
     out["axes"] = axes_of(config);
     out["cards"] = std::move(cards);
@@ -74,8 +100,10 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
     const rack::RunningScanner* scanner = machine.rack().scanner(name);
     if (scanner == nullptr) {
         std::string known;
-        for (const rack::RunningScanner& one : machine.rack().scanners()) known += (known.empty() ? "" : ", ") + one.config.name;
-        return fail(Trouble::bad_input, fmt::format("There is no scan head {}; the rack has: {}.", rack::in_quotes(name), known.empty() ? "none" : known));
+        for (const rack::RunningScanner& one : machine.rack().scanners())
+            known += (known.empty() ? "" : ", ") + one.config.name;
+        return fail(Trouble::bad_input, fmt::format("There is no scan head {}; the rack has: {}.",
+                                                    rack::in_quotes(name), known.empty() ? "none" : known));
     }
     const parts::MarkingStation& station = scanner->station();
     const std::span<const parts::MarkedPoint> points = station.workpiece().points();
@@ -89,12 +117,27 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
     }
     const rack::RackScanner& config = scanner->config;
     const double half = 524'288 / (config.lens ? config.lens->bits_per_mm : config.bits_per_mm);
-    json out = {{"scanner", name}, {"unit", "mm"}, {"at", to_seconds(machine.now())}, {"marks", std::move(strokes)}, {"points", points.size()}, {"shown_every", step},
-                {"lost_points", station.workpiece().lost_points()}, {"marked_mm", station.workpiece().length_mm()}, {"energy_j", station.workpiece().energy_j()},
-                {"beam", {station.spot().x, station.spot().y}}, {"laser", station.gate().on()}, {"field", {{"least", {-half, -half}}, {"greatest", {half, half}}}}};
-    if (const auto piece = station.workpiece().collecting()) out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
-    if (const rack::RunningTrack* track = scanner->config.track ? machine.rack().track(*scanner->config.track) : nullptr)
-        out["part"] = {{"name", track->config.name}, {"unit", track->config.unit()}, {"position", track->track().travel(to_seconds(machine.now()))}, {"speed", track->config.speed}, {"direction_deg", track->config.direction_deg}};
+    json out = {{"scanner", name},
+                {"unit", "mm"},
+                {"at", to_seconds(machine.now())},
+                {"marks", std::move(strokes)},
+                {"points", points.size()},
+                {"shown_every", step},
+                {"lost_points", station.workpiece().lost_points()},
+                {"marked_mm", station.workpiece().length_mm()},
+                {"energy_j", station.workpiece().energy_j()},
+                {"beam", {station.spot().x, station.spot().y}},
+                {"laser", station.gate().on()},
+                {"field", {{"least", {-half, -half}}, {"greatest", {half, half}}}}};
+    if (const auto piece = station.workpiece().collecting())
+        out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
+    if (const rack::RunningTrack* track =
+            scanner->config.track ? machine.rack().track(*scanner->config.track) : nullptr)
+        out["part"] = {{"name", track->config.name},
+                       {"unit", track->config.unit()},
+                       {"position", track->track().travel(to_seconds(machine.now()))},
+                       {"speed", track->config.speed},
+                       {"direction_deg", track->config.direction_deg}};
     return out;
 }
 

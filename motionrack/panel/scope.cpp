@@ -1,9 +1,8 @@
 // Gathering, triggering, and cutting a capture out.
-#include <motionrack/panel/scope.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/panel/scope.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::panel {
@@ -17,10 +16,14 @@ constexpr Duration slack = milliseconds(20);  // longer than any slice
 
 std::string_view name_of(ScopeState state) {
     switch (state) {
-        case ScopeState::idle: return "idle";
-        case ScopeState::armed: return "armed";
-        case ScopeState::triggered: return "triggered";
-        case ScopeState::done: return "done";
+        case ScopeState::idle:
+            return "idle";
+        case ScopeState::armed:
+            return "armed";
+        case ScopeState::triggered:
+            return "triggered";
+        case ScopeState::done:
+            return "done";
     }
     return "";
 }
@@ -41,19 +44,25 @@ class Scope::Sink final : public rack::WaveSink {
 
 Scope::Scope(operate::Machine& machine, ChannelBook& channels) : machine_(machine), book_(channels) {}
 
-Scope::~Scope() { detach(); }
+Scope::~Scope() {
+    detach();
+}
 
 Result<void> Scope::arm(const ScopeSettings& settings) {
     if (settings.channels.empty() || settings.channels.size() > most_channels)
-        return fail(Trouble::bad_input, fmt::format("{} channels cannot be looked at; 1 to {} can.", settings.channels.size(), most_channels));
+        return fail(Trouble::bad_input, fmt::format("{} channels cannot be looked at; 1 to {} can.",
+                                                    settings.channels.size(), most_channels));
     if (settings.length <= Duration{0} || settings.pre < Duration{0} || settings.pre > settings.length)
-        return fail(Trouble::bad_input, "The part before the trigger must lie within the length, which must be above 0.");
+        return fail(Trouble::bad_input,
+                    "The part before the trigger must lie within the length, which must be above 0.");
     std::vector<std::string> wires;
     std::vector<Number> numbers;
     for (std::size_t i = 0; i < settings.channels.size(); ++i) {
         const Channel* channel = book_.find(settings.channels[i]);
         if (channel == nullptr)
-            return fail(Trouble::bad_input, fmt::format("There is no channel {}; the query channels lists those that there are.", rack::in_quotes(settings.channels[i])));
+            return fail(Trouble::bad_input,
+                        fmt::format("There is no channel {}; the query channels lists those that there are.",
+                                    rack::in_quotes(settings.channels[i])));
         if (channel->looks == ChannelLooks::edges)
             wires.push_back(channel->name);
         else
@@ -61,10 +70,14 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
     }
     const auto trigger = std::find(settings.channels.begin(), settings.channels.end(), settings.trigger);
     if (!settings.trigger.empty() && trigger == settings.channels.end())
-        return fail(Trouble::bad_input, fmt::format("The trigger {} is none of the channels.", rack::in_quotes(settings.trigger)));
-    if (!numbers.empty() && (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(most_samples)))
-        return fail(Trouble::refused, fmt::format("{:.6g} s at {:.6g} us are more than {} samples; choose a shorter length or a longer period. Nothing was armed.",
-                                                  to_seconds(settings.length), to_seconds(settings.period) * 1e6, most_samples));
+        return fail(Trouble::bad_input,
+                    fmt::format("The trigger {} is none of the channels.", rack::in_quotes(settings.trigger)));
+    if (!numbers.empty() &&
+        (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(most_samples)))
+        return fail(Trouble::refused,
+                    fmt::format("{:.6g} s at {:.6g} us are more than {} samples; choose a shorter length or a longer "
+                                "period. Nothing was armed.",
+                                to_seconds(settings.length), to_seconds(settings.period) * 1e6, most_samples));
     detach();
     settings_ = settings;
     numbers_ = std::move(numbers);
@@ -86,7 +99,9 @@ Result<void> Scope::listen_to_wires(const std::vector<std::string>& wires) {
         for (const rack::WaveSignal& signal : signals) {
             const std::string name = signal.scope == "rack" ? signal.name : signal.scope + "." + signal.name;
             const auto found = std::find(settings_.channels.begin(), settings_.channels.end(), name);
-            places_.push_back(found == settings_.channels.end() ? nowhere : static_cast<std::size_t>(found - settings_.channels.begin()));
+            places_.push_back(found == settings_.channels.end()
+                                  ? nowhere
+                                  : static_cast<std::size_t>(found - settings_.channels.begin()));
         }
         return std::make_unique<Sink>(*this);
     };
@@ -108,7 +123,8 @@ void Scope::begin_numbers() {
 /// Within the kernel's run.
 void Scope::sample(Instant) {
     double* row = &samples_[static_cast<std::size_t>(written_ % rows_) * numbers_.size()];
-    for (const Number& number : numbers_) *row++ = number.channel->looks == ChannelLooks::anytime ? number.channel->read() : number.slow;
+    for (const Number& number : numbers_)
+        *row++ = number.channel->looks == ChannelLooks::anytime ? number.channel->read() : number.slow;
     ++written_;
 }
 
@@ -135,7 +151,8 @@ void Scope::restart(Instant now) {
 void Scope::look_at(Instant at, double before, double value) {
     last_value_ = value;
     const bool above = value >= settings_.level, was = before >= settings_.level;
-    const bool fits = above != was && (settings_.edge == TriggerEdge::either || (settings_.edge == TriggerEdge::rise) == above);
+    const bool fits =
+        above != was && (settings_.edge == TriggerEdge::either || (settings_.edge == TriggerEdge::rise) == above);
     if (!fits || at - armed_at_ < settings_.pre) return;
     state_ = ScopeState::triggered;
     triggered_at_ = at;
@@ -143,7 +160,8 @@ void Scope::look_at(Instant at, double before, double value) {
 
 /// A change of a wire.
 void Scope::see(Instant at, std::size_t channel, double value) {
-    if (channel == trigger_place_ && state_ == ScopeState::armed) look_at(at, last_value_.value_or(base_[channel]), value);
+    if (channel == trigger_place_ && state_ == ScopeState::armed)
+        look_at(at, last_value_.value_or(base_[channel]), value);
     if (edges_.size() >= most_edges) {
         if (state_ == ScopeState::triggered) {
             full_ = true;
@@ -157,7 +175,8 @@ void Scope::see(Instant at, std::size_t channel, double value) {
 
 /// Among the samples since the last slice.
 void Scope::look_for_trigger() {
-    const auto column = std::find_if(numbers_.begin(), numbers_.end(), [this](const Number& number) { return number.place == trigger_place_; });
+    const auto column = std::find_if(numbers_.begin(), numbers_.end(),
+                                     [this](const Number& number) { return number.place == trigger_place_; });
     for (; seen_ < written_ && state_ == ScopeState::armed && column != numbers_.end(); ++seen_) {
         if (seen_ < written_ - rows_) continue;
         const double value = sample_of(seen_, static_cast<std::size_t>(column - numbers_.begin()));
@@ -200,7 +219,8 @@ void Scope::finish() {
     capture->full = full_;
     for (std::size_t i = 0; i < settings_.channels.size(); ++i) {
         const Channel* channel = book_.find(settings_.channels[i]);
-        capture->traces.push_back({channel->name, channel->unit, channel->looks == ChannelLooks::edges, base_[i], {}, {}});
+        capture->traces.push_back(
+            {channel->name, channel->unit, channel->looks == ChannelLooks::edges, base_[i], {}, {}});
     }
     for (const Edge& edge : edges_) {
         if (edge.at > to) break;
@@ -212,7 +232,8 @@ void Scope::finish() {
     for (std::int64_t row = std::max<std::int64_t>(0, written_ - rows_); row < written_ && !numbers_.empty(); ++row) {
         if (sample_time(row) < from || sample_time(row) > to) continue;
         if (std::exchange(first, false)) capture->first_sample_s = to_seconds(sample_time(row) - triggered_at_);
-        for (std::size_t k = 0; k < numbers_.size(); ++k) capture->traces[numbers_[k].place].value.push_back(sample_of(row, k));
+        for (std::size_t k = 0; k < numbers_.size(); ++k)
+            capture->traces[numbers_[k].place].value.push_back(sample_of(row, k));
     }
     capture_ = std::move(capture);
     if (settings_.again) {
@@ -229,15 +250,17 @@ void Scope::finish() {
 nlohmann::json to_json(const Capture& capture) {
     nlohmann::json traces = nlohmann::json::array();
     for (const ScopeTrace& trace : capture.traces) {
-        nlohmann::json one = {{"name", trace.name}, {"unit", trace.unit}, {"edges", trace.edges}, {"values", trace.value}};
+        nlohmann::json one = {
+            {"name", trace.name}, {"unit", trace.unit}, {"edges", trace.edges}, {"values", trace.value}};
         if (trace.edges) {
             one["at"] = trace.at;
             one["before"] = trace.before;
         }
         traces.push_back(std::move(one));
     }
-    return {{"number", capture.number}, {"trigger_at", capture.trigger_s}, {"from", capture.from_s}, {"to", capture.to_s}, {"period", capture.period_s},
-            {"first_sample", capture.first_sample_s}, {"full", capture.full}, {"traces", std::move(traces)}};
+    return {{"number", capture.number}, {"trigger_at", capture.trigger_s}, {"from", capture.from_s},
+            {"to", capture.to_s},       {"period", capture.period_s},      {"first_sample", capture.first_sample_s},
+            {"full", capture.full},     {"traces", std::move(traces)}};
 }
 
 }  // namespace motionrack::panel

@@ -1,4 +1,5 @@
-// A scope in the rack: wires with every edge at its instant, numbers at equal distances of time, from before a trigger until after it.
+// A scope in the rack: wires with every edge at its instant, numbers at equal distances of time, from before a trigger
+// until after it.
 //
 //   wires ────► WaveRecorder ──slice──► edges   ─┐
 //   numbers ──► Probe, every period ──► samples ─┴─ trigger ──► Capture, shared, never changed
@@ -25,31 +26,31 @@ enum class ScopeState : std::uint8_t { idle, armed, triggered, done };
 std::string_view name_of(ScopeState state);
 
 struct ScopeSettings {
-    std::vector<std::string> channels;   ///< 1 .. most_channels
-    std::string trigger;                 ///< one of them; empty: at once
+    std::vector<std::string> channels;  ///< 1 .. most_channels
+    std::string trigger;                ///< one of them; empty: at once
     TriggerEdge edge = TriggerEdge::rise;
     double level = 0.5;
-    Duration period = microseconds(100); ///< of the numbers
-    Duration length = milliseconds(100); ///< of all that is kept
-    Duration pre = milliseconds(10);     ///< of it, before the trigger
-    bool again = false;                  ///< run: armed again after each capture
+    Duration period = microseconds(100);  ///< of the numbers
+    Duration length = milliseconds(100);  ///< of all that is kept
+    Duration pre = milliseconds(10);      ///< of it, before the trigger
+    bool again = false;                   ///< run: armed again after each capture
 };
 
 /// What a channel showed.
 struct ScopeTrace {
     std::string name, unit;
-    bool edges = false;                  ///< every change, else samples
-    double before = 0;                   ///< of edges: the level at the begin
-    std::vector<double> at, value;       ///< edges: s from the trigger
+    bool edges = false;             ///< every change, else samples
+    double before = 0;              ///< of edges: the level at the begin
+    std::vector<double> at, value;  ///< edges: s from the trigger
 };
 
 struct Capture {
-    std::int64_t number = 0;             ///< from 1
-    double trigger_s = 0;                ///< the rack's time
-    double from_s = 0, to_s = 0;         ///< from the trigger
+    std::int64_t number = 0;                  ///< from 1
+    double trigger_s = 0;                     ///< the rack's time
+    double from_s = 0, to_s = 0;              ///< from the trigger
     double first_sample_s = 0, period_s = 0;  ///< of the numbers, from the trigger
-    bool full = false;                   ///< there were more edges than fit; the latest are left out
-    std::vector<ScopeTrace> traces;      ///< in the order of the settings
+    bool full = false;                        ///< there were more edges than fit; the latest are left out
+    std::vector<ScopeTrace> traces;           ///< in the order of the settings
 };
 nlohmann::json to_json(const Capture& capture);
 
@@ -95,7 +96,9 @@ class Scope {
     void restart(Instant now);
     void detach();
     Instant sample_time(std::int64_t row) const { return first_sample_ + row * settings_.period; }
-    double sample_of(std::int64_t row, std::size_t column) const { return samples_[static_cast<std::size_t>(row % rows_) * numbers_.size() + column]; }
+    double sample_of(std::int64_t row, std::size_t column) const {
+        return samples_[static_cast<std::size_t>(row % rows_) * numbers_.size() + column];
+    }
 
     operate::Machine& machine_;
     ChannelBook& book_;
@@ -104,8 +107,8 @@ class Scope {
     std::unique_ptr<rack::WaveRecorder> recorder_;
     bool probing_ = false;
     // edges
-    std::vector<std::size_t> places_;   ///< of the recorder's signals in the settings' list; npos: not asked for
-    std::vector<double> base_;          ///< levels before the oldest edge that is kept
+    std::vector<std::size_t> places_;  ///< of the recorder's signals in the settings' list; npos: not asked for
+    std::vector<double> base_;         ///< levels before the oldest edge that is kept
     std::deque<Edge> edges_;
     bool full_ = false;
     // numbers, in a ring of rows

@@ -1,10 +1,9 @@
 // What the page shows always.
-#include <motionrack/panel/status_text.hpp>
-
-#include <motionrack/panel/desk.hpp>
 #include <algorithm>
 #include <cmath>
 #include <motionrack/operate/pacer.hpp>
+#include <motionrack/panel/desk.hpp>
+#include <motionrack/panel/status_text.hpp>
 #include <motionrack/rack/card_types.hpp>
 #include <utility>
 
@@ -15,7 +14,11 @@ using nlohmann::json;
 namespace {
 
 /// Ends of an axis; switches are low while they act.
-constexpr rack::Lamp axis_lamps[] = {{"hard_minus", "limit_minus", 0}, {"hard_plus", "limit_plus", 0}, {"home", "home", 0}, {"cam", "cam", 0}, {"index", "enc_z"}};
+constexpr rack::Lamp axis_lamps[] = {{"hard_minus", "limit_minus", 0},
+                                     {"hard_plus", "limit_plus", 0},
+                                     {"home", "home", 0},
+                                     {"cam", "cam", 0},
+                                     {"index", "enc_z"}};
 
 /// What the motion thread noted for one picture.
 struct Noted {
@@ -28,7 +31,9 @@ struct Noted {
 
 json clock_of(const operate::Pacer* pacer) {
     if (pacer == nullptr) return {{"mode", "free"}, {"factor", 1}, {"late_ms", 0}};
-    return {{"mode", operate::name_of(pacer->mode())}, {"factor", pacer->factor()}, {"late_ms", to_seconds(pacer->lateness().within(0.99)) * 1e3},
+    return {{"mode", operate::name_of(pacer->mode())},
+            {"factor", pacer->factor()},
+            {"late_ms", to_seconds(pacer->lateness().within(0.99)) * 1e3},
             {"lost_s", to_seconds(pacer->lost())}};
 }
 
@@ -77,13 +82,20 @@ StatusWriter::StatusWriter(operate::Machine& machine) {
     auto facts = std::make_shared<Facts>();
     const rack::RackConfig& config = machine.rack().config();
     for (const rack::RackAxis& axis : config.axes) {
-        Facts::Axis one{std::string(axis.unit()), config.can_home(axis), axis.min_position, axis.max_position, axis.max_speed, near_of(axis), {}};
+        Facts::Axis one{std::string(axis.unit()),
+                        config.can_home(axis),
+                        axis.min_position,
+                        axis.max_position,
+                        axis.max_speed,
+                        near_of(axis),
+                        {}};
         const auto add = [&](const rack::Lamp& lamp, const std::string& before) {
             std::string wire = before + std::string(lamp.pin);
             if (machine.wires().knows(wire)) one.leds.push_back({lamp.name, std::move(wire), lamp.lit});
         };
         for (const rack::Lamp& lamp : axis_lamps) add(lamp, std::string(1, axis.letter) + ".");
-        for (const rack::Lamp& lamp : rack::find_card_type(config.card(axis.card)->type)->lamps) add(lamp, axis.card + "." + axis.channel);
+        for (const rack::Lamp& lamp : rack::find_card_type(config.card(axis.card)->type)->lamps)
+            add(lamp, axis.card + "." + axis.channel);
         facts->axes.push_back(std::move(one));
     }
     facts_ = std::move(facts);
@@ -93,14 +105,16 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
     auto noted = std::make_shared<Noted>();
     for (const Facts::Axis& axis : facts_->axes) {
         auto& leds = noted->leds.emplace_back();
-        for (const Facts::Axis::Led& led : axis.leds) leds.emplace_back(led.name, desk.machine.wires().get(led.wire).value_or(1 - led.lit) == led.lit);
+        for (const Facts::Axis::Led& led : axis.leds)
+            leds.emplace_back(led.name, desk.machine.wires().get(led.wire).value_or(1 - led.lit) == led.lit);
     }
     noted->estop_pressed = desk.machine.wires().get("estop").value_or(1) == 0;
     noted->holder = desk.lease.holder();
     if (desk.settings.link) noted->link = desk.settings.link();
     noted->clock = clock_of(desk.settings.pacer);
     const operate::Status& now = desk.machine.status();
-    if (now.program_runs && desk.plan) noted->remaining_s = desk.plan->after(now.line) / std::max(0.01, now.feed_override);
+    if (now.program_runs && desk.plan)
+        noted->remaining_s = desk.plan->after(now.line) / std::max(0.01, now.feed_override);
     return [facts = facts_, noted](const operate::Status& status) {
         const bool stands = operate::stands(status.state);
         json axes = json::array();
@@ -114,25 +128,55 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
             }
             leds["in_position"] = stands && std::fabs(axis.commanded - axis.actual) <= fact.near;
             for (const auto& [name, on] : noted->leds[i]) leds[std::string(name)] = on;
-            axes.push_back({{"letter", std::string(1, axis.letter)}, {"unit", fact.unit}, {"trusted", axis.trusted}, {"enabled", axis.enabled}, {"can_home", fact.can_home},
-                            {"commanded", axis.commanded}, {"actual", axis.actual}, {"error", axis.commanded - axis.actual}, {"speed", axis.speed},
-                            {"pulses", axis.pulses}, {"counts", axis.counts}, {"min", fact.least}, {"max", fact.greatest}, {"max_speed", fact.max_speed},
+            axes.push_back({{"letter", std::string(1, axis.letter)},
+                            {"unit", fact.unit},
+                            {"trusted", axis.trusted},
+                            {"enabled", axis.enabled},
+                            {"can_home", fact.can_home},
+                            {"commanded", axis.commanded},
+                            {"actual", axis.actual},
+                            {"error", axis.commanded - axis.actual},
+                            {"speed", axis.speed},
+                            {"pulses", axis.pulses},
+                            {"counts", axis.counts},
+                            {"min", fact.least},
+                            {"max", fact.greatest},
+                            {"max_speed", fact.max_speed},
                             {"leds", std::move(leds)}});
         }
         json alarms = json::array();
         for (const operate::Alarm& alarm : status.alarms)
-            alarms.push_back({{"number", alarm.number}, {"at", to_seconds(alarm.at)}, {"text", alarm.text}, {"active", alarm.active}, {"acknowledged", alarm.acknowledged}, {"source", alarm.source}});
-        json out = {{"at", to_seconds(status.at)}, {"sequence", status.sequence}, {"state", operate::name_of(status.state)}, {"why", status.why}, {"simulation", true},
-                    {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
-                    {"axes", std::move(axes)},
-                    {"program", {{"name", status.program}, {"runs", status.program_runs}, {"line", status.line}, {"lines", status.lines}, {"single_step", status.single_step},
-                                 {"remaining_s", noted->remaining_s ? json(*noted->remaining_s) : json()}}},
-                    {"homing", {{"runs", status.state == operate::MachineState::homing}, {"phases", phases_of(status.homing)}}},
-                    {"overrides", {{"feed", status.feed_override}, {"rapid", status.rapid_override}}},
-                    {"alarms", std::move(alarms)}, {"link", noted->link}, {"clock", noted->clock}};
+            alarms.push_back({{"number", alarm.number},
+                              {"at", to_seconds(alarm.at)},
+                              {"text", alarm.text},
+                              {"active", alarm.active},
+                              {"acknowledged", alarm.acknowledged},
+                              {"source", alarm.source}});
+        json out = {
+            {"at", to_seconds(status.at)},
+            {"sequence", status.sequence},
+            {"state", operate::name_of(status.state)},
+            {"why", status.why},
+            {"simulation", true},
+            {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
+            {"axes", std::move(axes)},
+            {"program",
+             {{"name", status.program},
+              {"runs", status.program_runs},
+              {"line", status.line},
+              {"lines", status.lines},
+              {"single_step", status.single_step},
+              {"remaining_s", noted->remaining_s ? json(*noted->remaining_s) : json()}}},
+            {"homing", {{"runs", status.state == operate::MachineState::homing}, {"phases", phases_of(status.homing)}}},
+            {"overrides", {{"feed", status.feed_override}, {"rapid", status.rapid_override}}},
+            {"alarms", std::move(alarms)},
+            {"link", noted->link},
+            {"clock", noted->clock}};
         json& control = out["control"] = {{"holder", nullptr}};
         if (noted->holder)
-            control = {{"holder", noted->holder->user}, {"since", noted->holder->since}, {"holder_session", session_mark(noted->holder->session)}};
+            control = {{"holder", noted->holder->user},
+                       {"since", noted->holder->since},
+                       {"holder_session", session_mark(noted->holder->session)}};
         return text_of(out);
     };
 }

@@ -1,5 +1,5 @@
-// What can be asked: orders and queries, their fields, and who may. The one declaration: checking, OpenAPI, the reference page, HTTP routes
-// and WebSocket orders come from it.
+// What can be asked: orders and queries, their fields, and who may. The one declaration: checking, OpenAPI, the
+// reference page, HTTP routes and WebSocket orders come from it.
 #pragma once
 
 #include <cstdint>
@@ -36,12 +36,12 @@ struct FieldRow {
 struct AskRow {
     std::string_view name;
     authority::Role role = authority::Role::observe;
-    bool lease = false;      ///< whoever asks must hold the control lease
+    bool lease = false;  ///< whoever asks must hold the control lease
     std::span<const FieldRow> fields;
-    std::string_view text;   ///< one sentence
+    std::string_view text;        ///< one sentence
     std::string_view gives = {};  ///< members of the answer besides "done"
-    bool elsewhere = false;  ///< PanelSettings::elsewhere carries it out
-    bool passing = false;    ///< repeated many times a second: no event, no journal
+    bool elsewhere = false;       ///< PanelSettings::elsewhere carries it out
+    bool passing = false;         ///< repeated many times a second: no event, no journal
 };
 
 std::span<const AskRow> orders();
@@ -53,7 +53,8 @@ const AskRow* find_row(std::string_view name);
 Result<void> check_fields(const AskRow& row, const nlohmann::json& fields);
 
 /// Fields from a query's texts (HTTP): numbers and flags read as their fields say. Errors: bad_input.
-Result<nlohmann::json> fields_of_texts(const AskRow& row, const std::vector<std::pair<std::string, std::string>>& texts);
+Result<nlohmann::json> fields_of_texts(const AskRow& row,
+                                       const std::vector<std::pair<std::string, std::string>>& texts);
 
 /// The reference page (Markdown) and the OpenAPI description.
 std::string api_reference();

@@ -1,9 +1,8 @@
 // What a card's bus takes: its widths, its registers, its windows.
-#include <motionrack/rack/bus_access.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
@@ -12,16 +11,19 @@ Result<Card*> card_named(Rack& rack, std::string_view name) {
     if (Card* card = rack.card(name)) return card;
     std::string known;
     for (const auto& card : rack.cards()) known += (known.empty() ? "" : ", ") + card->name();
-    return fail(Trouble::bad_input, fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was done.",
-                                                in_quotes(name), known));
+    return fail(
+        Trouble::bad_input,
+        fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was done.", in_quotes(name), known));
 }
 
 Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::uint32_t address, bool writing) {
     MOTIONRACK_TRY(Card * card, card_named(rack, name));
     const std::span<const int> widths = card->bus_widths();
     if (widths.empty())
-        return fail(Trouble::refused, fmt::format("Card {} is an {}: it has no registers on a bus. Nothing was done; use its own commands.",
-                                                  card->name(), card->map().name));
+        return fail(
+            Trouble::refused,
+            fmt::format("Card {} is an {}: it has no registers on a bus. Nothing was done; use its own commands.",
+                        card->name(), card->map().name));
     if (std::find(widths.begin(), widths.end(), bits) == widths.end())
         return fail(Trouble::refused,
                     fmt::format("Card {} is a {}: its bus makes accesses of {} bits, not of {}. Nothing was done.",
@@ -37,11 +39,12 @@ Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::
         first = std::min(first, begin);
         last = std::max(last, end - bytes);
     }
-    return fail(Trouble::refused,
-                fmt::format("Card {} has nothing to {} with {} bits at offset 0x{:02x}; its registers are from 0x{:02x} to "
-                            "0x{:02x}{}. Nothing was done.",
-                            card->name(), writing ? "write" : "read", bits, address, first, last,
-                            bytes > 1 ? fmt::format(", {} bytes apart", bytes) : ""));
+    return fail(
+        Trouble::refused,
+        fmt::format("Card {} has nothing to {} with {} bits at offset 0x{:02x}; its registers are from 0x{:02x} to "
+                    "0x{:02x}{}. Nothing was done.",
+                    card->name(), writing ? "write" : "read", bits, address, first, last,
+                    bytes > 1 ? fmt::format(", {} bytes apart", bytes) : ""));
 }
 
 }  // namespace motionrack::rack

@@ -7,15 +7,15 @@
 #include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
-#include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/card_types.hpp>
+#include <motionrack/rack/grating.hpp>
 
 namespace motionrack::rack {
 namespace {
 
 using enum PinDirection;
 
-// ---- mcx314 -----------------------------------------------------------------------------------------------------
+// ---- mcx314
 
 constexpr std::array<PinType, 23> mcx314_channel_pins = {{
     {"pp", output, "pulse (one-pulse mode), or pulses in the + direction"},
@@ -83,8 +83,9 @@ constexpr std::array<Field, 7> mcx314_settings = {
     field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
                                      "the chip's clock; the model knows the documented one"),
     with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "how wide the host's bus is"), bus_widths),
-    field<&Mcx314Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
-                                          "time that one access of the host takes; two of them to a register on 8 bits"),
+    field<&Mcx314Settings::bus_access_ns>(
+        "bus_access_ns", 0, 100'000, "ns",
+        "time that one access of the host takes; two of them to a register on 8 bits"),
 };
 
 // One pulse at most every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
@@ -106,7 +107,7 @@ void* mcx314_of(RackCard& card) {
     return &card.mcx314;
 }
 
-// ---- databoard4002 ----------------------------------------------------------------------------------------------
+// ---- databoard4002
 
 constexpr std::array<PinType, 10> databoard4002_channel_pins = {{
     {"o1", input, "encoder track A, or down pulses"},
@@ -146,22 +147,28 @@ constexpr std::array<std::string_view, 4> mcx314_stops = {"in0", "in1", "in2", "
 constexpr std::array<std::string_view, 1> databoard4002_references = {"ref"}, databoard4002_zeros = {"zero"};
 
 constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature x4", "quadrature x2", "quadrature x1",
-                                                                      "up/down"};
+                                                                     "up/down"};
 
 constexpr std::array<Field, 9> databoard4002_settings = {
-    field<&Databoard4002Settings::select>("select", 0, 31, "", "its number on the bus, written to port 1 before it answers"),
-    with_choices(field<&Databoard4002Settings::counting>("counting", 0, 0, "", "how the straps let O1 and O2 be counted"),
-                 databoard4002_countings),
-    field<&Databoard4002Settings::first_pair>("first_pair", 0, 3, "",
-                                              "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
-    field<&Databoard4002Settings::single_ended>("single_ended", 0, 0, "", "encoder lines up to 50 kHz instead of 100 kHz"),
+    field<&Databoard4002Settings::select>("select", 0, 31, "",
+                                          "its number on the bus, written to port 1 before it answers"),
+    with_choices(
+        field<&Databoard4002Settings::counting>("counting", 0, 0, "", "how the straps let O1 and O2 be counted"),
+        databoard4002_countings),
+    field<&Databoard4002Settings::first_pair>(
+        "first_pair", 0, 3, "", "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
+    field<&Databoard4002Settings::single_ended>("single_ended", 0, 0, "",
+                                                "encoder lines up to 50 kHz instead of 100 kHz"),
     field<&Databoard4002Settings::zeroing>("zeroing", 0, 0, "",
                                            "enabling the zero or reference event arms the zeroing of the counter"),
-    field<&Databoard4002Settings::version>("version", 0, 255, "", "version of the card's program, as the command V tells it"),
-    field<&Databoard4002Settings::pass_ticks>("pass_ticks", 1, 4'000, "", "ticks of 2.5 us in a pass of the card's program"),
+    field<&Databoard4002Settings::version>("version", 0, 255, "",
+                                           "version of the card's program, as the command V tells it"),
+    field<&Databoard4002Settings::pass_ticks>("pass_ticks", 1, 4'000, "",
+                                              "ticks of 2.5 us in a pass of the card's program"),
     field<&Databoard4002Settings::byte_time_ns>("byte_time_ns", 2'500, 100'000'000, "ns",
                                                 "time that the card's program takes for an access"),
-    field<&Databoard4002Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
+    field<&Databoard4002Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                                 "time that one access of the host takes"),
 };
 
 // The highest rate that the card's program can set: rate 16383.
@@ -187,14 +194,19 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
     const Databoard4002Settings& own = card.databoard4002;
     for (const RackCard& other : before)
         if (other.type == card.type && other.databoard4002.select == own.select)
-            return CardFlaw{"select", fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
-                                                  "`select` (0 .. 31).", other.name, card.name, own.select)};
-    const std::int64_t most = own.counting == Databoard4002Counting::quadrature_2 ? 1
-                              : own.counting == Databoard4002Counting::quadrature_1 ? 3 : 0;
+            return CardFlaw{
+                "select",
+                fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
+                            "`select` (0 .. 31).",
+                            other.name, card.name, own.select)};
+    const std::int64_t most = own.counting == Databoard4002Counting::quadrature_2   ? 1
+                              : own.counting == Databoard4002Counting::quadrature_1 ? 3
+                                                                                    : 0;
     if (own.first_pair <= most) return std::nullopt;
-    return CardFlaw{"first_pair", fmt::format("Card {} has the first strap pair {}, but counted as \"{}\" it is {}.", card.name, own.first_pair,
-                                              databoard4002_countings[static_cast<std::size_t>(own.counting)],
-                                              most == 0 ? "0" : fmt::format("0 .. {}", most))};
+    return CardFlaw{"first_pair",
+                    fmt::format("Card {} has the first strap pair {}, but counted as \"{}\" it is {}.", card.name,
+                                own.first_pair, databoard4002_countings[static_cast<std::size_t>(own.counting)],
+                                most == 0 ? "0" : fmt::format("0 .. {}", most))};
 }
 
 /// The card's own list of pins; `volts`: of those whose names begin with "vout".
@@ -207,17 +219,20 @@ constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
     return out;
 }
 
-// ---- ioflex02 ---------------------------------------------------------------------------------------------------
+// ---- ioflex02
 
 constexpr auto ioflex02_pins = own_pins<std::size(ioflex02::map::pins)>(ioflex02::map::pins);
 
 constexpr std::array<Field, 5> ioflex02_settings = {
-    field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "", "where it answers on the host's bus: a multiple of 256"),
+    field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "",
+                                           "where it answers on the host's bus: a multiple of 256"),
     field<&Ioflex02Settings::serial>("serial", 0, 65'535, "", "its serial number"),
-    field<&Ioflex02Settings::configuration_ms>("configuration_ms", 0, 60'000, "ms",
-                                               "time from the last byte of a configuration image to the running project"),
-    field<&Ioflex02Settings::loaded>("loaded", 0, 0, "", "the project \"position\" runs from the start; else the host loads it"),
-    field<&Ioflex02Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
+    field<&Ioflex02Settings::configuration_ms>(
+        "configuration_ms", 0, 60'000, "ms", "time from the last byte of a configuration image to the running project"),
+    field<&Ioflex02Settings::loaded>("loaded", 0, 0, "",
+                                     "the project \"position\" runs from the start; else the host loads it"),
+    field<&Ioflex02Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                            "time that one access of the host takes"),
 };
 
 double nothing(const RackCard&) {
@@ -231,19 +246,22 @@ void* ioflex02_of(RackCard& card) {
 std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const RackCard> before) {
     for (const RackCard& other : before)
         if (other.type == card.type && other.ioflex02.serial == card.ioflex02.serial)
-            return CardFlaw{"serial", fmt::format("Cards {} and {} have both the serial number {}; every card has its own.", other.name,
-                                                  card.name, card.ioflex02.serial)};
+            return CardFlaw{"serial",
+                            fmt::format("Cards {} and {} have both the serial number {}; every card has its own.",
+                                        other.name, card.name, card.ioflex02.serial)};
     if (card.ioflex02.base_address % 256 == 0) return std::nullopt;
-    return CardFlaw{"base_address", fmt::format("base_address of card {} is {}; it is a multiple of 256, such as {}.", card.name,
-                                                card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
+    return CardFlaw{"base_address",
+                    fmt::format("base_address of card {} is {}; it is a multiple of 256, such as {}.", card.name,
+                                card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
 }
 
-// ---- grating_bus, grating_decoder -----------------------------------------------------------------------------------
+// ---- grating_bus, grating_decoder
 
 constexpr auto grating_bus_pins = own_pins<std::size(grating_bus::map::pins)>(grating_bus::map::pins);
 constexpr auto grating_decoder_pins = [] {
     std::array<PinType, std::size(grating_bus::map::scale_pins)> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {grating_bus::map::scale_pins[i].view(), input, grating_bus::map::decoder_pins[i % 2].meaning};
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = {grating_bus::map::scale_pins[i].view(), input, grating_bus::map::decoder_pins[i % 2].meaning};
     return out;
 }();
 
@@ -251,8 +269,12 @@ constexpr std::array<std::string_view, 4> grating_roles = {"first is host", "hos
 constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"};
 
 constexpr std::array<Field, 14> grating_bus_settings = {
-    with_choices(field<&GratingBusSettings::role>("role", 0, 0, "", "the host gives clock and addresses, slaves only listen; the first card of the rack "
-                                                                    "is the host unless it is said; a remote one listens to a bus on another computer (motionrack frames feed)"), grating_roles),
+    with_choices(field<&GratingBusSettings::role>(
+                     "role", 0, 0, "",
+                     "the host gives clock and addresses, slaves only listen; the first card of the rack "
+                     "is the host unless it is said; a remote one listens to a bus on another computer (motionrack "
+                     "frames feed)"),
+                 grating_roles),
     field<&GratingBusSettings::scales>("scales", 1, 255, "", "scales of a frame"),
     field<&GratingBusSettings::first>("first", 0, 254, "", "address of the first scale"),
     field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),
@@ -260,19 +282,28 @@ constexpr std::array<Field, 14> grating_bus_settings = {
     field<&GratingBusSettings::t3_ns>("t3_ns", 0.1, 6'000, "ns", "wait until the data are latched"),
     field<&GratingBusSettings::clock_ns>("clock_ns", 0.1, 6'000, "ns", "period of the logic's clock"),
     field<&GratingBusSettings::period_us>("period_us", 1, 100'000, "us", "from one frame to the next"),
-    field<&GratingBusSettings::offset_ns>("offset_ns", 0, 1e8, "ns", "when a host's first frame comes, at most a period"),
-    with_choices(field<&GratingBusSettings::clock_shifter>("clock_shifter", 0, 0, "", "way of the level shifter of clk, hold and read_n"), shifter_ways),
-    with_choices(field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "", "way of the level shifter of addr"), shifter_ways),
-    field<&GratingBusSettings::checks>("checks", 0, 0, "", "frames during which the lines were not as they should be are not published"),
+    field<&GratingBusSettings::offset_ns>("offset_ns", 0, 1e8, "ns",
+                                          "when a host's first frame comes, at most a period"),
+    with_choices(field<&GratingBusSettings::clock_shifter>("clock_shifter", 0, 0, "",
+                                                           "way of the level shifter of clk, hold and read_n"),
+                 shifter_ways),
+    with_choices(
+        field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "", "way of the level shifter of addr"),
+        shifter_ways),
+    field<&GratingBusSettings::checks>("checks", 0, 0, "",
+                                       "frames during which the lines were not as they should be are not published"),
     field<&GratingBusSettings::seed>("seed", 0, 2'147'483'647, "", "of the jitter that can be injected"),
-    field<&GratingBusSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the processor takes"),
+    field<&GratingBusSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                              "time that one access of the processor takes"),
 };
 
 constexpr std::array<Field, 4> grating_decoder_settings = {
-    field<&GratingDecoderSettings::scales>("scales", 1, 255, "", "scales that it counts; its pins a0 b0 a1 b1 .. are that many pairs"),
+    field<&GratingDecoderSettings::scales>("scales", 1, 255, "",
+                                           "scales that it counts; its pins a0 b0 a1 b1 .. are that many pairs"),
     field<&GratingDecoderSettings::latch_ns>("latch_ns", 0, 6'000, "ns", "from HOLD to valid counts"),
     field<&GratingDecoderSettings::output_ns>("output_ns", 0.1, 6'000, "ns", "from the address to valid data"),
-    field<&GratingDecoderSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
+    field<&GratingDecoderSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                                  "time that one access of the host takes"),
 };
 
 void* grating_bus_of(RackCard& card) {
@@ -283,7 +314,7 @@ void* grating_decoder_of(RackCard& card) {
     return &card.grating_decoder;
 }
 
-// ---- rtc5 -----------------------------------------------------------------------------------------------------------
+// ---- rtc5
 
 constexpr auto rtc5_pins = [] {
     auto out = own_pins<std::size(rtc5::map::pins)>(rtc5::map::pins.data());
@@ -301,25 +332,101 @@ void* rtc5_of(RackCard& card) {
 }
 
 constexpr std::array<CardType, 6> table = {{
-    {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
-     "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
-     mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps, "in3"},
+    {"mcx314",
+     "four-axis pulse chip with interpolation",
+     "xyzu",
+     mcx314_channel_pins,
+     mcx314_chip_pins,
+     mcx314_wires,
+     "emgn",
+     mcx314_settings,
+     mcx314_of,
+     mcx314_pulse_hz,
+     mcx314_accel_hz_s,
+     mcx314_encoder_hz,
+     2'147'483'647,
+     mcx314_stops,
+     mcx314_stops,
+     false,
+     nullptr,
+     nullptr,
+     mcx314_lamps,
+     "in3"},
     {"databoard4002",
      "intelligent positioning card for one axis, which has a servo or a stepping motor; with no axis on it an ideal "
      "motor follows its pulses, one count each",
      "", databoard4002_channel_pins, databoard4002_pins, databoard4002_wires, "ems", databoard4002_settings,
-     databoard4002_of, databoard4002_pulse_hz, any_accel, databoard4002_encoder_hz, 8'388'607,
-     databoard4002_references, databoard4002_zeros, true, databoard4002_flaw},
-    {"ioflex02", "position card for four encoders with calibration and time; it moves no axis, and its lines are wires", "", {},
-     ioflex02_pins, {}, "", ioflex02_settings, ioflex02_of, nothing, nothing, nothing, 8'388'607, {}, {}, false, ioflex02_flaw},
-    {"grating_bus", "motion card of a grating bus: all such cards of a rack read the same scales at the same instant, one as host, the others listening", "", {},
-     grating_bus_pins, {}, "", grating_bus_settings, grating_bus_of, nothing, nothing, nothing, 2'147'483'647, {}, {}, false, grating_bus_flaw},
-    {"grating_decoder", "decoder card of the grating bus: counts up to 255 scales and freezes them at HOLD; a rack of grating_bus cards without one gets one "
-     "called `decoder`", "", {},
-     grating_decoder_pins, {}, "", grating_decoder_settings, grating_decoder_of, nothing, nothing, nothing, 2'147'483'647, {}, {}, false, grating_decoder_flaw,
+     databoard4002_of, databoard4002_pulse_hz, any_accel, databoard4002_encoder_hz, 8'388'607, databoard4002_references,
+     databoard4002_zeros, true, databoard4002_flaw},
+    {"ioflex02",
+     "position card for four encoders with calibration and time; it moves no axis, and its lines are wires",
+     "",
+     {},
+     ioflex02_pins,
+     {},
+     "",
+     ioflex02_settings,
+     ioflex02_of,
+     nothing,
+     nothing,
+     nothing,
+     8'388'607,
+     {},
+     {},
+     false,
+     ioflex02_flaw},
+    {"grating_bus",
+     "motion card of a grating bus: all such cards of a rack read the same scales at the same instant, one as host, "
+     "the others listening",
+     "",
+     {},
+     grating_bus_pins,
+     {},
+     "",
+     grating_bus_settings,
+     grating_bus_of,
+     nothing,
+     nothing,
+     nothing,
+     2'147'483'647,
+     {},
+     {},
+     false,
+     grating_bus_flaw},
+    {"grating_decoder",
+     "decoder card of the grating bus: counts up to 255 scales and freezes them at HOLD; a rack of grating_bus cards "
+     "without one gets one "
+     "called `decoder`",
+     "",
+     {},
+     grating_decoder_pins,
+     {},
+     "",
+     grating_decoder_settings,
+     grating_decoder_of,
+     nothing,
+     nothing,
+     nothing,
+     2'147'483'647,
+     {},
+     {},
+     false,
+     grating_decoder_flaw,
      grating_decoder_pin_count},
-    {"rtc5", "control of a laser scan head that marks moving parts; it moves no axis and has no bus: programs use the commands of its library", "", {},
-     rtc5_pins, {}, "", rtc5_settings, rtc5_of, nothing, nothing, nothing, 2'147'483'647},
+    {"rtc5",
+     "control of a laser scan head that marks moving parts; it moves no axis and has no bus: programs use the commands "
+     "of its library",
+     "",
+     {},
+     rtc5_pins,
+     {},
+     "",
+     rtc5_settings,
+     rtc5_of,
+     nothing,
+     nothing,
+     nothing,
+     2'147'483'647},
 }};
 
 }  // namespace
@@ -346,8 +453,10 @@ std::vector<Pin> pins_of(const CardType& type) {
     std::vector<Pin> out;
     for (int channel = 0; channel < type.channel_count(); ++channel)
         for (const PinType& pin : type.channel_pins)
-            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts, pin.kind, pin.bits, pin.doc});
-    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits, pin.doc});
+            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts,
+                           pin.kind, pin.bits, pin.doc});
+    for (const PinType& pin : type.chip_pins)
+        out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits, pin.doc});
     return out;
 }
 

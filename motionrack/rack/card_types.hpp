@@ -40,7 +40,7 @@ struct DefaultWire {
 struct Lamp {
     std::string_view name;  ///< "alarm", "capture", "compare"
     std::string_view pin;
-    int lit = 1;            ///< the level that means yes
+    int lit = 1;  ///< the level that means yes
 };
 
 /// What is wrong between the settings of a card and others: the key to blame and a sentence.
@@ -53,18 +53,20 @@ struct CardFlaw {
 struct CardType {
     std::string_view name;
     std::string_view doc;
-    std::string_view channels;  ///< a letter for each axis channel; empty: one without a letter, or none if there are no channel pins
+    std::string_view channels;  ///< a letter for each axis channel; empty: one without a letter, or none if there are
+                                ///< no channel pins
     std::span<const PinType> channel_pins;
     std::span<const PinType> chip_pins;
     std::span<const DefaultWire> default_wires;
-    std::string_view estop_pin;                 ///< the chip pin that the emergency stop drives; empty: none
-    std::span<const Field> settings;            ///< keys of [card.NAME] that only this type has
-    void* (*settings_of)(RackCard& card);       ///< the object that `settings` are read into
-    double (*max_pulse_hz)(const RackCard&);    ///< fastest pulse output
-    double (*max_accel_hz_s)(const RackCard&);  ///< fastest change of the pulse rate
-    double (*max_encoder_hz)(const RackCard&);  ///< most counts a second that an encoder input can follow
-    std::int64_t most_position = 2'147'483'647;       ///< counts or pulses that its position counters hold
-    std::span<const std::string_view> home_pins = {};   ///< a channel's inputs for a home switch; their places are its numbers
+    std::string_view estop_pin;                  ///< the chip pin that the emergency stop drives; empty: none
+    std::span<const Field> settings;             ///< keys of [card.NAME] that only this type has
+    void* (*settings_of)(RackCard& card);        ///< the object that `settings` are read into
+    double (*max_pulse_hz)(const RackCard&);     ///< fastest pulse output
+    double (*max_accel_hz_s)(const RackCard&);   ///< fastest change of the pulse rate
+    double (*max_encoder_hz)(const RackCard&);   ///< most counts a second that an encoder input can follow
+    std::int64_t most_position = 2'147'483'647;  ///< counts or pulses that its position counters hold
+    std::span<const std::string_view> home_pins =
+        {};  ///< a channel's inputs for a home switch; their places are its numbers
     std::span<const std::string_view> index_pins = {};  ///< and for an encoder's index
     bool position_loop = false;  ///< it positions an axis by itself with its encoder, which the axis needs then
     /// What no single key can tell; `before`: the cards before it in the file. May be nullptr.
@@ -74,9 +76,13 @@ struct CardType {
     std::span<const Lamp> lamps = {};
     std::string_view probe_pin = {};  ///< a channel's input at whose edge the card can catch its position; empty: none
 
-    int channel_count() const { return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size()); }
+    int channel_count() const {
+        return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size());
+    }
     /// "x"; empty for the one channel without a letter.
-    std::string_view channel_name(int channel) const { return channels.empty() ? "" : channels.substr(static_cast<std::size_t>(channel), 1); }
+    std::string_view channel_name(int channel) const {
+        return channels.empty() ? "" : channels.substr(static_cast<std::size_t>(channel), 1);
+    }
     /// The channel of that name, or -1.
     int channel_of(std::string_view channel_name) const;
 };

@@ -8,10 +8,10 @@
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
-#include <motionrack/cards/mcx314/driver/driver.hpp>
-#include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/mcx314/chip/byte_bus.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/toml_reader.hpp>
@@ -59,23 +59,28 @@ class Mcx314Card final : public MotionCard {
     std::vector<CardCounter> counters() const override {
         std::vector<CardCounter> out;
         for (int channel = 0; channel < mcx314::channel_count; ++channel)
-            for (const bool encoder : {false, true}) out.push_back({std::string(1, "xyzu"[channel]) + (encoder ? "ep" : "lp"), channel, encoder});
+            for (const bool encoder : {false, true})
+                out.push_back({std::string(1, "xyzu"[channel]) + (encoder ? "ep" : "lp"), channel, encoder});
         return out;
     }
-    int channel_number(std::string_view channel) const override { return static_cast<int>(std::string_view("xyzu").find(channel)); }
+    int channel_number(std::string_view channel) const override {
+        return static_cast<int>(std::string_view("xyzu").find(channel));
+    }
     sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
     void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }
     void take_encoder(int channel, bool taken) override { chip_.take_encoder(channel, taken); }
     sim::VirtualHost& host() override { return port_; }
     sim::VirtualPort* port() override { return &port_; }
 
-    Result<control::PathAxes*> path_axes(const RackConfig& config, const std::optional<control::Point>& position) override {
+    Result<control::PathAxes*> path_axes(const RackConfig& config,
+                                         const std::optional<control::Point>& position) override {
         const Stand stand = stand_now();
         for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), access_);
         axes_->set_probe(probe_channels(config));
         MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
-        for (int c = 0; c < mcx314::channel_count && !position; ++c) MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
+        for (int c = 0; c < mcx314::channel_count && !position; ++c)
+            MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
         group_trusted_ = stand.trusted;
         if (position) group_trusted_.fill(true);
         return &*axes_;
@@ -102,7 +107,8 @@ class Mcx314Card final : public MotionCard {
         one = std::make_unique<mcx314::SingleAxis>(driver_, settings);
         MOTIONRACK_CHECK(one->set_up());
         const auto c = static_cast<std::size_t>(settings.channel);
-        if (before_singles_.trusted[c]) MOTIONRACK_CHECK(one->go_on(before_singles_.pulses[c], before_singles_.counts[c], true));
+        if (before_singles_.trusted[c])
+            MOTIONRACK_CHECK(one->go_on(before_singles_.pulses[c], before_singles_.counts[c], true));
         return one.get();
     }
 
@@ -140,7 +146,9 @@ class Mcx314Card final : public MotionCard {
         unsigned out = 0;
         for (const RackWire& wire : config.wires) {
             if (wire.from.owner != EndOwner::probe || wire.to.owner != EndOwner::card) continue;
-            if (config.cards[static_cast<std::size_t>(wire.to.index)].name != name_ || wire.to.pin.size() != 4 || wire.to.pin.substr(1) != "in3") continue;
+            if (config.cards[static_cast<std::size_t>(wire.to.index)].name != name_ || wire.to.pin.size() != 4 ||
+                wire.to.pin.substr(1) != "in3")
+                continue;
             out |= 1u << channel_number(wire.to.pin.substr(0, 1));
         }
         return out;
@@ -168,7 +176,9 @@ class Mcx314Card final : public MotionCard {
         const mcx314::AxisMap map = axis_map(config);
         control::Point out = {};
         for (std::size_t i = 0; i < out.size(); ++i)
-            if (map.channel[i] >= 0) out[i] = static_cast<double>(stand.pulses[static_cast<std::size_t>(map.channel[i])]) / map.limits[i].pulses_per_unit;
+            if (map.channel[i] >= 0)
+                out[i] = static_cast<double>(stand.pulses[static_cast<std::size_t>(map.channel[i])]) /
+                         map.limits[i].pulses_per_unit;
         return out;
     }
 
@@ -189,7 +199,7 @@ class Mcx314Card final : public MotionCard {
     std::optional<mcx314::Axes> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
-    Stand before_singles_;                                          // when the group lost the card
+    Stand before_singles_;  // when the group lost the card
     std::array<bool, mcx314::channel_count> group_trusted_ = {};
 };
 
@@ -198,23 +208,26 @@ Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {
         const auto names = mcx314::Chip::inspected_names(per_axis);
         return std::find(names.begin(), names.end(), searched) != names.end();
     };
-    const std::size_t channel = name.size() > 2 && name[1] == '.' ? std::string_view("xyzu").find(name[0]) : std::string_view::npos;
+    const std::size_t channel =
+        name.size() > 2 && name[1] == '.' ? std::string_view("xyzu").find(name[0]) : std::string_view::npos;
     if (channel != std::string_view::npos && one_of(name.substr(2), true))
         return *chip_.inspect(name.substr(2), static_cast<int>(channel));
     if (one_of(name, false)) return *chip_.inspect(name, 0);
     // Without an axis: that of the axis whose registers the bus shows.
     for (const RegisterInfo& reg : map().registers)
         if (reg.name == name && reg.access != Access::write) return chip_.peek(reg.offset);
-    return fail(Trouble::bad_input,
-                fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", name_,
-                            in_quotes(name), fmt::join(mcx314::Chip::inspected_names(false), ", "),
-                            fmt::join(mcx314::Chip::inspected_names(true), ", ")));
+    return fail(
+        Trouble::bad_input,
+        fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", name_,
+                    in_quotes(name), fmt::join(mcx314::Chip::inspected_names(false), ", "),
+                    fmt::join(mcx314::Chip::inspected_names(true), ", ")));
 }
 
 std::vector<std::string> Mcx314Card::value_names() const {
     std::vector<std::string> out;
     const auto is_register = [this](std::string_view name) {
-        return std::any_of(map().registers.begin(), map().registers.end(), [&](const RegisterInfo& reg) { return reg.name == name; });
+        return std::any_of(map().registers.begin(), map().registers.end(),
+                           [&](const RegisterInfo& reg) { return reg.name == name; });
     };
     for (const char channel : std::string_view("xyzu"))
         for (const std::string_view name : mcx314::Chip::inspected_names(true))
@@ -244,11 +257,13 @@ tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std
     std::vector<std::string_view> known(more.begin(), more.end());
     for (const RegisterInfo& reg : card.map().registers)
         if (reg.access != Access::write && reg.bank.empty()) known.push_back(reg.name);
-    return fail(Trouble::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", card.name(), in_quotes(name),
-                                                fmt::join(known, ", ")));
+    return fail(Trouble::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", card.name(),
+                                                in_quotes(name), fmt::join(known, ", ")));
 }
 
-std::span<const CardKind> card_kinds() { return kinds; }
+std::span<const CardKind> card_kinds() {
+    return kinds;
+}
 
 const CardKind* find_card_kind(std::string_view type) {
     for (const CardKind& kind : kinds)

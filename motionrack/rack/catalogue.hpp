@@ -45,9 +45,11 @@ class Card {
     virtual std::span<const int> bus_widths() const = 0;
     /// Where the map's offset 0 is on the host's bus.
     virtual std::uint32_t bus_base() const { return 0; }
-    /// Whether the host can read more there than the map declares: a window of numbers that are alike, of which it has the first.
+    /// Whether the host can read more there than the map declares: a window of numbers that are alike, of which it has
+    /// the first.
     virtual bool in_window(std::uint32_t offset) const { return (void)offset, false; }
-    /// One access of the host, of one of these widths and at bus_base() + an offset that the map declares; it takes the bus its time.
+    /// One access of the host, of one of these widths and at bus_base() + an offset that the map declares; it takes the
+    /// bus its time.
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
     /// A value by its name, without effects: a register or value of the card ("RR0"), of one channel with the channel's
@@ -64,7 +66,8 @@ class Card {
     /// What can be broken on the card itself. `fault`: false if it knows no such fault or value.
     virtual std::span<const std::string_view> fault_names() const { return {}; }
     virtual bool fault(std::string_view, double, Instant) { return false; }
-    /// Wires by their full names that it shares with other cards ("bus.clk"); from outside they can be driven like its own.
+    /// Wires by their full names that it shares with other cards ("bus.clk"); from outside they can be driven like its
+    /// own.
     virtual std::span<const std::string> shared_wires() const { return {}; }
     /// What no snapshot of the kernel holds becomes that of `other`, a card of the same kind in another rack.
     virtual void copy_from(const Card& other) { (void)other; }
@@ -85,24 +88,28 @@ class Card {
 class MotionCard : public Card {
   public:
     MotionCard* motion() final { return this; }
-    std::int64_t counter(const CardCounter& which) final { return which.encoder ? encoder_counter(which.channel) : pulse_counter(which.channel); }
+    std::int64_t counter(const CardCounter& which) final {
+        return which.encoder ? encoder_counter(which.channel) : pulse_counter(which.channel);
+    }
     /// Number of a channel by its name in the rack file.
     virtual int channel_number(std::string_view channel) const = 0;
     /// Pulses of a channel, as a function of time.
     virtual sim::Motion& pulses(int channel) = 0;
     virtual void connect_encoder(int channel, sim::Motion& counts) = 0;
-    /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or releases
-    /// them and puts it back. In between what the inputs are forced to counts.
+    /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or
+    /// releases them and puts it back. In between what the inputs are forced to counts.
     virtual void take_encoder(int channel, bool taken) = 0;
-    /// No axis of the rack file is on this card: what follows its pulses then, if anything does. Once, before the kernel starts.
+    /// No axis of the rack file is on this card: what follows its pulses then, if anything does. Once, before the
+    /// kernel starts.
     virtual void connect_ideal_machine() {}
     /// The two inputs of the encoder of that machine, which turns with `pulses(0)`; empty: there is none.
     virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
-    /// The card's axes as a group that follows paths; `channel[i]` moves axis i of the rack. Set up at `position`, which is trusted then;
-    /// without one they go on from where the counters say that they stand.
-    virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const std::optional<control::Point>& position) = 0;
-    /// One axis of the rack that this card moves, by itself; it goes on from where the group stands, or its position is not trusted at
-    /// first. Takes the card from path_axes(), and the other way round.
+    /// The card's axes as a group that follows paths; `channel[i]` moves axis i of the rack. Set up at `position`,
+    /// which is trusted then; without one they go on from where the counters say that they stand.
+    virtual Result<control::PathAxes*> path_axes(const RackConfig& config,
+                                                 const std::optional<control::Point>& position) = 0;
+    /// One axis of the rack that this card moves, by itself; it goes on from where the group stands, or its position is
+    /// not trusted at first. Takes the card from path_axes(), and the other way round.
     virtual Result<control::Axis*> axis(const RackConfig& config, char letter) = 0;
     /// Part of each acceleration that the planner keeps back for this card.
     virtual double kept_back() const = 0;
@@ -119,8 +126,8 @@ class MotionCard : public Card {
 
 /// One kind of card.
 struct CardKind {
-    std::string_view type;          ///< as a rack file calls it
-    const CardMap& (*map)();        ///< its registers, commands, states and pins
+    std::string_view type;    ///< as a rack file calls it
+    const CardMap& (*map)();  ///< its registers, commands, states and pins
     /// `before`: the cards of the rack that there are already; cards of some kinds share a bus.
     std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                   std::span<const std::unique_ptr<Card>> before);

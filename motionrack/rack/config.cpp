@@ -47,7 +47,8 @@ const RackCard* RackConfig::card(std::string_view card_name) const {
 }
 
 const RackTrack* RackConfig::track(std::string_view track_name) const {
-    const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const RackTrack& t) { return t.name == track_name; });
+    const auto found =
+        std::find_if(tracks.begin(), tracks.end(), [&](const RackTrack& t) { return t.name == track_name; });
     return found != tracks.end() ? &*found : nullptr;
 }
 
@@ -57,7 +58,8 @@ bool RackConfig::positions_alone(const RackAxis& axis) const {
 }
 
 bool RackConfig::point_to_point() const {
-    return !axes.empty() && std::all_of(axes.begin(), axes.end(), [this](const RackAxis& axis) { return positions_alone(axis); });
+    return !axes.empty() &&
+           std::all_of(axes.begin(), axes.end(), [this](const RackAxis& axis) { return positions_alone(axis); });
 }
 
 control::MachineLimits RackConfig::limits() const {
@@ -80,8 +82,9 @@ std::string RackConfig::end_name(const WireEnd& end) const {
     if (end.owner == EndOwner::estop) return "estop";
     if (end.owner == EndOwner::probe) return "probe";
     const auto index = static_cast<std::size_t>(end.index);
-    const std::string owner = end.owner == EndOwner::card ? cards[index].name : end.owner == EndOwner::track ? tracks[index].name
-                                                                                                             : std::string(1, axes[index].letter);
+    const std::string owner = end.owner == EndOwner::card    ? cards[index].name
+                              : end.owner == EndOwner::track ? tracks[index].name
+                                                             : std::string(1, axes[index].letter);
     return owner + '.' + end.pin;
 }
 

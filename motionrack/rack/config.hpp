@@ -18,7 +18,7 @@
 
 namespace motionrack::rack {
 
-// ---- Cards ------------------------------------------------------------------------------------------------------
+// ---- Cards
 
 /// How wide a card's bus is.
 enum class BusWidth : std::uint8_t { bits16, bits8 };
@@ -33,7 +33,7 @@ struct Mcx314Settings {
     Mcx314Variant variant = Mcx314Variant::mcx314;
     Mcx314SlowDrives slow_drives = Mcx314SlowDrives::at_v;
     Mcx314SoftwareLimits software_limits = Mcx314SoftwareLimits::beyond;
-    std::int64_t ao_after_reset = 8;  ///< 0 .. 65,535 pulses
+    std::int64_t ao_after_reset = 8;     ///< 0 .. 65,535 pulses
     std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
     BusWidth bus = BusWidth::bits16;     ///< on 8 bits a register takes two accesses
     std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access
@@ -44,24 +44,25 @@ enum class Databoard4002Counting : std::uint8_t { quadrature_4, quadrature_2, qu
 
 /// Settings of a card of type databoard4002: straps, the version of its program, its place on the bus.
 struct Databoard4002Settings {
-    std::int64_t select = 13;                                                ///< 0 .. 31: its number on the bus of all such cards
+    std::int64_t select = 13;  ///< 0 .. 31: its number on the bus of all such cards
     Databoard4002Counting counting = Databoard4002Counting::quadrature_4;
-    std::int64_t first_pair = 0;                                             ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
-    bool single_ended = false;                                               ///< encoder lines up to 50 kHz instead of 100 kHz
-    bool zeroing = true;                                                     ///< enabling the zero or reference event arms the zeroing
-    std::int64_t version = 32;                                               ///< 0 .. 255: what the command V answers
-    std::int64_t pass_ticks = 1;                                             ///< 1 .. 4,000 ticks of 2.5 us
-    std::int64_t byte_time_ns = 100'000;                                     ///< 2,500 .. 100,000,000 ns
-    std::int64_t bus_access_ns = 1'000;                                      ///< 0 .. 100,000 ns
+    std::int64_t first_pair = 0;          ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
+    bool single_ended = false;            ///< encoder lines up to 50 kHz instead of 100 kHz
+    bool zeroing = true;                  ///< enabling the zero or reference event arms the zeroing
+    std::int64_t version = 32;            ///< 0 .. 255: what the command V answers
+    std::int64_t pass_ticks = 1;          ///< 1 .. 4,000 ticks of 2.5 us
+    std::int64_t byte_time_ns = 100'000;  ///< 2,500 .. 100,000,000 ns
+    std::int64_t bus_access_ns = 1'000;   ///< 0 .. 100,000 ns
 };
 
 /// Settings of a card of type ioflex02.
 struct Ioflex02Settings {
-    std::int64_t base_address = 0x2300;   ///< 0 .. FF00h, a multiple of 100h: where it answers on the bus of all such cards
-    std::int64_t serial = 1;              ///< 0 .. 65,535
-    double configuration_ms = 2'000;      ///< 0 .. 60,000 ms from the image's last byte to the running project
-    bool loaded = true;                   ///< the project "position" runs from power-up, without an image
-    std::int64_t bus_access_ns = 500;     ///< 0 .. 100,000 ns
+    std::int64_t base_address =
+        0x2300;                       ///< 0 .. FF00h, a multiple of 100h: where it answers on the bus of all such cards
+    std::int64_t serial = 1;          ///< 0 .. 65,535
+    double configuration_ms = 2'000;  ///< 0 .. 60,000 ms from the image's last byte to the running project
+    bool loaded = true;               ///< the project "position" runs from power-up, without an image
+    std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
 };
 
 /// What a card of a grating bus is: the first one of a rack is the host unless it is said.
@@ -72,11 +73,11 @@ enum class GratingShifter : std::uint8_t { as_role, out, in };
 /// Settings of a card of type grating_bus; the model's are in cards/grating_bus/model/settings.hpp.
 struct GratingBusSettings {
     GratingRole role = GratingRole::first_is_host;
-    std::int64_t scales = 4;          ///< 1 .. 255 scales of a frame
-    std::int64_t first = 0;           ///< 0 .. 254: address of the first one
+    std::int64_t scales = 4;                                   ///< 1 .. 255 scales of a frame
+    std::int64_t first = 0;                                    ///< 0 .. 254: address of the first one
     double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
-    double period_us = 200;           ///< 1 .. 100,000 us
-    double offset_ns = 0;             ///< 0 .. 1e8 ns, at most a period
+    double period_us = 200;                                    ///< 1 .. 100,000 us
+    double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most a period
     GratingShifter clock_shifter = GratingShifter::as_role;
     GratingShifter address_shifter = GratingShifter::as_role;
     bool checks = true;
@@ -110,7 +111,7 @@ struct RackCard {
     Rtc5Settings rtc5;
 };
 
-// ---- Axes -------------------------------------------------------------------------------------------------------
+// ---- Axes
 
 enum class AxisKind : std::uint8_t {
     linear,  ///< X Y Z: positions in mm
@@ -155,13 +156,13 @@ enum class HomingDirection : std::uint8_t { minus, plus };
 
 /// How an axis is homed; see control/home.hpp.
 struct RackHoming {
-    std::int64_t type = 2;                                  ///< 1 .. 4: control::HomeType
-    HomingDirection direction = HomingDirection::minus;     ///< in which the home switch is searched
-    std::optional<double> speed;                            ///< of the search; absent: a quarter of max_speed
-    std::optional<double> slow_speed;                       ///< of the last approach; absent: a quarter of start_speed
-    std::optional<double> position;                         ///< what home is called; absent: where the switch's edge is
-    double clearance = 0.1;                                 ///< mm or degrees driven on after the switch is released
-    std::int64_t order = 0;                                 ///< axes of the lowest order are homed first, those of the same together
+    std::int64_t type = 2;                               ///< 1 .. 4: control::HomeType
+    HomingDirection direction = HomingDirection::minus;  ///< in which the home switch is searched
+    std::optional<double> speed;                         ///< of the search; absent: a quarter of max_speed
+    std::optional<double> slow_speed;                    ///< of the last approach; absent: a quarter of start_speed
+    std::optional<double> position;                      ///< what home is called; absent: where the switch's edge is
+    double clearance = 0.1;                              ///< mm or degrees driven on after the switch is released
+    std::int64_t order = 0;  ///< axes of the lowest order are homed first, those of the same together
 };
 
 /// One axis of the machine. Positions and speeds are in mm (linear) or degrees (rotary), the axis' "unit", and seconds.
@@ -183,7 +184,7 @@ struct RackAxis {
     double start_position = 0;                   ///< where the machine stands when the rack starts
     std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 a line) for one motor turn; 0: no encoder
     bool reversed = false;  ///< the motor is mounted the other way round; the direction signal is inverted to match
-    RackMotor motor;                 ///< without a servo
+    RackMotor motor;        ///< without a servo
     std::optional<RackServo> servo;
     RackSwitches switches;
     RackHoming homing;
@@ -207,9 +208,10 @@ struct RackAxis {
 /// An axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
 RackAxis default_axis(char letter);
 
-// ---- Probe ------------------------------------------------------------------------------------------------------
+// ---- Probe
 
-/// A touch probe and the block that it touches, machine coordinates in mm; along an axis without both bounds the block goes on for ever.
+/// A touch probe and the block that it touches, machine coordinates in mm; along an axis without both bounds the block
+/// goes on for ever.
 struct RackProbe {
     std::optional<double> x_from, x_to, y_from, y_to, z_from, z_to;
 
@@ -217,17 +219,17 @@ struct RackProbe {
     std::optional<double> to(int axis) const { return axis == 0 ? x_to : axis == 1 ? y_to : z_to; }
 };
 
-// ---- Stages -----------------------------------------------------------------------------------------------------
+// ---- Stages
 
 /// The grating scale of a stage; see parts::LinearScaleSettings.
 struct RackScale {
-    double pitch_um = 20;                ///< 0.001 .. 1000 um, whole pm
-    std::int64_t interpolation = 4096;   ///< 4 .. 65,536, a multiple of 4: counts of a pitch
-    bool reversed = false;               ///< counts down where the stage goes up
-    double zero_mm = 0;                  ///< where it shows 0
-    double fastest_mhz = 20;             ///< 0.001 .. 1000 million counts a second
-    std::optional<double> index_mm;      ///< where the reference mark is
-    double dirt_at_mm = 0;               ///< where the dirt of the fault scale.dirt begins
+    double pitch_um = 20;               ///< 0.001 .. 1000 um, whole pm
+    std::int64_t interpolation = 4096;  ///< 4 .. 65,536, a multiple of 4: counts of a pitch
+    bool reversed = false;              ///< counts down where the stage goes up
+    double zero_mm = 0;                 ///< where it shows 0
+    double fastest_mhz = 20;            ///< 0.001 .. 1000 million counts a second
+    std::optional<double> index_mm;     ///< where the reference mark is
+    double dirt_at_mm = 0;              ///< where the dirt of the fault scale.dirt begins
 };
 
 /// Where a stage's servo brings it.
@@ -235,48 +237,48 @@ enum class StageProfile : std::uint8_t { hold, scan, steps };
 
 /// The loop that the processor of a stage's card closes, and where it goes.
 struct RackStageServo {
-    double bandwidth_hz = 250;           ///< 1 .. 10,000 Hz: the open loop crosses 1
-    std::optional<double> p_v_um;        ///< gains; absent: they follow from the bandwidth
+    double bandwidth_hz = 250;     ///< 1 .. 10,000 Hz: the open loop crosses 1
+    std::optional<double> p_v_um;  ///< gains; absent: they follow from the bandwidth
     std::optional<double> i_v_um_s;
     std::optional<double> d_v_s_um;
-    double limit_um = 100;               ///< 0 .. 1e6 um: a greater following error opens the loop; 0: none
-    double compute_us = 20;              ///< 0 .. 100,000 us from the frame to the voltage
+    double limit_um = 100;   ///< 0 .. 1e6 um: a greater following error opens the loop; 0: none
+    double compute_us = 20;  ///< 0 .. 100,000 us from the frame to the voltage
     StageProfile profile = StageProfile::hold;
-    double from_mm = 0, to_mm = 10;      ///< scan: it is at constant speed between
-    double step_mm = 1;                  ///< steps: not 0
-    std::int64_t steps = 4;              ///< steps: so many up, then as many down
-    double every_ms = 100;               ///< steps: at least as long as one takes
+    double from_mm = 0, to_mm = 10;  ///< scan: it is at constant speed between
+    double step_mm = 1;              ///< steps: not 0
+    std::int64_t steps = 4;          ///< steps: so many up, then as many down
+    double every_ms = 100;           ///< steps: at least as long as one takes
     double speed_mm_s = 80;
     double accel_mm_s2 = 8'000;
     double jerk_mm_s3 = 1e6;
-    double delay_ms = 0;                 ///< the profile begins then
+    double delay_ms = 0;  ///< the profile begins then
 };
 
 /// A linear motor stage with its scale, driven by a motion card's analog output; see parts::LinearStageSettings.
 struct RackStage {
     std::string name;
-    std::string card;                    ///< of type grating_bus
-    std::int64_t output = 0;             ///< 0 .. 3: the card's analog output
-    std::int64_t input = 0;              ///< 0 .. 254: number of its scale at the decoder
+    std::string card;         ///< of type grating_bus
+    std::int64_t output = 0;  ///< 0 .. 3: the card's analog output
+    std::int64_t input = 0;   ///< 0 .. 254: number of its scale at the decoder
     double accel_per_volt_m_s2 = 5;
     double top_accel_m_s2 = 50;
     double top_speed_m_s = 2;
     double viscous_per_s = 0;
     double coulomb_m_s2 = 0;
     double load = 0;
-    std::optional<double> start_mm;      ///< absent: where its servo's profile begins
+    std::optional<double> start_mm;  ///< absent: where its servo's profile begins
     double end_minus_mm = -1000;
     double end_plus_mm = 1000;
     RackScale scale;
-    std::optional<RackStageServo> servo; ///< absent: nobody drives it
+    std::optional<RackStageServo> servo;  ///< absent: nobody drives it
 };
 
-// ---- Wires ------------------------------------------------------------------------------------------------------
+// ---- Wires
 
 enum class EndOwner : std::uint8_t { card, axis, track, estop, probe };
 
-/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()) or tracks[index] (see
-/// track_ends()), or the emergency stop or the probe (pin empty).
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()) or tracks[index]
+/// (see track_ends()), or the emergency stop or the probe (pin empty).
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;
@@ -312,7 +314,7 @@ struct EncoderLink {
     friend bool operator==(const EncoderLink&, const EncoderLink&) = default;
 };
 
-// ---- The rack ---------------------------------------------------------------------------------------------------
+// ---- The rack
 
 /// How the controller drives paths where the part program does not say.
 struct RackController {
@@ -327,11 +329,11 @@ struct RackConfig {
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
     std::optional<RackProbe> probe;
-    std::vector<RackStage> stages;  ///< in the order of the file
-    std::vector<RackTrack> tracks;  ///< belts, then tables, each in the order of the file
+    std::vector<RackStage> stages;      ///< in the order of the file
+    std::vector<RackTrack> tracks;      ///< belts, then tables, each in the order of the file
     std::vector<RackScanner> scanners;  ///< in the order of the file
-    std::vector<RackWire> wires;  ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
-    std::vector<WireEnd> open;    ///< inputs of cards that the file leaves open; a contact's input is active then
+    std::vector<RackWire> wires;        ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
+    std::vector<WireEnd> open;          ///< inputs of cards that the file leaves open; a contact's input is active then
     std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives
     std::vector<EncoderLink> encoder_links;  ///< follow from `wires`; one at most for each channel
     RackController controller;
@@ -345,7 +347,9 @@ struct RackConfig {
     /// Whether the axis is on a card that positions it by itself.
     bool positions_alone(const RackAxis& axis) const;
     /// Whether the axis has the switch that homing on its card needs.
-    bool can_home(const RackAxis& axis) const { return axis.switches.home || (axis.switches.has_cam() && positions_alone(axis)); }
+    bool can_home(const RackAxis& axis) const {
+        return axis.switches.home || (axis.switches.has_cam() && positions_alone(axis));
+    }
     /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.
     bool point_to_point() const;
     /// Paths are driven with limited jerk.

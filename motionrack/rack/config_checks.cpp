@@ -41,7 +41,8 @@ class AxisCheck {
         homing();
         motor();
         if (const RackCard* card = config_.card(axis_.card)) {
-            if (const CardType* type = find_card_type(card->type); type != nullptr && type->channel_count() > 0) chip(*card, *type);
+            if (const CardType* type = find_card_type(card->type); type != nullptr && type->channel_count() > 0)
+                chip(*card, *type);
         }
     }
 
@@ -61,25 +62,30 @@ class AxisCheck {
         const CardType* type = find_card_type(card->type);
         if (type == nullptr || !source_.sound({"channel"})) return;
         if (type->channel_count() == 0) {
-            error("card", {}, fmt::format("Axis {} names the card {}, but a {} moves no axis.", axis_.letter, in_quotes(axis_.card), type->name));
+            error("card", {},
+                  fmt::format("Axis {} names the card {}, but a {} moves no axis.", axis_.letter, in_quotes(axis_.card),
+                              type->name));
             return;
         }
         if (channel_index(config_, axis_) < 0) {
             const std::string said = axis_.channel.empty() ? "no channel" : "the channel " + in_quotes(axis_.channel);
-            error("channel", {},
-                  type->channels.empty()
-                      ? fmt::format("Axis {} names {}; a card of type {} has but one, without a name: leave the key out.", axis_.letter,
-                                    said, type->name)
-                      : fmt::format("Axis {} names {}; a card of type {} has the channels {}.", axis_.letter, said, type->name,
-                                    fmt::join(type->channels, " ")));
+            error(
+                "channel", {},
+                type->channels.empty()
+                    ? fmt::format("Axis {} names {}; a card of type {} has but one, without a name: leave the key out.",
+                                  axis_.letter, said, type->name)
+                    : fmt::format("Axis {} names {}; a card of type {} has the channels {}.", axis_.letter, said,
+                                  type->name, fmt::join(type->channels, " ")));
             return;
         }
         for (const RackAxis& other : config_.axes) {
             if (&other == &axis_) return;  // each pair is told once, at the later letter
             if (other.card == axis_.card && other.channel == axis_.channel) {
                 error(axis_.channel.empty() ? "card" : "channel", {},
-                      fmt::format("Axes {} and {} are both on {}card {}; each channel drives one axis.", other.letter, axis_.letter,
-                                  axis_.channel.empty() ? std::string() : fmt::format("channel {} of ", axis_.channel), axis_.card));
+                      fmt::format("Axes {} and {} are both on {}card {}; each channel drives one axis.", other.letter,
+                                  axis_.letter,
+                                  axis_.channel.empty() ? std::string() : fmt::format("channel {} of ", axis_.channel),
+                                  axis_.card));
             }
         }
     }
@@ -133,11 +139,12 @@ class AxisCheck {
         if (s.cam_from.has_value() != s.cam_to.has_value()) {
             const char* there = s.cam_from ? "cam_from" : "cam_to";
             error(fmt::format("{}_{}", there, axis_.unit()), "switches",
-                  fmt::format("The cam of axis {} has {}_{} alone; a cam needs both ends.", axis_.letter, there, axis_.unit()));
+                  fmt::format("The cam of axis {} has {}_{} alone; a cam needs both ends.", axis_.letter, there,
+                              axis_.unit()));
         } else if (s.cam_from && *s.cam_from >= *s.cam_to) {
             error("cam_from_{u}", "switches",
-                  fmt::format("The cam of axis {} goes from {} to {} {}; its first end must be below the other.", axis_.letter,
-                              number_text(*s.cam_from), number_text(*s.cam_to), axis_.unit()));
+                  fmt::format("The cam of axis {} goes from {} to {} {}; its first end must be below the other.",
+                              axis_.letter, number_text(*s.cam_from), number_text(*s.cam_to), axis_.unit()));
         }
     }
 
@@ -153,17 +160,20 @@ class AxisCheck {
     /// Moves do not depend on it, so what `motionrack home` will refuse is a warning here.
     void homing() {
         const RackHoming& h = axis_.homing;
-        const auto above = [&](std::string_view key, const std::optional<double>& value, double most, std::string_view limit) {
+        const auto above = [&](std::string_view key, const std::optional<double>& value, double most,
+                               std::string_view limit) {
             if (!value || *value <= most || !source_.sound({key})) return;
             warn(key, "homing",
-                 fmt::format("{} of axis {} is {}, above its {}, which is {}: the axis cannot be homed like that.", with_unit(key, axis_.unit()),
-                             axis_.letter, number_text(*value), with_unit(limit, axis_.unit()), number_text(most)));
+                 fmt::format("{} of axis {} is {}, above its {}, which is {}: the axis cannot be homed like that.",
+                             with_unit(key, axis_.unit()), axis_.letter, number_text(*value),
+                             with_unit(limit, axis_.unit()), number_text(most)));
         };
         above("speed_{u}_s", h.speed, axis_.max_speed, "max_speed_{u}_s");
         above("slow_speed_{u}_s", h.slow_speed, axis_.start_speed, "start_speed_{u}_s");
         if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"home_type", "encoder_counts_per_rev"}))
             warn("home_type", "homing",
-                 fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.", axis_.letter, h.type));
+                 fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
+                             axis_.letter, h.type));
     }
 
     void motor() {
@@ -198,34 +208,44 @@ class AxisCheck {
         const std::string_view u = axis_.unit();
         for (const std::string_view key : {"motor", "motor_steps_per_rev", "microsteps"})
             if (source_.table != nullptr && source_.table->find(key) != nullptr)
-                error(key, {}, fmt::format("Axis {} has a servo, so {} means nothing; leave it out.", axis_.letter, key));
+                error(key, {},
+                      fmt::format("Axis {} has a servo, so {} means nothing; leave it out.", axis_.letter, key));
         if (axis_.encoder_counts_per_rev == 0 && source_.sound({"encoder_counts_per_rev"}))
             error("encoder_counts_per_rev", {},
-                  fmt::format("Axis {} has a servo but no encoder; encoder_counts_per_rev must be above 0.", axis_.letter));
-        if (!source_.sound({"speed_per_volt_{u}_s", "top_speed_{u}_s", "top_accel_{u}_s2", "friction_{u}_s2", "max_speed_{u}_s"})) return;
+                  fmt::format("Axis {} has a servo but no encoder; encoder_counts_per_rev must be above 0.",
+                              axis_.letter));
+        if (!source_.sound(
+                {"speed_per_volt_{u}_s", "top_speed_{u}_s", "top_accel_{u}_s2", "friction_{u}_s2", "max_speed_{u}_s"}))
+            return;
         if (servo.friction >= servo.top_accel)
             error("friction_{u}_s2", "servo",
-                  fmt::format("friction_{0}_s2 of axis {1} is {2}, not below top_accel_{0}_s2, which is {3}: its motor could never start.", u,
-                              axis_.letter, number_text(servo.friction), number_text(servo.top_accel)));
+                  fmt::format("friction_{0}_s2 of axis {1} is {2}, not below top_accel_{0}_s2, which is {3}: its motor "
+                              "could never start.",
+                              u, axis_.letter, number_text(servo.friction), number_text(servo.top_accel)));
         if (const double counts = servo.fastest() * axis_.pulses_per_unit(); counts > 1e6)
             error("speed_per_volt_{u}_s", "servo",
-                  fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower top_speed_{}_s or "
+                  fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
+                              "top_speed_{}_s or "
                               "encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.fastest()), u, short_text(counts), u));
         const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
         if (axis_.start_speed <= slowest)
             warn("start_speed_{u}_s", {},
-                 fmt::format("start_speed_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s of every speed: it would stop "
-                             "short of its target.", u, axis_.letter, number_text(axis_.start_speed), short_text(slowest)));
+                 fmt::format("start_speed_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s of every "
+                             "speed: it would stop "
+                             "short of its target.",
+                             u, axis_.letter, number_text(axis_.start_speed), short_text(slowest)));
         if (const double most = servo.top_accel / (1 + servo.load); axis_.max_accel > most)
             warn("max_accel_{u}_s2", {},
-                 fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with its load: it would run "
-                             "past its target.", u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
+                 fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
+                             "its load: it would run "
+                             "past its target.",
+                             u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
         const double reach = std::min(servo.fastest(), (10 - servo.dead_band_v) * servo.speed_per_volt);
         if (axis_.max_speed > reach * rounding)
             warn("max_speed_{u}_s", {},
-                 fmt::format("max_speed_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.", u, axis_.letter,
-                             number_text(axis_.max_speed), short_text(reach)));
+                 fmt::format("max_speed_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.",
+                             u, axis_.letter, number_text(axis_.max_speed), short_text(reach)));
     }
 
     void too_fast_for_motor(std::string_view key, double speed, const char* limit_key, double limit) {
@@ -254,8 +274,9 @@ class AxisCheck {
         if (!source_.sound({"encoder_counts_per_rev", "max_speed_{u}_s"})) return;
         if (type.position_loop && axis_.encoder_counts_per_rev == 0)
             error("encoder_counts_per_rev", {},
-                  fmt::format("Axis {} has no encoder, but card {} positions by it; encoder_counts_per_rev must be above 0.",
-                              axis_.letter, card.name));
+                  fmt::format(
+                      "Axis {} has no encoder, but card {} positions by it; encoder_counts_per_rev must be above 0.",
+                      axis_.letter, card.name));
         encoder(card, type.max_encoder_hz(card));
     }
 
@@ -306,7 +327,8 @@ class AxisCheck {
     }
 
     bool pulses_known() const {
-        return source_.sound({"motor_steps_per_rev", "microsteps", "lead_mm", "gear_ratio"}) && axis_.pulses_per_rev() > 0;
+        return source_.sound({"motor_steps_per_rev", "microsteps", "lead_mm", "gear_ratio"}) &&
+               axis_.pulses_per_rev() > 0;
     }
     static bool inside(double value, double low, double high) { return value >= low && value <= high; }
     /// Six digits are enough for a number that was computed.

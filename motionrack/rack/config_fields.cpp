@@ -6,7 +6,8 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 6> card_type_names = {"mcx314", "databoard4002", "ioflex02", "grating_bus", "grating_decoder", "rtc5"};
+constexpr std::array<std::string_view, 6> card_type_names = {"mcx314",      "databoard4002",   "ioflex02",
+                                                             "grating_bus", "grating_decoder", "rtc5"};
 constexpr std::array<std::string_view, 2> kinds = {"linear", "rotary"};
 
 constexpr std::array<Field, 1> rack_table = {
@@ -25,7 +26,8 @@ constexpr std::array<Field, 16> axis_table = {
                  "the only one of its card"),
     absent_means(with_choices(field<&RackAxis::kind>("kind", 0, 0, "", "X Y Z are linear, A B C rotary"), kinds),
                  "by the letter"),
-    field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "", "full steps of a motor turn; not of a servo"),
+    field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "",
+                                          "full steps of a motor turn; not of a servo"),
     field<&RackAxis::microsteps>("microsteps", 1, 1024, "", "pulses of a full step; not of a servo"),
     only_in(field<&RackAxis::lead_mm>("lead_mm", 0.001, 10'000, "mm", "travel of a motor turn"), "mm"),
     only_in(field<&RackAxis::gear_ratio>("gear_ratio", 0.001, 100'000, "", "motor turns of a turn of the axis"), "deg"),
@@ -59,7 +61,8 @@ constexpr std::array<Field, 8> servo_table = {
     field<&RackServo::lag_ms>("lag_ms", 0.1, 10'000, "ms", "time constant of the speed, without the load"),
     field<&RackServo::dead_band_v>("dead_band_v", 0, 5, "V", "voltage below which the amplifier does nothing"),
     field<&RackServo::load>("load", 0, 1000, "", "inertia of the load in units of the motor's own"),
-    absent_means(field<&RackServo::hold_within>("hold_within_{u}", 0, 1e6, "{u}", "after a move the card's lock keeps the axis so near its target"),
+    absent_means(field<&RackServo::hold_within>("hold_within_{u}", 0, 1e6, "{u}",
+                                                "after a move the card's lock keeps the axis so near its target"),
                  "no lock"),
 };
 
@@ -79,8 +82,9 @@ constexpr std::array<Field, 7> switch_table = {
 constexpr std::array<std::string_view, 2> directions = {"minus", "plus"};
 
 constexpr std::array<Field, 7> homing_table = {
-    field<&RackHoming::type>("home_type", 1, 4, "",
-                             "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the index, 4 as 2 and on to it"),
+    field<&RackHoming::type>(
+        "home_type", 1, 4, "",
+        "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the index, 4 as 2 and on to it"),
     with_choices(field<&RackHoming::direction>("direction", 0, 0, "", "where the home switch is searched"), directions),
     absent_means(field<&RackHoming::speed>("speed_{u}_s", 0.000001, 1e6, "{u}/s", "speed of the search"),
                  "a quarter of the greatest speed"),
@@ -94,7 +98,8 @@ constexpr std::array<Field, 7> homing_table = {
 };
 
 constexpr std::array<Field, 6> probe_table = {
-    absent_means(field<&RackProbe::x_from>("x_from_mm", -1e7, 1e7, "mm", "the block that the probe touches: from here"), "no bound"),
+    absent_means(field<&RackProbe::x_from>("x_from_mm", -1e7, 1e7, "mm", "the block that the probe touches: from here"),
+                 "no bound"),
     absent_means(field<&RackProbe::x_to>("x_to_mm", -1e7, 1e7, "mm", "to here"), "no bound"),
     absent_means(field<&RackProbe::y_from>("y_from_mm", -1e7, 1e7, "mm", "from here"), "no bound"),
     absent_means(field<&RackProbe::y_to>("y_to_mm", -1e7, 1e7, "mm", "to here"), "no bound"),
@@ -122,8 +127,8 @@ bool has_encoder(const RackAxis& axis) {
 constexpr std::array<AxisEnd, 10> ends = {{
     {"step", PinDirection::input, "a pulse moves the motor by one microstep", steps, "a stepping motor (no servo)"},
     {"dir", PinDirection::input, "the direction of the pulses", steps, "a stepping motor (no servo)"},
-    {"drive", PinDirection::input, "speed for the servo amplifier, V", [](const RackAxis& axis) { return !steps(axis); },
-     "a servo", 1e-6},
+    {"drive", PinDirection::input, "speed for the servo amplifier, V",
+     [](const RackAxis& axis) { return !steps(axis); }, "a servo", 1e-6},
     {"enc_a", PinDirection::output, "encoder track A", has_encoder, "encoder_counts_per_rev above 0"},
     {"enc_b", PinDirection::output, "encoder track B", has_encoder, "encoder_counts_per_rev above 0"},
     {"enc_z", PinDirection::output, "encoder index, once a motor turn", has_encoder, "encoder_counts_per_rev above 0"},

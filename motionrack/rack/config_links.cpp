@@ -45,7 +45,9 @@ class LinkResolver {
     static bool is_pulse_input(const WireEnd& end) {
         return end.owner == EndOwner::axis && (end.pin == "step" || end.pin == "dir");
     }
-    bool takes_edges(const WireEnd& end) const { return end.owner == EndOwner::card && type_of(end.index).channel_count() == 0; }
+    bool takes_edges(const WireEnd& end) const {
+        return end.owner == EndOwner::card && type_of(end.index).channel_count() == 0;
+    }
     static bool is_track(const WireEnd& end) {
         return end.owner == EndOwner::axis && (end.pin == "enc_a" || end.pin == "enc_b");
     }
@@ -74,7 +76,7 @@ class LinkResolver {
         return -1;
     }
 
-    // ---- Step and direction ----
+    // ---- Step and direction
 
     void pulses_of(int axis) {
         const WireEnd step_end{EndOwner::axis, axis, "step"}, dir_end{EndOwner::axis, axis, "dir"};
@@ -120,7 +122,7 @@ class LinkResolver {
         return "CARD.PIN";
     }
 
-    // ---- Encoder tracks ----
+    // ---- Encoder tracks
 
     /// `wire` begins at a track: it must end at an encoder input, and the other input must have the other track.
     void encoder_at(const RackWire& wire) {
@@ -130,8 +132,7 @@ class LinkResolver {
         if (channel < 0) {
             error({name(wire.to)}, fmt::format("{} cannot be driven by {}: the tracks of an encoder lead to the "
                                                "encoder inputs of a channel, such as {} and {}.",
-                                               name(wire.to), name(wire.from),
-                                               own_pin(wire.from.index, "enc_a"),
+                                               name(wire.to), name(wire.from), own_pin(wire.from.index, "enc_a"),
                                                own_pin(wire.from.index, "enc_b")));
             return;
         }
@@ -147,8 +148,7 @@ class LinkResolver {
                               name(wire.to), name(wire.from), name(other), there, name(other), name(track)));
             return;
         }
-        if (at_a)
-            config_.encoder_links.push_back({wire.from.index, wire.to.index, channel, wire.from.pin == "enc_b"});
+        if (at_a) config_.encoder_links.push_back({wire.from.index, wire.to.index, channel, wire.from.pin == "enc_b"});
     }
 
     void too_many_readers() {
@@ -167,7 +167,7 @@ class LinkResolver {
         }
     }
 
-    // ---- Telling ----
+    // ---- Telling
 
     std::string name(const WireEnd& end) const { return config_.end_name(end); }
 

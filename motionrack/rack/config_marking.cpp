@@ -1,4 +1,5 @@
-// The sections [belt.NAME], [table.NAME] and [scanner.NAME] of a rack file: their keys, and what does not fit between them and the cards.
+// The sections [belt.NAME], [table.NAME] and [scanner.NAME] of a rack file: their keys, and what does not fit between
+// them and the cards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,47 +16,67 @@ constexpr std::array<std::string_view, 3> scanner_tables = {"lens", "galvo", "la
 constexpr std::size_t most_profile_points = 10'000;
 
 constexpr std::array<Field, 9> track_table = {
-    absent_means(field<&RackTrack::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"), "where [wires] says"),
+    absent_means(field<&RackTrack::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
+                 "where [wires] says"),
     field<&RackTrack::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
-    field<&RackTrack::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s", "how fast it goes"),
-    only_in(field<&RackTrack::direction_deg>("direction_deg", -3'600, 3'600, "deg", "where it goes, from +X counter-clockwise"), "mm"),
-    only_in(field<&RackTrack::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"), "deg"),
+    field<&RackTrack::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s",
+                             "how fast it goes"),
+    only_in(field<&RackTrack::direction_deg>("direction_deg", -3'600, 3'600, "deg",
+                                             "where it goes, from +X counter-clockwise"),
+            "mm"),
+    only_in(field<&RackTrack::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"),
+            "deg"),
     only_in(field<&RackTrack::centre_y_mm>("centre_y_mm", -1e5, 1e5, "mm", "what it turns about"), "deg"),
-    field<&RackTrack::counts_per_unit>("counts_per_{u}", -1e6, 1e6, "", "of its encoder, four a line; negative counts the other way; 0: no encoder"),
+    field<&RackTrack::counts_per_unit>("counts_per_{u}", -1e6, 1e6, "",
+                                       "of its encoder, four a line; negative counts the other way; 0: no encoder"),
     field<&RackTrack::slip>("slip", -0.5, 0.5, "", "part of the way that the encoder's wheel does not see"),
-    field<&RackTrack::jitter_us>("jitter_us", 0, 1'000, "us", "greatest delay of an edge of the encoder; by chance, the same in every run"),
+    field<&RackTrack::jitter_us>("jitter_us", 0, 1'000, "us",
+                                 "greatest delay of an edge of the encoder; by chance, the same in every run"),
 };
 
 constexpr std::array<Field, 4> sender_table = {
     field<&parts::SenderSettings::bits_per_mm>("bits_per_{u}", -1e9, 1e9, "", "resolution"),
     field<&parts::SenderSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
-    field<&parts::SenderSettings::delay_us>("delay_us", 0, 1e6, "us", "from a reading to its complete word; less than 255 periods"),
-    only_in(field<&parts::SenderSettings::two_axes>("two_axes", 0, 0, "", "X in the low and Y in the high 16 bits"), "mm"),
+    field<&parts::SenderSettings::delay_us>("delay_us", 0, 1e6, "us",
+                                            "from a reading to its complete word; less than 255 periods"),
+    only_in(field<&parts::SenderSettings::two_axes>("two_axes", 0, 0, "", "X in the low and Y in the high 16 bits"),
+            "mm"),
 };
 
 constexpr std::array<Field, 3> passing_table = {
     field<&RackParts::every>("every_{u}", 0.001, 1e6, "{u}", "from part to part"),
     field<&RackParts::first>("first_{u}", -1e6, 1e6, "{u}", "travel at which the first part comes to the sensor"),
-    field<&RackParts::length>("length_{u}", 0.0001, 1e6, "{u}", "of a part, less than the distance: so long the sensor is low"),
+    field<&RackParts::length>("length_{u}", 0.0001, 1e6, "{u}",
+                              "of a part, less than the distance: so long the sensor is low"),
 };
 
 constexpr std::array<Field, 5> scanner_table = {
     required(field<&RackScanner::card>("card", 1, 32, "", "name of the card (type rtc5) that drives it"), "required"),
-    absent_means(field<&RackScanner::track>("part_on", 1, 32, "", "name of the belt or table that carries the part"), "the part lies still"),
+    absent_means(field<&RackScanner::track>("part_on", 1, 32, "", "name of the belt or table that carries the part"),
+                 "the part lies still"),
     field<&RackScanner::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of the field, without a lens"),
-    field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um", "how far a piece may be off what was marked, where pieces are joined"),
-    field<&RackScanner::greatest_points>("greatest_points", 16, 4'000'000, "", "points of marks that are kept; more are counted only"),
+    field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um",
+                                      "how far a piece may be off what was marked, where pieces are joined"),
+    field<&RackScanner::greatest_points>("greatest_points", 16, 4'000'000, "",
+                                         "points of marks that are kept; more are counted only"),
 };
 
-bool has_encoder(const RackTrack& track) { return track.has_encoder(); }
-bool has_sender(const RackTrack& track) { return track.sender.has_value(); }
-bool has_parts(const RackTrack& track) { return track.passing.has_value(); }
+bool has_encoder(const RackTrack& track) {
+    return track.has_encoder();
+}
+bool has_sender(const RackTrack& track) {
+    return track.sender.has_value();
+}
+bool has_parts(const RackTrack& track) {
+    return track.passing.has_value();
+}
 
 constexpr std::array<TrackEnd, 5> ends = {{
     {"enc_a", "enc#_a", "encoder line A", has_encoder, "counts_per_{u} other than 0"},
     {"enc_b", "enc#_b", "encoder line B", has_encoder, "counts_per_{u} other than 0"},
     {"mcbsp", "mcbsp", "the sender's last complete word", has_sender, "a section sender", 32},
-    {"mcbsp_frame", "mcbsp_frame", "changes when a word was complete that is equal to the one before", has_sender, "a section sender"},
+    {"mcbsp_frame", "mcbsp_frame", "changes when a word was complete that is equal to the one before", has_sender,
+     "a section sender"},
     {"sensor_n", "start_n", "light barrier: low while a part is there", has_parts, "a section parts"},
 }};
 
@@ -73,8 +94,10 @@ class MarkingReader {
         unit_ = track.unit();
         kind_ = rotary ? "a table" : "a belt";
         bool sound = read_fields(node, track_fields(), &track, {what_, unit_, kind_, track_tables}, problems_).empty();
-        if (const TomlNode* sender = node.find("sender")) sound = read_sub(*sender, sender_fields(), &track.sender.emplace()) && sound;
-        if (const TomlNode* row = node.find("parts")) sound = read_sub(*row, passing_fields(), &track.passing.emplace()) && sound;
+        if (const TomlNode* sender = node.find("sender"))
+            sound = read_sub(*sender, sender_fields(), &track.sender.emplace()) && sound;
+        if (const TomlNode* row = node.find("parts"))
+            sound = read_sub(*row, passing_fields(), &track.passing.emplace()) && sound;
         if (const TomlNode* profile = node.find("profile")) sound = read_profile(*profile, track) && sound;
         if (sound) check(track);
         config_.tracks.push_back(std::move(track));
@@ -88,7 +111,8 @@ class MarkingReader {
         RackScanner scanner;
         scanner.name = node.key;
         bool sound = read_fields(node, scanner_fields(), &scanner, {what_, "", "", scanner_tables}, problems_).empty();
-        if (const TomlNode* lens = node.find("lens")) sound = read_sub(*lens, lens_keys, &scanner.lens.emplace()) && sound;
+        if (const TomlNode* lens = node.find("lens"))
+            sound = read_sub(*lens, lens_keys, &scanner.lens.emplace()) && sound;
         if (const TomlNode* galvo = node.find("galvo")) sound = read_sub(*galvo, galvo_keys, &scanner.galvo) && sound;
         if (const TomlNode* laser = node.find("laser")) sound = read_sub(*laser, laser_keys, &scanner.laser) && sound;
         if (sound) check(scanner);
@@ -98,24 +122,32 @@ class MarkingReader {
   private:
     bool sound_name() {
         const std::string& name = node_->key;
-        const auto called = [&](const auto& parts) { return std::any_of(parts.begin(), parts.end(), [&](const auto& p) { return p.name == name; }); };
-        if (is_name(name) && name != "estop" && name.size() > 1 && !called(config_.cards) && !called(config_.stages) && !called(config_.tracks) &&
-            !called(config_.scanners))
+        const auto called = [&](const auto& parts) {
+            return std::any_of(parts.begin(), parts.end(), [&](const auto& p) { return p.name == name; });
+        };
+        if (is_name(name) && name != "estop" && name.size() > 1 && !called(config_.cards) && !called(config_.stages) &&
+            !called(config_.tracks) && !called(config_.scanners))
             return true;
-        problems_.error(node_->key_place, fmt::format("{} cannot be the name of a belt, table or scanner: 2 to 32 letters, digits and '_', not "
-                                                      "beginning with a digit, not the name of a card or another part, not estop.",
-                                                      in_quotes(name)));
+        problems_.error(
+            node_->key_place,
+            fmt::format("{} cannot be the name of a belt, table or scanner: 2 to 32 letters, digits and '_', not "
+                        "beginning with a digit, not the name of a card or another part, not estop.",
+                        in_quotes(name)));
         return false;
     }
     bool is_table(const TomlNode& node, const std::string& path) {
         if (node.type == TomlType::table) return true;
-        problems_.error(node.value_place, fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.",
-                                                      printable(path, 60), type_name(node.type), printable(path, 60)));
+        problems_.error(
+            node.value_place,
+            fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.",
+                        printable(path, 60), type_name(node.type), printable(path, 60)));
         return false;
     }
     bool read_sub(const TomlNode& node, std::span<const Field> fields, void* object) {
         return is_table(node, fmt::format("{} of {}", node.key, what_)) &&
-               read_fields(node, fields, object, {fmt::format("{} of {}", node.key, what_), unit_, kind_, {}}, problems_).empty();
+               read_fields(node, fields, object, {fmt::format("{} of {}", node.key, what_), unit_, kind_, {}},
+                           problems_)
+                   .empty();
     }
     void refuse(const TomlNode& table, std::string_view key, std::string text) {
         problems_.error(table.place_of(key), fmt::format("{}: {}", what_, text));
@@ -123,20 +155,28 @@ class MarkingReader {
 
     /// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
     bool read_profile(const TomlNode& profile, RackTrack& track) {
-        const auto number = [](const TomlNode& node) { return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number; };
-        const auto is_number = [](const TomlNode& node) { return node.type == TomlType::number || node.type == TomlType::integer; };
+        const auto number = [](const TomlNode& node) {
+            return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
+        };
+        const auto is_number = [](const TomlNode& node) {
+            return node.type == TomlType::number || node.type == TomlType::integer;
+        };
         const auto bad = [&](Place place, std::string text) {
             problems_.error(place, fmt::format("{}: {}", what_, text));
             return false;
         };
-        if (profile.type != TomlType::array || profile.children.empty() || profile.children.size() > most_profile_points)
-            return bad(profile.value_place, fmt::format("profile must be an array of 1 to {} pairs [seconds, speed].", most_profile_points));
+        if (profile.type != TomlType::array || profile.children.empty() ||
+            profile.children.size() > most_profile_points)
+            return bad(profile.value_place,
+                       fmt::format("profile must be an array of 1 to {} pairs [seconds, speed].", most_profile_points));
         for (const TomlNode& pair : profile.children) {
-            if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) || !is_number(pair.children[1]))
+            if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
+                !is_number(pair.children[1]))
                 return bad(pair.value_place, "a point of its profile must be a pair [seconds, speed].");
             track.profile.push_back({number(pair.children[0]), number(pair.children[1])});
         }
-        if (node_->find(with_unit("speed_{u}_s", track.unit())) != nullptr) return bad(profile.key_place, "a speed and a profile are both given; leave one out.");
+        if (node_->find(with_unit("speed_{u}_s", track.unit())) != nullptr)
+            return bad(profile.key_place, "a speed and a profile are both given; leave one out.");
         return true;
     }
 
@@ -145,25 +185,29 @@ class MarkingReader {
         const RackCard* card = config_.card(name);
         if (card == nullptr) return refuse(*node_, "card", fmt::format("there is no card {}.", in_quotes(name))), false;
         if (card->type == "rtc5" || card->type.empty()) return true;
-        return refuse(*node_, "card", fmt::format("card {} is of type {}; one of type rtc5 marks.", name, card->type)), false;
+        return refuse(*node_, "card", fmt::format("card {} is of type {}; one of type rtc5 marks.", name, card->type)),
+               false;
     }
 
     void check(const RackTrack& track) {
-        if (const auto made = parts::Track::make(track.settings()); !made) return refuse(*node_, "profile", made.error().message + ".");
+        if (const auto made = parts::Track::make(track.settings()); !made)
+            return refuse(*node_, "profile", made.error().message + ".");
         if (track.card && check_card(*track.card)) check_pins(track);
         if (track.sender) check_sender(track);
         if (track.passing && !(track.passing->length < track.passing->every))
             refuse(*node_->find("parts"), with_unit("length_{u}", unit_),
-                   fmt::format("a part is {} {} long, but the next one comes after {}.", number_text(track.passing->length), unit_,
-                               number_text(track.passing->every)));
+                   fmt::format("a part is {} {} long, but the next one comes after {}.",
+                               number_text(track.passing->length), unit_, number_text(track.passing->every)));
         double fastest = std::fabs(track.speed);
         if (!track.profile.empty()) fastest = 0;
         for (const parts::SpeedPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.speed));
         if (fastest > track.greatest_speed())
             refuse(*node_, with_unit("speed_{u}_s", unit_),
-                   fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than {3:.0f} counts a second, or "
+                   fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "
+                               "{3:.0f} counts a second, or "
                                "more than {4:.0f} parts a second would come.",
-                               number_text(fastest), unit_, track.greatest_speed(), greatest_track_counts, greatest_parts));
+                               number_text(fastest), unit_, track.greatest_speed(), greatest_track_counts,
+                               greatest_parts));
     }
 
     /// Two tracks at one pin would drive against each other.
@@ -171,22 +215,31 @@ class MarkingReader {
         for (const RackTrack& other : config_.tracks) {
             if (other.card != track.card) continue;
             if (track.has_encoder() && other.has_encoder() && other.encoder == track.encoder)
-                refuse(*node_, "encoder", fmt::format("encoder input {} of card {} has the encoder of {} already.", track.encoder, *track.card, other.name));
-            if (track.sender && other.sender) refuse(*node_, "sender", fmt::format("the sender of {} is at card {} already.", other.name, *track.card));
-            if (track.passing && other.passing) refuse(*node_, "parts", fmt::format("the parts of {} start card {} already.", other.name, *track.card));
+                refuse(*node_, "encoder",
+                       fmt::format("encoder input {} of card {} has the encoder of {} already.", track.encoder,
+                                   *track.card, other.name));
+            if (track.sender && other.sender)
+                refuse(*node_, "sender",
+                       fmt::format("the sender of {} is at card {} already.", other.name, *track.card));
+            if (track.passing && other.passing)
+                refuse(*node_, "parts", fmt::format("the parts of {} start card {} already.", other.name, *track.card));
         }
     }
 
     void check_sender(const RackTrack& track) {
         const parts::SenderSettings& s = *track.sender;
         const TomlNode& table = *node_->find("sender");
-        if (s.bits_per_mm == 0) return refuse(table, with_unit("bits_per_{u}", unit_), "a sender with 0 bits measures nothing.");
+        if (s.bits_per_mm == 0)
+            return refuse(table, with_unit("bits_per_{u}", unit_), "a sender with 0 bits measures nothing.");
         const double most = static_cast<double>(parts::WordSource::most_under_way - 1) * s.period_us;
         if (!(s.delay_us < most))
-            return refuse(table, "delay_us", fmt::format("a delay of {} us with a reading every {} us is too long; less than {} us is possible.",
-                                                         number_text(s.delay_us), number_text(s.period_us), number_text(most)));
+            return refuse(
+                table, "delay_us",
+                fmt::format("a delay of {} us with a reading every {} us is too long; less than {} us is possible.",
+                            number_text(s.delay_us), number_text(s.period_us), number_text(most)));
         const parts::Track made = *parts::Track::make(track.settings());
-        if (const auto sender = parts::PositionSender::make(made, s); !sender) refuse(*node_, "sender", sender.error().message + ".");
+        if (const auto sender = parts::PositionSender::make(made, s); !sender)
+            refuse(*node_, "sender", sender.error().message + ".");
     }
 
     void check(const RackScanner& scanner) {
@@ -194,8 +247,10 @@ class MarkingReader {
             refuse(*node_, "part_on", fmt::format("there is no belt or table {}.", in_quotes(*scanner.track)));
         check_card(scanner.card);
         for (const RackScanner& other : config_.scanners)
-            if (other.card == scanner.card) refuse(*node_, "card", fmt::format("card {} drives scanner {} already.", scanner.card, other.name));
-        if (scanner.lens && node_->find("bits_per_mm") != nullptr) refuse(*node_, "bits_per_mm", "with a lens its bits_per_mm stand in the table lens.");
+            if (other.card == scanner.card)
+                refuse(*node_, "card", fmt::format("card {} drives scanner {} already.", scanner.card, other.name));
+        if (scanner.lens && node_->find("bits_per_mm") != nullptr)
+            refuse(*node_, "bits_per_mm", "with a lens its bits_per_mm stand in the table lens.");
         if (const auto made = parts::MarkingStation::make(scanner.settings()); !made)
             refuse(*node_, scanner.lens ? "lens" : "galvo", made.error().message + ".");
     }
@@ -209,13 +264,24 @@ class MarkingReader {
 
 }  // namespace
 
-std::span<const Field> track_fields() { return track_table; }
-std::span<const Field> sender_fields() { return sender_table; }
-std::span<const Field> passing_fields() { return passing_table; }
-std::span<const Field> scanner_fields() { return scanner_table; }
-std::span<const TrackEnd> track_ends() { return ends; }
+std::span<const Field> track_fields() {
+    return track_table;
+}
+std::span<const Field> sender_fields() {
+    return sender_table;
+}
+std::span<const Field> passing_fields() {
+    return passing_table;
+}
+std::span<const Field> scanner_fields() {
+    return scanner_table;
+}
+std::span<const TrackEnd> track_ends() {
+    return ends;
+}
 
-void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config, Problems& problems) {
+void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config,
+                  Problems& problems) {
     MarkingReader reader(config, problems);
     if (belts != nullptr)
         for (const TomlNode& node : belts->children) reader.read_track(node, false);

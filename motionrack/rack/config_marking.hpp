@@ -13,26 +13,26 @@ namespace motionrack::rack {
 
 /// Parts that a track carries past a light barrier, at equal distances; mm or degrees.
 struct RackParts {
-    double every = 100;   ///< from part to part
-    double first = 0;     ///< travel at which the first part's edge is at the sensor
-    double length = 10;   ///< of a part, less than `every`
+    double every = 100;  ///< from part to part
+    double first = 0;    ///< travel at which the first part's edge is at the sensor
+    double length = 10;  ///< of a part, less than `every`
 };
 
 /// What moves the part under a scan head: a belt (mm) or a rotary table (degrees); see parts::TrackSettings.
 struct RackTrack {
     std::string name;
     bool rotary = false;
-    std::optional<std::string> card;     ///< of type rtc5: where its lines lead to unless [wires] says otherwise
-    std::int64_t encoder = 0;            ///< 0, 1: the card's encoder input
-    double speed = 100;                  ///< mm/s or degrees/s
-    double direction_deg = 0;            ///< of a belt
+    std::optional<std::string> card;          ///< of type rtc5: where its lines lead to unless [wires] says otherwise
+    std::int64_t encoder = 0;                 ///< 0, 1: the card's encoder input
+    double speed = 100;                       ///< mm/s or degrees/s
+    double direction_deg = 0;                 ///< of a belt
     double centre_x_mm = 0, centre_y_mm = 0;  ///< of a table
-    double counts_per_unit = 1000;       ///< of its encoder, four a line; 0: it has none
+    double counts_per_unit = 1000;            ///< of its encoder, four a line; 0: it has none
     double slip = 0;
-    double jitter_us = 0;                ///< greatest delay of an edge
-    std::vector<parts::SpeedPoint> profile;   ///< instead of the speed, if not empty
+    double jitter_us = 0;                    ///< greatest delay of an edge
+    std::vector<parts::SpeedPoint> profile;  ///< instead of the speed, if not empty
     std::optional<parts::SenderSettings> sender;
-    std::optional<RackParts> passing;    ///< parts before a sensor
+    std::optional<RackParts> passing;  ///< parts before a sensor
 
     /// "mm" or "deg".
     std::string_view unit() const { return rotary ? "deg" : "mm"; }
@@ -48,9 +48,9 @@ inline constexpr double greatest_track_counts = 1e7, greatest_parts = 1e5;
 /// A scan head with its laser over a part; see parts::StationSettings.
 struct RackScanner {
     std::string name;
-    std::string card;                    ///< of type rtc5
-    std::optional<std::string> track;    ///< what carries the part; absent: it lies still
-    double bits_per_mm = 8656;           ///< without a lens
+    std::string card;                  ///< of type rtc5
+    std::optional<std::string> track;  ///< what carries the part; absent: it lies still
+    double bits_per_mm = 8656;         ///< without a lens
     double tolerance_um = 0.2;
     std::int64_t greatest_points = 200'000;
     std::optional<RackLens> lens;

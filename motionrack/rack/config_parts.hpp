@@ -13,24 +13,24 @@
 
 namespace motionrack::rack {
 
-// ---- The tables: one row a key ------------------------------------------------------------------------------------
+// ---- The tables: one row a key
 
-std::span<const Field> rack_fields();        ///< [rack] into RackConfig
-std::span<const Field> card_fields();        ///< [card.NAME] into RackCard, without the settings of its type
-std::span<const Field> axis_fields();        ///< [axis.X] into RackAxis
-std::span<const Field> motor_fields();       ///< [axis.X.motor] into RackMotor
-std::span<const Field> servo_fields();       ///< [axis.X.servo] into RackServo
-std::span<const Field> switch_fields();      ///< [axis.X.switches] into RackSwitches
-std::span<const Field> homing_fields();      ///< [axis.X.homing] into RackHoming
-std::span<const Field> probe_fields();       ///< [probe] into RackProbe
-std::span<const Field> stage_fields();       ///< [stage.NAME] into RackStage
-std::span<const Field> scale_fields();       ///< [stage.NAME.scale] into RackScale
-std::span<const Field> stage_servo_fields(); ///< [stage.NAME.servo] into RackStageServo
-std::span<const Field> track_fields();       ///< [belt.NAME], [table.NAME] into RackTrack
-std::span<const Field> sender_fields();      ///< [belt.NAME.sender] into parts::SenderSettings
-std::span<const Field> passing_fields();     ///< [belt.NAME.parts] into RackParts
-std::span<const Field> scanner_fields();     ///< [scanner.NAME] into RackScanner
-std::span<const Field> controller_fields();  ///< [controller] into RackController
+std::span<const Field> rack_fields();         ///< [rack] into RackConfig
+std::span<const Field> card_fields();         ///< [card.NAME] into RackCard, without the settings of its type
+std::span<const Field> axis_fields();         ///< [axis.X] into RackAxis
+std::span<const Field> motor_fields();        ///< [axis.X.motor] into RackMotor
+std::span<const Field> servo_fields();        ///< [axis.X.servo] into RackServo
+std::span<const Field> switch_fields();       ///< [axis.X.switches] into RackSwitches
+std::span<const Field> homing_fields();       ///< [axis.X.homing] into RackHoming
+std::span<const Field> probe_fields();        ///< [probe] into RackProbe
+std::span<const Field> stage_fields();        ///< [stage.NAME] into RackStage
+std::span<const Field> scale_fields();        ///< [stage.NAME.scale] into RackScale
+std::span<const Field> stage_servo_fields();  ///< [stage.NAME.servo] into RackStageServo
+std::span<const Field> track_fields();        ///< [belt.NAME], [table.NAME] into RackTrack
+std::span<const Field> sender_fields();       ///< [belt.NAME.sender] into parts::SenderSettings
+std::span<const Field> passing_fields();      ///< [belt.NAME.parts] into RackParts
+std::span<const Field> scanner_fields();      ///< [scanner.NAME] into RackScanner
+std::span<const Field> controller_fields();   ///< [controller] into RackController
 
 /// An end of a wire at an axis' parts.
 struct AxisEnd {
@@ -44,7 +44,8 @@ struct AxisEnd {
 std::span<const AxisEnd> axis_ends();
 const AxisEnd* find_axis_end(std::string_view name);
 
-/// An end of a wire at a track, an output; without a card's word the default rule leads it to `pin` of its card, "#" for the encoder's number.
+/// An end of a wire at a track, an output; without a card's word the default rule leads it to `pin` of its card, "#"
+/// for the encoder's number.
 struct TrackEnd {
     std::string_view name;
     std::string_view pin;
@@ -60,7 +61,7 @@ inline constexpr std::string_view probe_doc = "the touch probe: high while it to
 inline constexpr std::array<std::string_view, 6> axis_names = {"X", "Y", "Z", "A", "B", "C"};
 inline constexpr int slot_count = 21;
 
-// ---- Steps of reading ---------------------------------------------------------------------------------------------
+// ---- Steps of reading
 
 /// Where an axis was read from and what of it was refused.
 struct AxisSource {
@@ -82,11 +83,13 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems);
 /// Reads the sections [stage.NAME] into config.stages and checks them against the cards.
 void read_stages(const TomlNode& stages, RackConfig& config, Problems& problems);
 
-/// Reads the sections [belt.NAME] and [table.NAME] into config.tracks and [scanner.NAME] into config.scanners; each may be nullptr. Checks them
-/// against the cards and each other.
-void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config, Problems& problems);
+/// Reads the sections [belt.NAME] and [table.NAME] into config.tracks and [scanner.NAME] into config.scanners; each may
+/// be nullptr. Checks them against the cards and each other.
+void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config,
+                  Problems& problems);
 
-/// Whether wires, faults and reports can call something so: 1 to 32 letters, digits and '_', not beginning with a digit.
+/// Whether wires, faults and reports can call something so: 1 to 32 letters, digits and '_', not beginning with a
+/// digit.
 bool is_name(std::string_view name);
 
 /// Sets the wires of `config`: the default rule, changed by the file's [wires] (may be nullptr); and their links.

@@ -13,21 +13,26 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
         const std::string key = fmt::format("{}_from_mm", static_cast<char>(letter - 'A' + 'a'));
         const std::optional<double> from = probe.from(axis), to = probe.to(axis);
         if (from && to && *from >= *to) {
-            problems.error(node.place_of(key), fmt::format("The block of the probe goes from {} to {} mm along {}; its first end must be below the other.",
-                                                           *from, *to, letter));
+            problems.error(
+                node.place_of(key),
+                fmt::format(
+                    "The block of the probe goes from {} to {} mm along {}; its first end must be below the other.",
+                    *from, *to, letter));
         }
         if ((from || to) && config.axis(letter) == nullptr) {
             problems.error(node.place_of(from ? key : fmt::format("{}_to_mm", static_cast<char>(letter - 'A' + 'a'))),
-                           fmt::format("The block of the probe has an end along {}, but the rack has no axis {}.", letter, letter));
+                           fmt::format("The block of the probe has an end along {}, but the rack has no axis {}.",
+                                       letter, letter));
         }
     }
     for (const RackAxis& axis : config.axes) {
         const RackCard* card = config.card(axis.card);
         if (card == nullptr || card->type.empty()) continue;  // told already
         if (card->type == "mcx314" && card->mcx314.variant == Mcx314Variant::mcx314as) continue;
-        problems.error(node.key_place,
-                       fmt::format("The rack has a probe, but card {} of axis {} cannot catch positions; it must be of type mcx314 with variant = "
-                                   "\"mcx314as\".", card->name, axis.letter));
+        problems.error(node.key_place, fmt::format("The rack has a probe, but card {} of axis {} cannot catch "
+                                                   "positions; it must be of type mcx314 with variant = "
+                                                   "\"mcx314as\".",
+                                                   card->name, axis.letter));
         break;
     }
     config.probe = probe;

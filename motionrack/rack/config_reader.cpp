@@ -10,7 +10,8 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 10> top_level = {"rack", "card", "axis", "probe", "stage", "belt", "table", "scanner", "controller", "wires"};
+constexpr std::array<std::string_view, 10> top_level = {"rack", "card",  "axis",    "probe",      "stage",
+                                                        "belt", "table", "scanner", "controller", "wires"};
 constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
 
 class RackReader {
@@ -56,7 +57,7 @@ class RackReader {
         return false;
     }
 
-    // ---- Cards ----
+    // ---- Cards
 
     void read_cards() {
         const TomlNode* cards = root_.find("card");
@@ -179,7 +180,7 @@ class RackReader {
         }
     }
 
-    // ---- Axes ----
+    // ---- Axes
 
     void read_axes() {
         if (alone_ && !config_.cards[0].type.empty()) return add_ideal_axes();
@@ -236,8 +237,8 @@ class RackReader {
         sources_.push_back(std::move(source));
     }
 
-    /// A card alone with several channels drives ideal axes: one encoder count a pulse, no steps lost, no switches, more travel than anyone
-    /// needs.
+    /// A card alone with several channels drives ideal axes: one encoder count a pulse, no steps lost, no switches,
+    /// more travel than anyone needs.
     void add_ideal_axes() {
         const RackCard& card = config_.cards[0];
         const CardType& type = *find_card_type(card.type);

@@ -15,16 +15,20 @@ constexpr std::array<std::string_view, 2> stage_tables = {"scale", "servo"};
 constexpr std::array<std::string_view, 3> profiles = {"hold", "scan", "steps"};
 
 constexpr std::array<Field, 12> stage_table = {
-    required(field<&RackStage::card>("card", 1, 32, "", "name of the card (type grating_bus) that drives it"), "required"),
+    required(field<&RackStage::card>("card", 1, 32, "", "name of the card (type grating_bus) that drives it"),
+             "required"),
     field<&RackStage::output>("output", 0, grating_bus::output_count - 1, "", "number of the card's analog output"),
     required(field<&RackStage::input>("input", 0, 254, "", "number of its scale at the decoder"), "required"),
-    field<&RackStage::accel_per_volt_m_s2>("accel_per_volt_m_s2", 0.001, 1'000, "m/s2", "acceleration for a volt, without the load"),
-    field<&RackStage::top_accel_m_s2>("top_accel_m_s2", 0.001, 1'000, "m/s2", "acceleration at the current limit, without the load"),
+    field<&RackStage::accel_per_volt_m_s2>("accel_per_volt_m_s2", 0.001, 1'000, "m/s2",
+                                           "acceleration for a volt, without the load"),
+    field<&RackStage::top_accel_m_s2>("top_accel_m_s2", 0.001, 1'000, "m/s2",
+                                      "acceleration at the current limit, without the load"),
     field<&RackStage::top_speed_m_s>("top_speed_m_s", 0.001, 10, "m/s", "there the amplifier's voltage is used up"),
     field<&RackStage::viscous_per_s>("viscous_per_s", 0, 100, "1/s", "brake that grows with the speed, m/s2 for a m/s"),
     field<&RackStage::coulomb_m_s2>("coulomb_m_s2", 0, 1'000, "m/s2", "brake of rubbing parts"),
     field<&RackStage::load>("load", 0, 1'000, "", "mass on the stage in units of its own"),
-    absent_means(field<&RackStage::start_mm>("start_mm", -1e4, 1e4, "mm", "where it stands at the start"), "where its servo's profile begins"),
+    absent_means(field<&RackStage::start_mm>("start_mm", -1e4, 1e4, "mm", "where it stands at the start"),
+                 "where its servo's profile begins"),
     field<&RackStage::end_minus_mm>("end_minus_mm", -1e4, 1e4, "mm", "end of travel"),
     field<&RackStage::end_plus_mm>("end_plus_mm", -1e4, 1e4, "mm", "end of travel"),
 };
@@ -34,8 +38,10 @@ constexpr std::array<Field, 7> scale_table = {
     field<&RackScale::interpolation>("interpolation", 4, 65'536, "", "counts of a pitch, a multiple of 4"),
     field<&RackScale::reversed>("reversed", 0, 1, "", "it counts down where the stage goes up"),
     field<&RackScale::zero_mm>("zero_mm", -1e4, 1e4, "mm", "where its count is 0"),
-    field<&RackScale::fastest_mhz>("fastest_mhz", 0.001, 1'000, "MHz", "million counts a second; what is quicker is lost"),
-    absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "where the reference mark is"), "no such mark"),
+    field<&RackScale::fastest_mhz>("fastest_mhz", 0.001, 1'000, "MHz",
+                                   "million counts a second; what is quicker is lost"),
+    absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "where the reference mark is"),
+                 "no such mark"),
     field<&RackScale::dirt_at_mm>("dirt_at_mm", -1e4, 1e4, "mm", "where the dirt of the fault scale.dirt begins"),
 };
 
@@ -43,9 +49,12 @@ constexpr std::array<Field, 16> servo_table = {
     field<&RackStageServo::bandwidth_hz>("bandwidth_hz", 1, 10'000, "Hz", "there the open loop crosses 1"),
     absent_means(field<&RackStageServo::p_v_um>("p_v_um", 0, 1e6, "V/um", "proportional gain"), "by the bandwidth"),
     absent_means(field<&RackStageServo::i_v_um_s>("i_v_um_s", 0, 1e9, "V/(um s)", "integral gain"), "by the bandwidth"),
-    absent_means(field<&RackStageServo::d_v_s_um>("d_v_s_um", 0, 1e6, "V s/um", "differential gain"), "by the bandwidth"),
-    field<&RackStageServo::limit_um>("limit_um", 0, 1e6, "um", "a greater following error opens the loop; 0: none does"),
-    field<&RackStageServo::compute_us>("compute_us", 0, 100'000, "us", "from the frame to the voltage, less than a period"),
+    absent_means(field<&RackStageServo::d_v_s_um>("d_v_s_um", 0, 1e6, "V s/um", "differential gain"),
+                 "by the bandwidth"),
+    field<&RackStageServo::limit_um>("limit_um", 0, 1e6, "um",
+                                     "a greater following error opens the loop; 0: none does"),
+    field<&RackStageServo::compute_us>("compute_us", 0, 100'000, "us",
+                                       "from the frame to the voltage, less than a period"),
     with_choices(field<&RackStageServo::profile>("profile", 0, 0, "", "where it goes"), profiles),
     field<&RackStageServo::from_mm>("from_mm", -1e4, 1e4, "mm", "scan: at constant speed from here"),
     field<&RackStageServo::to_mm>("to_mm", -1e4, 1e4, "mm", "to here, and back"),
@@ -64,9 +73,11 @@ class StageReader {
 
     void read(const TomlNode& node) {
         if (!is_name(node.key) || node.key == "estop" || config_.card(node.key) != nullptr || node.key.size() == 1) {
-            problems_.error(node.key_place, fmt::format("{} cannot be a stage's name: 2 to 32 letters, digits and '_', not beginning with a digit, "
-                                                        "not the name of a card, not estop.",
-                                                        in_quotes(node.key)));
+            problems_.error(
+                node.key_place,
+                fmt::format("{} cannot be a stage's name: 2 to 32 letters, digits and '_', not beginning with a digit, "
+                            "not the name of a card, not estop.",
+                            in_quotes(node.key)));
             return;
         }
         if (!is_table(node, "stage." + node.key)) return;
@@ -74,8 +85,10 @@ class StageReader {
         stage.name = node.key;
         const std::string name = "stage " + node.key;
         bool sound = read_fields(node, stage_fields(), &stage, {name, "", "", stage_tables}, problems_).empty();
-        if (const TomlNode* scale = node.find("scale")) sound = read_sub(*scale, name, scale_fields(), &stage.scale) && sound;
-        if (const TomlNode* servo = node.find("servo")) sound = read_sub(*servo, name, stage_servo_fields(), &stage.servo.emplace()) && sound;
+        if (const TomlNode* scale = node.find("scale"))
+            sound = read_sub(*scale, name, scale_fields(), &stage.scale) && sound;
+        if (const TomlNode* servo = node.find("servo"))
+            sound = read_sub(*servo, name, stage_servo_fields(), &stage.servo.emplace()) && sound;
         if (!sound) return;
         check(stage, node);
         config_.stages.push_back(std::move(stage));
@@ -84,12 +97,15 @@ class StageReader {
   private:
     bool is_table(const TomlNode& node, const std::string& path) {
         if (node.type == TomlType::table) return true;
-        problems_.error(node.value_place, fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", path,
-                                                      type_name(node.type), path));
+        problems_.error(
+            node.value_place,
+            fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", path,
+                        type_name(node.type), path));
         return false;
     }
     bool read_sub(const TomlNode& node, const std::string& stage, std::span<const Field> fields, void* object) {
-        return is_table(node, stage + "." + node.key) && read_fields(node, fields, object, {node.key + " of " + stage, "", "", {}}, problems_).empty();
+        return is_table(node, stage + "." + node.key) &&
+               read_fields(node, fields, object, {node.key + " of " + stage, "", "", {}}, problems_).empty();
     }
     void refuse(const TomlNode& node, std::string_view key, std::string text) {
         problems_.error(node.place_of(key), fmt::format("Stage {}: {}", node.key, text));
@@ -98,20 +114,32 @@ class StageReader {
     void check(const RackStage& stage, const TomlNode& node) {
         const RackCard* card = config_.card(stage.card);
         if (card == nullptr) return refuse(node, "card", fmt::format("there is no card {}.", in_quotes(stage.card)));
-        if (card->type != "grating_bus") return refuse(node, "card", fmt::format("card {} is of type {}; one of type grating_bus drives a stage.", stage.card, card->type));
+        if (card->type != "grating_bus")
+            return refuse(
+                node, "card",
+                fmt::format("card {} is of type {}; one of type grating_bus drives a stage.", stage.card, card->type));
         for (const RackStage& other : config_.stages) {
             if (other.card == stage.card && other.output == stage.output)
-                refuse(node, "output", fmt::format("output {} of card {} drives stage {} already.", stage.output, stage.card, other.name));
-            if (other.input == stage.input) refuse(node, "input", fmt::format("scale {} of the decoder is that of stage {} already.", stage.input, other.name));
+                refuse(
+                    node, "output",
+                    fmt::format("output {} of card {} drives stage {} already.", stage.output, stage.card, other.name));
+            if (other.input == stage.input)
+                refuse(node, "input",
+                       fmt::format("scale {} of the decoder is that of stage {} already.", stage.input, other.name));
         }
         const GratingBusSettings& bus = card->grating_bus;
         std::int64_t scales = bus.first + bus.scales;
         for (const RackCard& other : config_.cards)
             if (other.type == "grating_decoder") scales = other.grating_decoder.scales;
-        if (stage.input >= scales) refuse(node, "input", fmt::format("its scale is number {}, but the decoder has {} (0 to {}).", stage.input, scales, scales - 1));
+        if (stage.input >= scales)
+            refuse(node, "input",
+                   fmt::format("its scale is number {}, but the decoder has {} (0 to {}).", stage.input, scales,
+                               scales - 1));
         if (stage.servo && (stage.input < bus.first || stage.input >= bus.first + bus.scales))
-            refuse(node, "input", fmt::format("card {} cannot close its loop: it reads the scales {} to {}, and its scale is number {}.", stage.card, bus.first,
-                                              bus.first + bus.scales - 1, stage.input));
+            refuse(
+                node, "input",
+                fmt::format("card {} cannot close its loop: it reads the scales {} to {}, and its scale is number {}.",
+                            stage.card, bus.first, bus.first + bus.scales - 1, stage.input));
         check_scale(stage, node);
         if (check_servo(stage, node)) check_place(stage, node);
     }
@@ -119,27 +147,37 @@ class StageReader {
         const TomlNode* table = node.find("scale");
         if (table == nullptr) return;
         const double pm = stage.scale.pitch_um * 1e6;
-        if (std::fabs(pm - std::floor(pm + 0.5)) > 1e-6) refuse(*table, "pitch_um", fmt::format("a pitch of {} um is no whole number of picometres.", number_text(stage.scale.pitch_um)));
+        if (std::fabs(pm - std::floor(pm + 0.5)) > 1e-6)
+            refuse(
+                *table, "pitch_um",
+                fmt::format("a pitch of {} um is no whole number of picometres.", number_text(stage.scale.pitch_um)));
         if (stage.scale.interpolation % 4 != 0)
-            refuse(*table, "interpolation", fmt::format("{} counts of a pitch are no multiple of 4, so that A and B could not show them.", stage.scale.interpolation));
+            refuse(*table, "interpolation",
+                   fmt::format("{} counts of a pitch are no multiple of 4, so that A and B could not show them.",
+                               stage.scale.interpolation));
     }
     bool check_servo(const RackStage& stage, const TomlNode& node) {
         if (!stage.servo) return true;
         const TomlNode& table = *node.find("servo");
         if (stage.servo->compute_us >= config_.card(stage.card)->grating_bus.period_us)
-            refuse(table, "compute_us", fmt::format("computing takes {} us, but there is a frame every {} us.", number_text(stage.servo->compute_us),
-                                                    number_text(config_.card(stage.card)->grating_bus.period_us)));
+            refuse(table, "compute_us",
+                   fmt::format("computing takes {} us, but there is a frame every {} us.",
+                               number_text(stage.servo->compute_us),
+                               number_text(config_.card(stage.card)->grating_bus.period_us)));
         const std::string flaw = profile_flaw(stage);
         if (!flaw.empty()) refuse(table, "profile", flaw);
         return flaw.empty();
     }
     void check_place(const RackStage& stage, const TomlNode& node) {
         if (!(stage.end_minus_mm < stage.end_plus_mm))
-            return refuse(node, "end_plus_mm", fmt::format("its ends of travel are {} and {} mm; the first must be the smaller.", number_text(stage.end_minus_mm), number_text(stage.end_plus_mm)));
+            return refuse(node, "end_plus_mm",
+                          fmt::format("its ends of travel are {} and {} mm; the first must be the smaller.",
+                                      number_text(stage.end_minus_mm), number_text(stage.end_plus_mm)));
         const double start = motor_settings(stage).start_nm * 1e-6;
         if (start < stage.end_minus_mm || start > stage.end_plus_mm)
-            refuse(node, "start_mm", fmt::format("it starts at {} mm, beyond its ends of travel at {} and {} mm.", number_text(start), number_text(stage.end_minus_mm),
-                                                 number_text(stage.end_plus_mm)));
+            refuse(node, "start_mm",
+                   fmt::format("it starts at {} mm, beyond its ends of travel at {} and {} mm.", number_text(start),
+                               number_text(stage.end_minus_mm), number_text(stage.end_plus_mm)));
     }
 
     RackConfig& config_;
@@ -148,9 +186,15 @@ class StageReader {
 
 }  // namespace
 
-std::span<const Field> stage_fields() { return stage_table; }
-std::span<const Field> scale_fields() { return scale_table; }
-std::span<const Field> stage_servo_fields() { return servo_table; }
+std::span<const Field> stage_fields() {
+    return stage_table;
+}
+std::span<const Field> scale_fields() {
+    return scale_table;
+}
+std::span<const Field> stage_servo_fields() {
+    return servo_table;
+}
 
 bool is_name(std::string_view name) {
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };

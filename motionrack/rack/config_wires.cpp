@@ -43,13 +43,15 @@ class WireResolver {
                 connect(fmt::format("{}.{}{}", axis.card, axis.channel, wire.pin),
                         fmt::format("{}.{}", axis.letter, wire.end));
             }
-            if (!type.probe_pin.empty()) connect(fmt::format("{}.{}{}", axis.card, axis.channel, type.probe_pin), "probe");
+            if (!type.probe_pin.empty())
+                connect(fmt::format("{}.{}{}", axis.card, axis.channel, type.probe_pin), "probe");
         }
         for (const RackTrack& track : config_.tracks)
             for (const TrackEnd& end : track_ends()) {
                 if (!track.card) continue;
                 std::string pin(end.pin);
-                if (const std::size_t at = pin.find('#'); at != std::string::npos) pin.replace(at, 1, std::to_string(track.encoder));
+                if (const std::size_t at = pin.find('#'); at != std::string::npos)
+                    pin.replace(at, 1, std::to_string(track.encoder));
                 connect(fmt::format("{}.{}", *track.card, pin), fmt::format("{}.{}", track.name, end.name));
             }
         for (const RackCard& card : config_.cards) {
@@ -100,14 +102,20 @@ class WireResolver {
             return;
         }
         for (Pin& pin : pins_of(card)) {
-            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, pin.volts > 0 ? voltage : pin.bits > 1 ? number : logic, {}};
+            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name},
+                                                  pin.direction,
+                                                  pin.volts > 0  ? voltage
+                                                  : pin.bits > 1 ? number
+                                                                 : logic,
+                                                  {}};
         }
     }
 
     void add_axis(int index) {
         const RackAxis& axis = config_.axes[static_cast<std::size_t>(index)];
         for (const AxisEnd& end : axis_ends()) {
-            KnownEnd known{{EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0 ? voltage : logic, {}};
+            KnownEnd known{
+                {EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0 ? voltage : logic, {}};
             if (!end.present(axis)) {
                 known.missing =
                     fmt::format("axis {} needs {} to have it", axis.letter, with_unit(end.needs, axis.unit()));
@@ -119,8 +127,12 @@ class WireResolver {
     void add_track(int index) {
         const RackTrack& track = config_.tracks[static_cast<std::size_t>(index)];
         for (const TrackEnd& end : track_ends()) {
-            KnownEnd known{{EndOwner::track, index, std::string(end.name)}, PinDirection::output, end.bits > 1 ? number : logic, {}};
-            if (!end.present(track)) known.missing = fmt::format("{} needs {} to have it", track.name, with_unit(end.needs, track.unit()));
+            KnownEnd known{{EndOwner::track, index, std::string(end.name)},
+                           PinDirection::output,
+                           end.bits > 1 ? number : logic,
+                           {}};
+            if (!end.present(track))
+                known.missing = fmt::format("{} needs {} to have it", track.name, with_unit(end.needs, track.unit()));
             known_[fmt::format("{}.{}", track.name, end.name)] = std::move(known);
         }
     }
@@ -153,16 +165,15 @@ class WireResolver {
             hint = did_you_mean(name, names);
         }
         error(place, fmt::format("No card, axis or part of this rack has the pin {}{}", in_quotes(name),
-                                           hint.empty() ? "." : hint));
+                                 hint.empty() ? "." : hint));
         return nullptr;
     }
 
     void read_wire(const std::string& name, const TomlNode& node) {
         if (node.type != TomlType::text) {
-            error(
-                node.value_place,
-                fmt::format("The wire {} is {}; write what drives it in quotes, such as \"X.home\", or \"open\".",
-                            in_quotes(name), type_name(node.type)));
+            error(node.value_place,
+                  fmt::format("The wire {} is {}; write what drives it in quotes, such as \"X.home\", or \"open\".",
+                              in_quotes(name), type_name(node.type)));
             return;
         }
         const KnownEnd* left = find_end(name, node.key_place);
@@ -172,10 +183,9 @@ class WireResolver {
         }
         if (node.text == "open") {
             if (left != nullptr && left->direction == PinDirection::output) {
-                error(
-                    node.key_place,
-                    fmt::format("{} is an output; to leave it open, write \"open\" for each input that it drives.",
-                                name));
+                error(node.key_place,
+                      fmt::format("{} is an output; to leave it open, write \"open\" for each input that it drives.",
+                                  name));
             } else {
                 wires_.erase(name);
                 if (left != nullptr && left->end.owner == EndOwner::card) open_.push_back(left->end);
@@ -191,19 +201,18 @@ class WireResolver {
         if (name == node.text) {
             error(node.key_place, fmt::format("{} is wired to itself.", name));
         } else if (left.direction == output && right.direction == output) {
-            error(
-                node.key_place,
-                fmt::format("{} and {} are both outputs and would drive against each other; write input = output.",
-                            name, node.text));
+            error(node.key_place,
+                  fmt::format("{} and {} are both outputs and would drive against each other; write input = output.",
+                              name, node.text));
         } else if (left.direction == output) {
-            error(
-                node.key_place,
-                fmt::format("{0} is an output and {1} an input; the input stands left: write \"{1}\" = \"{0}\".", name,
-                            node.text));
+            error(node.key_place,
+                  fmt::format("{0} is an output and {1} an input; the input stands left: write \"{1}\" = \"{0}\".",
+                              name, node.text));
         } else if (right.direction == input) {
             inputs_[name] = &node;
         } else if (left.carries != right.carries) {
-            error(node.key_place, fmt::format("{} is {} and {} {}; they cannot be wired together.", name, left.carries, node.text, right.carries));
+            error(node.key_place, fmt::format("{} is {} and {} {}; they cannot be wired together.", name, left.carries,
+                                              node.text, right.carries));
         } else {
             wires_.insert_or_assign(name, RackWire{right.end, left.end, false});
         }
@@ -222,13 +231,11 @@ class WireResolver {
             }
             if (at->text == name) {
                 told.insert(way.begin(), way.end());
-                error(node->key_place,
-                                fmt::format("These wires go round in a circle: {} = {}; no output drives them.",
-                                            fmt::join(way, " = "), name));
+                error(node->key_place, fmt::format("These wires go round in a circle: {} = {}; no output drives them.",
+                                                   fmt::join(way, " = "), name));
             } else {
-                error(
-                    node->key_place,
-                    fmt::format("{} and {} are both inputs; name the output that drives {}.", name, node->text, name));
+                error(node->key_place, fmt::format("{} and {} are both inputs; name the output that drives {}.", name,
+                                                   node->text, name));
             }
         }
     }
@@ -247,9 +254,10 @@ class WireResolver {
                 const auto its = wires_.find(each.first);
                 return its != wires_.end() && its->second.from == output;
             });
-            error(named != named_.end() ? named->second->key_place : Place{},
-                  fmt::format("{} drives more than {} inputs, the most that one output can drive here; leave some open.", from,
-                              most_inputs));
+            error(
+                named != named_.end() ? named->second->key_place : Place{},
+                fmt::format("{} drives more than {} inputs, the most that one output can drive here; leave some open.",
+                            from, most_inputs));
         }
     }
 
@@ -278,7 +286,8 @@ void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems
     config.wires = resolver.take();
     config.open = resolver.take_open();
     if (!resolver.sound()) return;  // one mistake, one error
-    resolve_links(config, [&](const std::string& input) { return resolver.place_of(input); }, problems);
+    resolve_links(
+        config, [&](const std::string& input) { return resolver.place_of(input); }, problems);
 }
 
 }  // namespace motionrack::rack

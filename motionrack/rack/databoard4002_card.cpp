@@ -1,4 +1,5 @@
-// The DataBoard 4002 in a rack: all of a rack share one bus. An ideal motor follows the pulses of a card without an axis.
+// The DataBoard 4002 in a rack: all of a rack share one bus. An ideal motor follows the pulses of a card without an
+// axis.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,7 +85,8 @@ class Databoard4002Card final : public MotionCard {
         : name_(config.name),
           card_(kernel, config.name, settings_of(config.databoard4002)),
           bus_(bus ? std::move(bus) : std::make_shared<db::Bus>(kernel, "databoard")),
-          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns), &log) {
+          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns),
+                &log) {
         bus_->plug(card_, static_cast<std::uint8_t>(config.databoard4002.select));
     }
 
@@ -110,7 +112,8 @@ class Databoard4002Card final : public MotionCard {
             more.push_back(value.name);
         }
         for (const RegisterInfo& reg : map().registers)
-            if (reg.name == name && reg.access != Access::write && reg.bank.empty()) return card_.peek(static_cast<std::uint8_t>(reg.offset));
+            if (reg.name == name && reg.access != Access::write && reg.bank.empty())
+                return card_.peek(static_cast<std::uint8_t>(reg.offset));
         return no_such_value(*this, name, more);
     }
     std::vector<std::string> value_names() const override {
@@ -144,7 +147,9 @@ class Databoard4002Card final : public MotionCard {
         return pins;
     }
     Result<control::PathAxes*> path_axes(const RackConfig&, const std::optional<control::Point>&) override {
-        return fail(Trouble::refused, fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
+        return fail(
+            Trouble::refused,
+            fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
     }
     Result<control::Axis*> axis(const RackConfig& config, char letter) override {
         if (axis_) return axis_.get();

@@ -15,10 +15,12 @@ Result<std::vector<TimedText>> read_faults(const std::vector<std::string>& texts
     for (const std::string& text : texts) {
         std::optional<TimedText> timed = read_timed_text(text);
         if (!timed)
-            return fail(Trouble::bad_input,
-                        fmt::format("The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
-                                    "X.encoder.broken_a@20ms. Nothing was moved.",
-                                    in_quotes(text), most_planned_seconds));
+            return fail(
+                Trouble::bad_input,
+                fmt::format(
+                    "The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
+                    "X.encoder.broken_a@20ms. Nothing was moved.",
+                    in_quotes(text), most_planned_seconds));
         faults.push_back(std::move(*timed));
     }
     return faults;
@@ -52,22 +54,24 @@ Result<void> FaultPlan::read_action(const std::string& text, std::string_view ac
         fault.name = name;
         fault.value = number_of(value);
         if (std::isnan(fault.value) && value != "release")
-            return fail(Trouble::bad_input, fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
-                                                        "moved.",
-                                                        in_quotes(text), in_quotes(value)));
+            return fail(Trouble::bad_input,
+                        fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
+                                    "moved.",
+                                    in_quotes(text), in_quotes(value)));
         return desk_.check(name, fault.value);
     }
     const std::size_t dot = action.find('.');
     if (dot == std::string_view::npos)
-        return fail(Trouble::bad_input, fmt::format("The fault {} names neither a wire (X.limit_plus, estop) nor a fault of an axis "
-                                                    "(X.encoder.broken_a). Nothing was moved.",
-                                                    in_quotes(text)));
+        return fail(Trouble::bad_input,
+                    fmt::format("The fault {} names neither a wire (X.limit_plus, estop) nor a fault of an axis "
+                                "(X.encoder.broken_a). Nothing was moved.",
+                                in_quotes(text)));
     fault.target = action.substr(0, dot);
     fault.name = action.substr(dot + 1);
     const Result<void> known = check_fault(rack_, fault.name, fault.target);
     if (!known && known.error().trouble == Trouble::bad_input)
-        return fail(Trouble::bad_input, fmt::format("The fault {}: {} {}", in_quotes(text), desk_.check(name, 1).error().message,
-                                                    known.error().message));
+        return fail(Trouble::bad_input, fmt::format("The fault {}: {} {}", in_quotes(text),
+                                                    desk_.check(name, 1).error().message, known.error().message));
     return known;
 }
 
@@ -85,8 +89,8 @@ void FaultPlan::apply_due() {
     for (PlannedFault& fault : faults_) {
         if (fault.done || fault.at > rack_.kernel().now()) continue;
         fault.done = true;
-        const Result<void> done = fault.target.empty() ? desk_.set(fault.name, fault.value)
-                                                       : inject_fault(rack_, fault.name, fault.target);
+        const Result<void> done =
+            fault.target.empty() ? desk_.set(fault.name, fault.value) : inject_fault(rack_, fault.name, fault.target);
         if (!done) fault.refused = done.error().message;  // only the part itself knows which values it can have
     }
 }

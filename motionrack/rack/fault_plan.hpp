@@ -12,10 +12,10 @@
 
 namespace motionrack::rack {
 
-/// NAME[=VALUE]@TIME as a user writes it. NAME is a wire that can be driven (VALUE 0, 1 or release), or TARGET.FAULT (see
-/// faults.hpp; without a VALUE 1). TIME is since the rack was started: a number with s, ms or us.
+/// NAME[=VALUE]@TIME as a user writes it. NAME is a wire that can be driven (VALUE 0, 1 or release), or TARGET.FAULT
+/// (see faults.hpp; without a VALUE 1). TIME is since the rack was started: a number with s, ms or us.
 struct PlannedFault {
-    std::string text;    ///< what the user wrote
+    std::string text;  ///< what the user wrote
     Instant at{};
     std::string name;    ///< of the wire; of the fault with its value
     std::string target;  ///< of the fault; empty: it is a wire
@@ -29,8 +29,8 @@ Result<std::vector<TimedText>> read_faults(const std::vector<std::string>& texts
 
 class FaultPlan final : public sim::Device {
   public:
-    /// Before the rack is started; nothing is planned if it fails. Errors: bad_input and refused, for the first text that
-    /// cannot be obeyed.
+    /// Before the rack is started; nothing is planned if it fails. Errors: bad_input and refused, for the first text
+    /// that cannot be obeyed.
     static Result<std::unique_ptr<FaultPlan>> create(Rack& rack, const std::vector<std::string>& texts);
     static Result<std::unique_ptr<FaultPlan>> create_timed(Rack& rack, const std::vector<TimedText>& faults);
 

@@ -15,10 +15,13 @@ namespace {
 constexpr double most = greatest_push;
 
 /// Faults of the encoder's tracks where they are wires; what else an encoder can have is the machine's.
-constexpr std::array<std::string_view, 7> line_faults = {"encoder.inverted_a", "encoder.inverted_b", "encoder.noise", "encoder.jitter",
-                                                         "encoder.dirt", "encoder.overspeed", "encoder.eccentricity"};
+constexpr std::array<std::string_view, 7> line_faults = {
+    "encoder.inverted_a", "encoder.inverted_b", "encoder.noise",       "encoder.jitter",
+    "encoder.dirt",       "encoder.overspeed",  "encoder.eccentricity"};
 
-bool of_lines(std::string_view fault) { return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end(); }
+bool of_lines(std::string_view fault) {
+    return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end();
+}
 
 /// A part that takes faults: an axis' machine or servo, a stage's motor or scale, a belt or table, or a card.
 struct Found {
@@ -40,7 +43,9 @@ bool has_part(const RunningAxis& axis, std::string_view fault) {
     if (part == "limit_minus") return machine.limit_minus().present();
     if (part == "limit_plus") return machine.limit_plus().present();
     if (part == "home") return machine.home().present();
-    const auto knows = [fault](std::span<const std::string_view> names) { return std::find(names.begin(), names.end(), fault) != names.end(); };
+    const auto knows = [fault](std::span<const std::string_view> names) {
+        return std::find(names.begin(), names.end(), fault) != names.end();
+    };
     return axis.servo ? knows(parts::DcMotor::fault_names()) : knows(parts::AxisMachine::fault_names());
 }
 
@@ -79,8 +84,9 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         add(track.config.name);
     }
     if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr && found.track == nullptr)
-        return fail(Trouble::bad_input, fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
-                                                    in_quotes(target), targets.empty() ? "there are none" : targets));
+        return fail(Trouble::bad_input,
+                    fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
+                                in_quotes(target), targets.empty() ? "there are none" : targets));
     const std::size_t equals = fault.find('=');
     found.name = fault.substr(0, equals);
     const auto names = names_of(found);
@@ -91,19 +97,22 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         const std::string_view text = fault.substr(equals + 1);
         found.value = number_of(text);
         if (!(std::fabs(found.value) <= most))
-            return fail(Trouble::refused, fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
-                                                      found.name, in_quotes(text), -most, most));
+            return fail(Trouble::refused,
+                        fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
+                                    found.name, in_quotes(text), -most, most));
     }
     if (found.axis != nullptr && !has_part(*found.axis, found.name))
-        return fail(Trouble::refused, fmt::format("Axis {} has nothing that could have the fault {}; see its section of the rack "
-                                                  "file. Nothing was done.",
-                                                  target, found.name));
+        return fail(Trouble::refused,
+                    fmt::format("Axis {} has nothing that could have the fault {}; see its section of the rack "
+                                "file. Nothing was done.",
+                                target, found.name));
     return found;
 }
 
 sim::DeviceId device_of(const Found& found) {
     if (found.card != nullptr) return found.card->device();
-    if (found.stage != nullptr) return found.name.substr(0, 6) == "scale." ? found.stage->scale->id() : found.stage->motor->id();
+    if (found.stage != nullptr)
+        return found.name.substr(0, 6) == "scale." ? found.stage->scale->id() : found.stage->motor->id();
     if (found.track != nullptr) return found.track->device_of(found.name);
     if (found.of_servo()) return found.axis->servo->id();
     return of_lines(found.name) ? found.axis->lines->id() : found.axis->machine->id();
@@ -149,9 +158,11 @@ Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view t
     sim::Input input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
     input.offset = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), found.name) - names.begin());
     rack.input_log().add(input);
-    const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now) : rack.kernel().device(device).fault(found.name, found.value, now);
+    const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)
+                                             : rack.kernel().device(device).fault(found.name, found.value, now);
     if (!known)
-        return fail(Trouble::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.", target, found.name, found.value));
+        return fail(Trouble::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.",
+                                                  target, found.name, found.value));
     rack.kernel().settle();
     return {};
 }

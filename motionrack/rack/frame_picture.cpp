@@ -11,8 +11,12 @@ namespace {
 
 namespace gb = grating_bus;
 
-std::string state_name(std::uint32_t state) { return fmt::format("S{}", state); }
-std::string address_name(std::uint32_t address) { return fmt::format("{}", address); }
+std::string state_name(std::uint32_t state) {
+    return fmt::format("S{}", state);
+}
+std::string address_name(std::uint32_t address) {
+    return fmt::format("{}", address);
+}
 
 /// Collects the changes of chosen wires.
 class Collector final : public sim::Kernel::WireObserver {
@@ -41,7 +45,8 @@ void choose_all(Collector& collector, const sim::Kernel& kernel, const gb::Bus& 
     }
     for (const gb::LineType& line : gb::line_types) {
         const bool address = line.name == "addr";
-        choose(collector, kernel, fmt::format("bus.{}", line.name), {std::string(line.name), line.bits > 1, {}, address ? address_name : nullptr, line.rest});
+        choose(collector, kernel, fmt::format("bus.{}", line.name),
+               {std::string(line.name), line.bits > 1, {}, address ? address_name : nullptr, line.rest});
     }
     choose(collector, kernel, "bus.conflict", {"conflict", false, {}, nullptr, 0});
     const gb::Card& first = *bus.cards().front();
@@ -59,7 +64,8 @@ Result<std::string> frame_picture(const RackConfig& config, int frame) {
     Rack rack(config);
     const gb::Bus* bus = grating_bus_of(rack);
     if (bus == nullptr || bus->cards().empty())
-        return fail(Trouble::refused, "The rack has no card of type grating_bus, so there is no frame to draw. Nothing was written.");
+        return fail(Trouble::refused,
+                    "The rack has no card of type grating_bus, so there is no frame to draw. Nothing was written.");
     WireTap tap(rack.kernel());
     rack.start();
     const gb::CardSettings& settings = bus->cards().front()->settings();
@@ -80,10 +86,13 @@ Result<std::string> frame_picture(const RackConfig& config, int frame) {
     }
     std::vector<trace::SvgMark> marks;
     const int every = std::max(1, settings.scales / 8);
-    for (int k = 0; k < settings.scales; k += every) marks.push_back({to_seconds(settings.timing.sample_at(k)), fmt::format("word {}", k)});
-    const std::string title = fmt::format("Frame of {} scales, {} card{}: {:.0f} ns", settings.scales, bus->cards().size(), bus->cards().size() == 1 ? "" : "s",
-                                          to_seconds(length) * 1e9);
-    return trace::svg_waves(title, waves, marks, -to_seconds(settings.timing.clock), to_seconds(end - from), {1300, 0, true});
+    for (int k = 0; k < settings.scales; k += every)
+        marks.push_back({to_seconds(settings.timing.sample_at(k)), fmt::format("word {}", k)});
+    const std::string title =
+        fmt::format("Frame of {} scales, {} card{}: {:.0f} ns", settings.scales, bus->cards().size(),
+                    bus->cards().size() == 1 ? "" : "s", to_seconds(length) * 1e9);
+    return trace::svg_waves(title, waves, marks, -to_seconds(settings.timing.clock), to_seconds(end - from),
+                            {1300, 0, true});
 }
 
 }  // namespace motionrack::rack

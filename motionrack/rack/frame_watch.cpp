@@ -24,7 +24,8 @@ void FrameWatch::began(const gb::Card& card, Instant now) {
     Watched& own = watched(card);
     const int first = card.settings().first;
     for (int k = 0; k < card.settings().scales; ++k)
-        own.truth[static_cast<std::size_t>(k)] = bus_.decoders().empty() ? 0 : bus_.decoders()[0]->count(first + k, now);
+        own.truth[static_cast<std::size_t>(k)] =
+            bus_.decoders().empty() ? 0 : bus_.decoders()[0]->count(first + k, now);
 }
 
 void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant) {
@@ -56,7 +57,8 @@ std::vector<FrameRow> FrameWatch::rows() const {
         row.untrue = own.untrue;
         row.unlike = own.unlike;
         const gb::Frame* of_first = out.front().frame;
-        row.agrees = own.card->is_remote() || (row.frame && of_first ? gb::same(*row.frame, *of_first) : row.frame == of_first);
+        row.agrees =
+            own.card->is_remote() || (row.frame && of_first ? gb::same(*row.frame, *of_first) : row.frame == of_first);
     }
     return out;
 }

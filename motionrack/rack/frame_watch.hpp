@@ -14,16 +14,17 @@ namespace motionrack::rack {
 /// What a card of the bus holds.
 struct FrameRow {
     std::string card;
-    std::string_view role;        ///< "host", "slave" or "remote"
+    std::string_view role;  ///< "host", "slave" or "remote"
     bool stale = true;
     bool off = false;
     const grating_bus::Frame* frame = nullptr;  ///< nullptr: none yet; else until the rack runs on
     double age_us = 0;
-    std::uint64_t frames = 0;     ///< published since the watch began
-    std::uint64_t broken = 0;     ///< bad ones, which were not
-    std::uint64_t untrue = 0;     ///< of the published ones: counts that were not the scales' at the frame's time
-    std::uint64_t unlike = 0;     ///< of the published ones: other than that of the first card at the same time; not of remote cards, nor is `untrue`
-    bool agrees = false;          ///< the frame is that of the first card, or both have none
+    std::uint64_t frames = 0;  ///< published since the watch began
+    std::uint64_t broken = 0;  ///< bad ones, which were not
+    std::uint64_t untrue = 0;  ///< of the published ones: counts that were not the scales' at the frame's time
+    std::uint64_t unlike = 0;  ///< of the published ones: other than that of the first card at the same time; not of
+                               ///< remote cards, nor is `untrue`
+    bool agrees = false;       ///< the frame is that of the first card, or both have none
 };
 
 class FrameWatch final : private grating_bus::FrameListener {
@@ -54,8 +55,8 @@ class FrameWatch final : private grating_bus::FrameListener {
     std::uint64_t published_ = 0;
 };
 
-/// One frame of the rack as waves: states of all cards, every line of the bus. The rack is built anew and runs until frame number `frame` is over.
-/// Errors: refused if the rack has no grating bus or no card reads a frame.
+/// One frame of the rack as waves: states of all cards, every line of the bus. The rack is built anew and runs until
+/// frame number `frame` is over. Errors: refused if the rack has no grating bus or no card reads a frame.
 Result<std::string> frame_picture(const RackConfig& config, int frame = 1);
 
 }  // namespace motionrack::rack

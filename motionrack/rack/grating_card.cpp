@@ -43,7 +43,8 @@ class Member : public Card {
         return out;
     }
     /// A register that can be read, by its name; else an error that lists them and `more`.
-    Result<std::int64_t> register_value(const sim::RegisterDevice& device, std::string_view name, std::span<const std::string_view> more) const {
+    Result<std::int64_t> register_value(const sim::RegisterDevice& device, std::string_view name,
+                                        std::span<const std::string_view> more) const {
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write) return device.peek(reg.offset);
         return no_such_value(*this, name, more);
@@ -62,11 +63,13 @@ class Member : public Card {
 
 class GratingCard final : public Member {
   public:
-    GratingCard(sim::Kernel& kernel, const RackCard& config, const gb::CardSettings& settings, sim::InputLog& log, std::shared_ptr<gb::Bus> bus)
+    GratingCard(sim::Kernel& kernel, const RackCard& config, const gb::CardSettings& settings, sim::InputLog& log,
+                std::shared_ptr<gb::Bus> bus)
         : Member(config, std::move(bus)),
           kernel_(kernel),
           card_(kernel, config.name, *bus_, settings),
-          port_(kernel, card_, card_.id(), card_.interrupt_wire(), nanoseconds(config.grating_bus.bus_access_ns), &log) {}
+          port_(kernel, card_, card_.id(), card_.interrupt_wire(), nanoseconds(config.grating_bus.bus_access_ns),
+                &log) {}
 
     gb::Card& card() { return card_; }
 
@@ -75,7 +78,9 @@ class GratingCard final : public Member {
     sim::RegisterDevice* registers() override { return &card_; }
     bool in_window(std::uint32_t offset) const override { return in_counts(offset, card_.settings().scales); }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
-    void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
+        port_.write(address, static_cast<std::uint16_t>(value));
+    }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
         static constexpr std::string_view more[] = {"0.COUNT ..", "SEQUENCE", "TIME"};
@@ -142,7 +147,8 @@ class DecoderCard final : public Member {
         : Member(config, std::move(bus)),
           kernel_(kernel),
           decoder_(kernel, config.name, *bus_, decoder_settings(config)),
-          port_(kernel, decoder_, decoder_.id(), decoder_.interrupt_wire(), nanoseconds(config.grating_decoder.bus_access_ns), &log) {}
+          port_(kernel, decoder_, decoder_.id(), decoder_.interrupt_wire(),
+                nanoseconds(config.grating_decoder.bus_access_ns), &log) {}
 
     gb::Decoder& decoder() { return decoder_; }
 
@@ -151,11 +157,14 @@ class DecoderCard final : public Member {
     sim::RegisterDevice* registers() override { return &decoder_; }
     bool in_window(std::uint32_t offset) const override { return in_counts(offset, decoder_.settings().scales); }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
-    void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
+        port_.write(address, static_cast<std::uint16_t>(value));
+    }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
         static constexpr std::string_view more[] = {"0.COUNT .."};
-        if (const int n = scale_of(name, decoder_.settings().scales); n >= 0) return decoder_.position(n, kernel_.now());
+        if (const int n = scale_of(name, decoder_.settings().scales); n >= 0)
+            return decoder_.position(n, kernel_.now());
         return register_value(decoder_, name, more);
     }
     std::vector<std::string> value_names() const override { return scale_values(decoder_.settings().scales); }

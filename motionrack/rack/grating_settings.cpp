@@ -11,12 +11,20 @@ namespace {
 namespace gb = grating_bus;
 
 /// A motion card on the lines of this rack's bus.
-bool is_grating(const RackCard& card) { return card.type == "grating_bus" && card.grating_bus.role != GratingRole::remote; }
-bool is_decoder(const RackCard& card) { return card.type == "grating_decoder"; }
+bool is_grating(const RackCard& card) {
+    return card.type == "grating_bus" && card.grating_bus.role != GratingRole::remote;
+}
+bool is_decoder(const RackCard& card) {
+    return card.type == "grating_decoder";
+}
 
-Duration ns(double value) { return from_seconds(value * 1e-9); }
+Duration ns(double value) {
+    return from_seconds(value * 1e-9);
+}
 
-gb::Shifter shifter(GratingShifter way) { return static_cast<gb::Shifter>(way); }
+gb::Shifter shifter(GratingShifter way) {
+    return static_cast<gb::Shifter>(way);
+}
 
 gb::CardSettings settings_among(const RackCard& card, std::span<const RackCard> before) {
     return grating_settings(card, std::none_of(before.begin(), before.end(), is_grating));
@@ -26,7 +34,8 @@ gb::CardSettings settings_among(const RackCard& card, std::span<const RackCard> 
 std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& settings, const RackCard& decoder) {
     const Result<void> fits = gb::check(settings, decoder_settings(decoder));
     if (fits) return std::nullopt;
-    return CardFlaw{"type", fmt::format("Card {} cannot work with the decoder {}: {}", card.name, decoder.name, fits.error().message)};
+    return CardFlaw{"type", fmt::format("Card {} cannot work with the decoder {}: {}", card.name, decoder.name,
+                                        fits.error().message)};
 }
 
 }  // namespace
@@ -55,7 +64,8 @@ gb::DecoderSettings decoder_settings(const RackCard& card) {
 
 std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const RackCard> before) {
     const gb::CardSettings own = settings_among(card, before);
-    if (const Result<void> good = gb::check(own); !good) return CardFlaw{"scales", fmt::format("Card {}: {}", card.name, good.error().message)};
+    if (const Result<void> good = gb::check(own); !good)
+        return CardFlaw{"scales", fmt::format("Card {}: {}", card.name, good.error().message)};
     if (own.role == gb::Role::remote) return std::nullopt;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const RackCard& other = before[i];
@@ -64,12 +74,16 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
         if (!is_grating(other)) continue;
         const gb::CardSettings its = settings_among(other, before.first(i));
         if (own.scales != its.scales || own.first != its.first)
-            return CardFlaw{"scales", fmt::format("Card {} reads the scales {} to {} and card {} the scales {} to {}; all cards of a bus take the same ones, "
+            return CardFlaw{"scales", fmt::format("Card {} reads the scales {} to {} and card {} the scales {} to {}; "
+                                                  "all cards of a bus take the same ones, "
                                                   "as the host addresses them.",
-                                                  other.name, its.first, its.first + its.scales - 1, card.name, own.first, own.first + own.scales - 1)};
+                                                  other.name, its.first, its.first + its.scales - 1, card.name,
+                                                  own.first, own.first + own.scales - 1)};
         if (own.period != its.period)
-            return CardFlaw{"period_us", fmt::format("Card {} has a period of {} us and card {} one of {} us; a bus has one.", other.name,
-                                                     other.grating_bus.period_us, card.name, card.grating_bus.period_us)};
+            return CardFlaw{
+                "period_us",
+                fmt::format("Card {} has a period of {} us and card {} one of {} us; a bus has one.", other.name,
+                            other.grating_bus.period_us, card.name, card.grating_bus.period_us)};
     }
     return std::nullopt;
 }
@@ -77,7 +91,8 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
 std::optional<CardFlaw> grating_decoder_flaw(const RackCard& card, std::span<const RackCard> before) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         if (is_decoder(before[i]))
-            return CardFlaw{"type", fmt::format("The rack has two decoders, {} and {}; a bus has one, with all scales.", before[i].name, card.name)};
+            return CardFlaw{"type", fmt::format("The rack has two decoders, {} and {}; a bus has one, with all scales.",
+                                                before[i].name, card.name)};
         if (!is_grating(before[i])) continue;
         if (const auto flaw = no_fit(before[i], settings_among(before[i], before.first(i)), card)) return flaw;
     }

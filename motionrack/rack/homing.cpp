@@ -14,9 +14,12 @@ constexpr Duration sample_period = milliseconds(1);
 constexpr std::size_t most_samples = 200'000;
 
 /// The number of the input among `pins` of the axis' channel that `end` of the axis is wired to; -1 if none is.
-int input_of(const RackConfig& config, const RackAxis& axis, std::string_view end, std::span<const std::string_view> pins) {
+int input_of(const RackConfig& config, const RackAxis& axis, std::string_view end,
+             std::span<const std::string_view> pins) {
     for (const RackWire& wire : config.wires) {
-        if (wire.from.owner != EndOwner::axis || config.axes[static_cast<std::size_t>(wire.from.index)].letter != axis.letter) continue;
+        if (wire.from.owner != EndOwner::axis ||
+            config.axes[static_cast<std::size_t>(wire.from.index)].letter != axis.letter)
+            continue;
         if (wire.from.pin != end || wire.to.owner != EndOwner::card) continue;
         if (config.cards[static_cast<std::size_t>(wire.to.index)].name != axis.card) continue;
         for (std::size_t i = 0; i < pins.size(); ++i)
@@ -75,7 +78,8 @@ class Homing {
 
     std::string all() const {
         std::string out;
-        for (const RunningAxis& axis : rack_.axes()) out += (out.empty() ? "" : ", ") + std::string(1, axis.config.letter);
+        for (const RunningAxis& axis : rack_.axes())
+            out += (out.empty() ? "" : ", ") + std::string(1, axis.config.letter);
         return out;
     }
 
@@ -85,13 +89,17 @@ class Homing {
             for (const RunningAxis& axis : rack_.axes())
                 if (rack_.config().can_home(axis.config)) letters += axis.config.letter;
         if (letters.empty())
-            return fail(Trouble::refused, "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its switches).");
+            return fail(Trouble::refused,
+                        "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its "
+                        "switches).");
         for (const char letter : letters) {
             RunningAxis* running = find(letter);
             if (running == nullptr)
                 return fail(Trouble::refused,
-                            fmt::format("The rack has no axis {}; its axes are {}. Nothing was moved.", in_quotes(std::string(1, letter)), all()));
-            if (std::any_of(works_.begin(), works_.end(), [&](const Work& work) { return work.running == running; })) continue;
+                            fmt::format("The rack has no axis {}; its axes are {}. Nothing was moved.",
+                                        in_quotes(std::string(1, letter)), all()));
+            if (std::any_of(works_.begin(), works_.end(), [&](const Work& work) { return work.running == running; }))
+                continue;
             Work work;
             work.running = running;
             RackAxis config = running->config;
@@ -160,7 +168,8 @@ class Homing {
     void note_end(Work& work) {
         const control::HomeOutcome found = work.axis->home_outcome();
         if (!found.homed && out_.ended)
-            out_.ended = fail(rack_.cards().front()->host().stop_requested() ? Trouble::stopped : Trouble::machine, found.sentence);
+            out_.ended = fail(rack_.cards().front()->host().stop_requested() ? Trouble::stopped : Trouble::machine,
+                              found.sentence);
     }
 
     void sample(Work& work) {
@@ -182,7 +191,8 @@ class Homing {
         HomingProgress p;
         p.seconds = to_seconds(rack_.kernel().now() - began_);
         p.axes = static_cast<int>(works_.size());
-        p.homed = static_cast<int>(std::count_if(works_.begin(), works_.end(), [](const Work& work) { return work.axis->trusted(); }));
+        p.homed = static_cast<int>(
+            std::count_if(works_.begin(), works_.end(), [](const Work& work) { return work.axis->trusted(); }));
         for (const Work* work : group) {
             if (!p.states.empty()) p.states += ", ";
             p.states += fmt::format("{} {}", work->running->config.letter, work->axis->home_state());
@@ -228,12 +238,15 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
     // A card that positions by itself searches the near edge of a mark; the others see the release of a switch too.
     const bool cam = type.position_loop && axis.switches.has_cam();
     if (!cam && !axis.switches.home)
-        return refuse(fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
-                                  type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));
+        return refuse(
+            fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
+                        type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));
     if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing type is {}, but may be 1 to 4", h.type));
     const bool plus = h.direction == HomingDirection::plus;
     if (type.position_loop && plus && !cam)
-        return refuse("its home switch is active at and below its place, so its edge is searched in - direction; give it a cam, or the other direction");
+        return refuse(
+            "its home switch is active at and below its place, so its edge is searched in - direction; give it a cam, "
+            "or the other direction");
     control::HomeOrder order;
     order.type = static_cast<control::HomeType>(h.type);
     order.towards_plus = plus;
@@ -248,19 +261,25 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
     order.switch_active_high = plus;
     order.switch_input = input_of(config, axis, cam ? "cam" : "home", type.home_pins);
     if (order.switch_input < 0)
-        return refuse(fmt::format("its home {} is not wired to a stop input of its channel ({})", cam ? "cam" : "switch", inputs_text(axis, type.home_pins)));
+        return refuse(fmt::format("its home {} is not wired to a stop input of its channel ({})",
+                                  cam ? "cam" : "switch", inputs_text(axis, type.home_pins)));
     if (h.type < 3) return order;
     order.index_input = input_of(config, axis, "enc_z", type.index_pins);
     if (order.index_input < 0)
-        return refuse(fmt::format("type {} needs the encoder's index, which is not there or not wired to a stop input of its channel ({}); home it with type 1 or 2",
-                                  h.type, inputs_text(axis, type.index_pins)));
+        return refuse(
+            fmt::format("type {} needs the encoder's index, which is not there or not wired to a stop input of its "
+                        "channel ({}); home it with type 1 or 2",
+                        h.type, inputs_text(axis, type.index_pins)));
     return order;
 }
 
 bool HomingOutcome::all_homed() const {
-    return ended.has_value() && std::all_of(axes.begin(), axes.end(), [](const HomedAxis& axis) { return axis.outcome.homed; });
+    return ended.has_value() &&
+           std::all_of(axes.begin(), axes.end(), [](const HomedAxis& axis) { return axis.outcome.homed; });
 }
 
-HomingOutcome home_axes(Rack& rack, const HomingSettings& settings) { return Homing(rack, settings).run(); }
+HomingOutcome home_axes(Rack& rack, const HomingSettings& settings) {
+    return Homing(rack, settings).run();
+}
 
 }  // namespace motionrack::rack

@@ -13,8 +13,8 @@
 
 namespace motionrack::rack {
 
-/// The order for an axis as its rack file has it. Errors: refused, it has no home switch, or that is not wired to a stop input of its
-/// own channel; the same for the index, where the type needs it.
+/// The order for an axis as its rack file has it. Errors: refused, it has no home switch, or that is not wired to a
+/// stop input of its own channel; the same for the index, where the type needs it.
 Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& axis);
 
 struct HomingProgress {
@@ -25,18 +25,18 @@ struct HomingProgress {
 };
 
 struct HomingSettings {
-    std::string axes;                    ///< letters; "": every axis that has a home switch
-    std::optional<int> type;             ///< 1 .. 4 for all of them, instead of the rack file's
-    Duration timeout = whole_seconds(3600);  ///< of each group
-    const std::atomic<bool>* stop = nullptr;                  ///< Ctrl-C
-    std::function<void(const HomingProgress&)> progress = {}; ///< every 50 ms of virtual time
+    std::string axes;                                          ///< letters; "": every axis that has a home switch
+    std::optional<int> type;                                   ///< 1 .. 4 for all of them, instead of the rack file's
+    Duration timeout = whole_seconds(3600);                    ///< of each group
+    const std::atomic<bool>* stop = nullptr;                   ///< Ctrl-C
+    std::function<void(const HomingProgress&)> progress = {};  ///< every 50 ms of virtual time
 };
 
 /// What was seen of an axis, every `sample_period` at first, each time twice that when there are too many.
 struct HomingSamples {
-    std::vector<double> seconds;   ///< since the homing began
-    std::vector<float> position;   ///< of the machine, mm or degrees
-    std::vector<float> speed;      ///< of the machine, per second
+    std::vector<double> seconds;  ///< since the homing began
+    std::vector<float> position;  ///< of the machine, mm or degrees
+    std::vector<float> speed;     ///< of the machine, per second
 };
 
 struct HomedAxis {
@@ -54,7 +54,7 @@ struct HomedAxis {
 };
 
 struct HomingOutcome {
-    Result<void> ended;   ///< the first axis that failed; or refused, and then nothing moved
+    Result<void> ended;  ///< the first axis that failed; or refused, and then nothing moved
     std::vector<HomedAxis> axes;
     double seconds = 0;
     bool all_homed() const;

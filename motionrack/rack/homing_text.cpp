@@ -11,18 +11,25 @@ namespace motionrack::rack {
 namespace {
 
 /// States in which time passes, or that end: what people want to see.
-bool shown(const control::HomeStay& stay) { return stay.state.size() < 6 || stay.state.compare(stay.state.size() - 6, 6, "_START") != 0; }
+bool shown(const control::HomeStay& stay) {
+    return stay.state.size() < 6 || stay.state.compare(stay.state.size() - 6, 6, "_START") != 0;
+}
 
 /// "-0.0000" is 0.
-double plain(double value) { return std::fabs(value) < 5e-5 ? 0 : value; }
+double plain(double value) {
+    return std::fabs(value) < 5e-5 ? 0 : value;
+}
 
 /// As JSON: to a nanosecond, a nanometre.
-double rounded(double value) { return std::round(value * 1e9) / 1e9; }
+double rounded(double value) {
+    return std::round(value * 1e9) / 1e9;
+}
 
 std::string head_line(const HomedAxis& axis) {
     const control::HomeOutcome& o = axis.outcome;
-    std::string out = fmt::format("axis {}  type {}, {} direction, {:.4g} {}/s, slowly {:.4g} {}/s\n", axis.letter, static_cast<int>(axis.order.type),
-                                  axis.order.towards_plus ? "+" : "-", axis.order.speed, axis.unit, axis.order.slow_speed, axis.unit);
+    std::string out = fmt::format("axis {}  type {}, {} direction, {:.4g} {}/s, slowly {:.4g} {}/s\n", axis.letter,
+                                  static_cast<int>(axis.order.type), axis.order.towards_plus ? "+" : "-",
+                                  axis.order.speed, axis.unit, axis.order.slow_speed, axis.unit);
     if (!axis.begun) return out + "  not begun\n";
     return out + fmt::format("  {} after {:.3f} s, {}\n", o.homed ? "homed" : "not homed", o.took_s,
                              o.homed ? "the position is trusted" : "the position is not trusted");
@@ -32,19 +39,25 @@ std::string axis_text(const HomedAxis& axis) {
     const control::HomeOutcome& o = axis.outcome;
     std::string out = head_line(axis);
     if (!axis.begun) return out;
-    out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}\n", "state", "from s", "took s", "from " + axis.unit, "to " + axis.unit);
+    out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}\n", "state", "from s", "took s", "from " + axis.unit,
+                       "to " + axis.unit);
     for (const control::HomeStay& stay : o.stays)
         if (shown(stay))
-            out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:12.4f}\n", stay.state, stay.from_s, stay.took_s, plain(stay.from), plain(stay.to));
-    if (!o.edges.empty()) out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}   {}\n", "found", "at s", axis.unit + "/s", "at " + axis.unit, "or before", "in");
+            out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:12.4f}\n", stay.state, stay.from_s, stay.took_s,
+                               plain(stay.from), plain(stay.to));
+    if (!o.edges.empty())
+        out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}   {}\n", "found", "at s", axis.unit + "/s",
+                           "at " + axis.unit, "or before", "in");
     for (const control::HomeEdge& edge : o.edges)
-        out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:>12}   {}\n", edge.what, edge.seconds, edge.speed, plain(edge.position),
-                           edge.within > 0 ? fmt::format("{:.4f}", edge.within) : "exact", edge.state);
+        out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:>12}   {}\n", edge.what, edge.seconds, edge.speed,
+                           plain(edge.position), edge.within > 0 ? fmt::format("{:.4f}", edge.within) : "exact",
+                           edge.state);
     out += '\n';
-    if (o.switch_to_index) out += fmt::format("  from the switch to the index  {:.4f} {}\n", *o.switch_to_index, axis.unit);
+    if (o.switch_to_index)
+        out += fmt::format("  from the switch to the index  {:.4f} {}\n", *o.switch_to_index, axis.unit);
     if (o.bounces > 0) out += fmt::format("  bounces of the switch seen    {}\n", o.bounces);
-    out += fmt::format("  counter {:.4f}, encoder {:.4f}, machine {:.4f} {}", plain(axis.counter_position), plain(axis.measured_position),
-                       plain(axis.machine_position), axis.unit);
+    out += fmt::format("  counter {:.4f}, encoder {:.4f}, machine {:.4f} {}", plain(axis.counter_position),
+                       plain(axis.measured_position), plain(axis.machine_position), axis.unit);
     if (axis.lost_pulses != 0) out += fmt::format("; {} pulses lost since the start", axis.lost_pulses);
     out += '\n';
     for (const std::string& note : o.notes) out += fmt::format("  note: {}\n", note);
@@ -53,18 +66,33 @@ std::string axis_text(const HomedAxis& axis) {
 
 nlohmann::ordered_json axis_json(const HomedAxis& axis) {
     const control::HomeOutcome& o = axis.outcome;
-    nlohmann::ordered_json j = {{"axis", std::string(1, axis.letter)}, {"unit", axis.unit}, {"type", static_cast<int>(axis.order.type)},
-                                {"direction", axis.order.towards_plus ? "plus" : "minus"}, {"speed", axis.order.speed},
-                                {"slow_speed", axis.order.slow_speed}, {"begun", axis.begun}, {"homed", o.homed},
-                                {"seconds", rounded(o.took_s)}, {"sentence", o.sentence}};
+    nlohmann::ordered_json j = {{"axis", std::string(1, axis.letter)},
+                                {"unit", axis.unit},
+                                {"type", static_cast<int>(axis.order.type)},
+                                {"direction", axis.order.towards_plus ? "plus" : "minus"},
+                                {"speed", axis.order.speed},
+                                {"slow_speed", axis.order.slow_speed},
+                                {"begun", axis.begun},
+                                {"homed", o.homed},
+                                {"seconds", rounded(o.took_s)},
+                                {"sentence", o.sentence}};
     j["states"] = nlohmann::ordered_json::array();
     for (const control::HomeStay& stay : o.stays)
-        j["states"].push_back({{"state", stay.state}, {"from_s", rounded(stay.from_s)}, {"took_s", rounded(stay.took_s)}, {"from", rounded(stay.from)}, {"to", rounded(stay.to)}});
+        j["states"].push_back({{"state", stay.state},
+                               {"from_s", rounded(stay.from_s)},
+                               {"took_s", rounded(stay.took_s)},
+                               {"from", rounded(stay.from)},
+                               {"to", rounded(stay.to)}});
     j["edges"] = nlohmann::ordered_json::array();
     for (const control::HomeEdge& edge : o.edges)
-        j["edges"].push_back({{"what", edge.what}, {"state", edge.state}, {"seconds", rounded(edge.seconds)}, {"position", rounded(edge.position)},
-                              {"within", rounded(edge.within)}, {"speed", rounded(edge.speed)}});
-    j["switch_to_index"] = o.switch_to_index ? nlohmann::ordered_json(rounded(*o.switch_to_index)) : nlohmann::ordered_json(nullptr);
+        j["edges"].push_back({{"what", edge.what},
+                              {"state", edge.state},
+                              {"seconds", rounded(edge.seconds)},
+                              {"position", rounded(edge.position)},
+                              {"within", rounded(edge.within)},
+                              {"speed", rounded(edge.speed)}});
+    j["switch_to_index"] =
+        o.switch_to_index ? nlohmann::ordered_json(rounded(*o.switch_to_index)) : nlohmann::ordered_json(nullptr);
     j["bounces"] = o.bounces;
     j["notes"] = o.notes;
     j["counter_position"] = rounded(axis.counter_position);
@@ -79,13 +107,16 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
 std::string homing_text(const HomingOutcome& outcome) {
     std::string out;
     for (const HomedAxis& axis : outcome.axes) out += axis_text(axis) + "\n";
-    if (!outcome.axes.empty()) out += fmt::format("{} in {:.3f} s\n", outcome.all_homed() ? "all homed" : "not all homed", outcome.seconds);
+    if (!outcome.axes.empty())
+        out += fmt::format("{} in {:.3f} s\n", outcome.all_homed() ? "all homed" : "not all homed", outcome.seconds);
     return out;
 }
 
 std::string homing_json(const HomingOutcome& outcome) {
-    nlohmann::ordered_json j = {{"homed", outcome.all_homed()}, {"seconds", rounded(outcome.seconds)},
-                                {"error", outcome.ended ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(outcome.ended.error().message)}};
+    nlohmann::ordered_json j = {{"homed", outcome.all_homed()},
+                                {"seconds", rounded(outcome.seconds)},
+                                {"error", outcome.ended ? nlohmann::ordered_json(nullptr)
+                                                        : nlohmann::ordered_json(outcome.ended.error().message)}};
     j["axes"] = nlohmann::ordered_json::array();
     for (const HomedAxis& axis : outcome.axes) j["axes"].push_back(axis_json(axis));
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -103,9 +134,10 @@ std::string homing_picture(const HomedAxis& axis) {
         const std::string name = stay.state.substr(0, stay.state.find("_WAIT"));
         spans.push_back({fmt::format("{} {:.3f} s", name, stay.took_s), stay.from_s, stay.from_s + stay.took_s});
     }
-    return trace::svg_timeline(fmt::format("Axis {} {}, type {}", axis.letter, axis.outcome.homed ? "is homed" : "fails to home",
-                                           static_cast<int>(axis.order.type)),
-                               charts, spans, {720, 560, true});
+    return trace::svg_timeline(
+        fmt::format("Axis {} {}, type {}", axis.letter, axis.outcome.homed ? "is homed" : "fails to home",
+                    static_cast<int>(axis.order.type)),
+        charts, spans, {720, 560, true});
 }
 
 }  // namespace motionrack::rack

@@ -1,4 +1,5 @@
-// The IOFLEX02 in a rack: all of a rack share one bus, on which each answers from its base address. It moves nothing; its lines are wires.
+// The IOFLEX02 in a rack: all of a rack share one bus, on which each answers from its base address. It moves nothing;
+// its lines are wires.
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
 #include <motionrack/cards/ioflex02/model/card.hpp>
@@ -51,10 +52,13 @@ class Ioflex02Card final : public Card {
     }
     std::uint32_t bus_base() const override { return card_.settings().base_address; }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
-    void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
+        port_.write(address, static_cast<std::uint16_t>(value));
+    }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
-        static constexpr std::string_view more[] = {"0.POSITION .. 3.POSITION", "0.CALIBRATED ..", "0.ILLEGAL_TRANSITIONS .."};
+        static constexpr std::string_view more[] = {"0.POSITION .. 3.POSITION", "0.CALIBRATED ..",
+                                                    "0.ILLEGAL_TRANSITIONS .."};
         if (name.size() > 2 && name[1] == '.' && name[0] >= '0' && name[0] <= '3')
             for (const AxisValue& value : of_axes)
                 if (value.name == name.substr(2)) return value.get(card_, name[0] - '0');
@@ -68,7 +72,9 @@ class Ioflex02Card final : public Card {
             for (const AxisValue& value : of_axes) out.push_back(std::string(1, axis) + "." + std::string(value.name));
         return out;
     }
-    std::vector<CardCounter> counters() const override { return {{"position0", 0, true}, {"position1", 1, true}, {"position2", 2, true}, {"position3", 3, true}}; }
+    std::vector<CardCounter> counters() const override {
+        return {{"position0", 0, true}, {"position1", 1, true}, {"position2", 2, true}, {"position3", 3, true}};
+    }
     std::int64_t counter(const CardCounter& which) override { return card_.position(which.channel); }
 
     sim::VirtualHost& host() override { return port_; }

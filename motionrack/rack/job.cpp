@@ -54,7 +54,8 @@ control::gcode::Settings reader_settings(const RackConfig& config, bool block_de
 }
 
 Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)) {
-    monitor_ = std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
+    monitor_ =
+        std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
     monitor_->on_sample(settings_.on_sample);
 }
 
@@ -94,7 +95,8 @@ Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
     return ended;
 }
 
-Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out) {
+Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings,
+                                  JobOutcome& out) {
     PathWatch watch(axes, [&](std::int64_t block, const control::PlannedMove& move) {
         out.run.plan.add(move);
         planned(block, move, out);
@@ -109,7 +111,8 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
     rack_.on_slice(slice, [&] { listen(watch.heard()); });
     settings_.orders->attach(&stream);
     monitor_->begin();
-    const Result<void> ended = drive_live(stream, host, *settings_.orders, settings_.program, settings.gcode, settings_.program_name, out.run);
+    const Result<void> ended =
+        drive_live(stream, host, *settings_.orders, settings_.program, settings.gcode, settings_.program_name, out.run);
     out.time = rack_.kernel().now() - began_;
     listen(watch.heard());
     settings_.orders->attach(nullptr);
@@ -123,20 +126,23 @@ void Job::give(std::string_view program, std::string name, control::gcode::Setti
     settings_.reading = std::move(reading);
 }
 
-/// Of every axis whose encoder its own card counts beside the pulses: what the card has counted, less what the motor has turned. Axes
-/// that position by themselves do so by these counts.
+/// Of every axis whose encoder its own card counts beside the pulses: what the card has counted, less what the motor
+/// has turned. Axes that position by themselves do so by these counts.
 std::vector<std::int64_t> Job::counted_wrongly() {
     std::vector<std::int64_t> out;
     const Instant now = rack_.kernel().now();
     const RackConfig& config = rack_.config();
     for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
         const RunningAxis& axis = rack_.axes()[i];
-        const bool counted = std::any_of(config.encoder_links.begin(), config.encoder_links.end(), [&](const EncoderLink& link) {
-            return link.axis == static_cast<int>(i) && !link.swapped && link.channel == axis.channel &&
-                   config.cards[static_cast<std::size_t>(link.card)].name == axis.config.card;
-        });
-        const auto turned = static_cast<std::int64_t>(std::floor(static_cast<double>(axis.machine->rotor().count(now)) * counts_per_pulse(axis.config)));
-        out.push_back(counted && !config.positions_alone(axis.config) ? axis.card->encoder_counter(axis.channel) - turned : 0);
+        const bool counted =
+            std::any_of(config.encoder_links.begin(), config.encoder_links.end(), [&](const EncoderLink& link) {
+                return link.axis == static_cast<int>(i) && !link.swapped && link.channel == axis.channel &&
+                       config.cards[static_cast<std::size_t>(link.card)].name == axis.config.card;
+            });
+        const auto turned = static_cast<std::int64_t>(
+            std::floor(static_cast<double>(axis.machine->rotor().count(now)) * counts_per_pulse(axis.config)));
+        out.push_back(
+            counted && !config.positions_alone(axis.config) ? axis.card->encoder_counter(axis.channel) - turned : 0);
     }
     return out;
 }
@@ -147,8 +153,10 @@ void Job::tell_wrong_counts(const std::vector<std::int64_t>& before, JobOutcome&
         const auto off = static_cast<std::int32_t>(after[i] - before[i]);  // the counters have 32 bits
         if (std::abs(off) > 1)
             out.warnings.push_back({rack_.kernel().now(), 0,
-                                    fmt::format("encoder of {}: the card's counter is {} counts off from what the motor turned; a line of the encoder or the card's input is "
-                                                "faulty. Do not go by this counter; mend it, then home again", rack_.axes()[i].config.letter, off)});
+                                    fmt::format("encoder of {}: the card's counter is {} counts off from what the "
+                                                "motor turned; a line of the encoder or the card's input is "
+                                                "faulty. Do not go by this counter; mend it, then home again",
+                                                rack_.axes()[i].config.letter, off)});
     }
 }
 
@@ -187,7 +195,8 @@ JobOutcome Job::run() {
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();
     for (const control::PathNote& note : (*axes)->take_notes())
-        out.warnings.push_back({began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
+        out.warnings.push_back(
+            {began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
     collect_conditions(out);
     tell_wrong_counts(counted_before, out);
     out.axes = axis_outcomes((*axes)->commanded_position());
@@ -205,7 +214,9 @@ void Job::collect_conditions(JobOutcome& out) {
         out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
         // What was lost and found again by chance was lost all the same.
         for (const RunningAxis& axis : rack_.axes())
-            if (condition.device == axis.machine->id() && condition.code == static_cast<std::uint16_t>(parts::AxisCondition::lost_steps)) out.position_trusted = false;
+            if (condition.device == axis.machine->id() &&
+                condition.code == static_cast<std::uint16_t>(parts::AxisCondition::lost_steps))
+                out.position_trusted = false;
     }
     if (const std::uint64_t dropped = rack_.kernel().dropped_conditions())
         out.warnings.push_back({rack_.kernel().now(), 0, fmt::format("{} earlier conditions were not kept", dropped)});
@@ -229,10 +240,12 @@ std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
         one.pulses_sent = axis.card->pulses_made(axis.channel);
         one.pulses_net = commanded;
         one.pulse_position = axis.card->pulse_counter(axis.channel);
-        one.pulse_start = static_cast<std::int64_t>(std::floor(axis.config.start_position * axis.config.pulses_per_unit() + 0.5));
+        one.pulse_start =
+            static_cast<std::int64_t>(std::floor(axis.config.start_position * axis.config.pulses_per_unit() + 0.5));
         one.counts_read = axis.card->encoder_counter(axis.channel);
         one.lost_pulses = commanded - axis.machine->rotor().count(now);
-        one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse(axis.config)));
+        one.counts_expected =
+            static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse(axis.config)));
         one.planned_end = rack_.config().positions_alone(axis.config)
                               ? sent_to[static_cast<std::size_t>(one.index)]
                               : static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();

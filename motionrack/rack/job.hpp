@@ -4,12 +4,12 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <motionrack/control/controller.hpp>
 #include <motionrack/rack/live_drive.hpp>
 #include <motionrack/rack/monitor.hpp>
 #include <motionrack/rack/order_plan.hpp>
 #include <motionrack/rack/rack.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,22 +17,22 @@
 namespace motionrack::rack {
 
 struct JobProgress {
-    double seconds = 0;     ///< virtual time since the job began
-    std::int64_t line = 0;  ///< line being driven
-    std::int64_t lines = 0; ///< lines of the program
+    double seconds = 0;      ///< virtual time since the job began
+    std::int64_t line = 0;   ///< line being driven
+    std::int64_t lines = 0;  ///< lines of the program
 };
 
 struct JobSettings {
-    std::string_view program;              ///< the text; must outlive the job
-    std::string program_name;              ///< for messages
+    std::string_view program;  ///< the text; must outlive the job
+    std::string program_name;  ///< for messages
     /// How it is read; none: reader_settings() of the rack.
     std::optional<control::gcode::Settings> reading = {};
     Duration sample_period = milliseconds(1);
     std::size_t most_samples = 200'000;
-    const std::atomic<bool>* stop = nullptr;               ///< Ctrl-C; not used if there are orders
-    OrderPlan* orders = nullptr;                           ///< planned orders, and stops; must outlive the job
-    std::function<void(const JobProgress&)> progress = {}; ///< about every 50 ms of virtual time
-    std::function<void()> on_slice = {};                   ///< between runs: recorders drain here
+    const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; not used if there are orders
+    OrderPlan* orders = nullptr;                            ///< planned orders, and stops; must outlive the job
+    std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
+    std::function<void()> on_slice = {};                    ///< between runs: recorders drain here
     std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< every sample, between runs
 };
 
@@ -62,20 +62,21 @@ struct JobWarning {
 };
 
 struct JobOutcome {
-    Result<void> ended;                ///< how it ended
+    Result<void> ended;  ///< how it ended
     control::ProgramRun run;
-    Duration time{};                   ///< virtual time of the job
-    double path_mm = 0;                ///< planned XYZ path
+    Duration time{};     ///< virtual time of the job
+    double path_mm = 0;  ///< planned XYZ path
     std::vector<AxisOutcome> axes;
     Deviation worst;
-    double tolerance_mm = 0;           ///< greatest deviation that the program allows somewhere
+    double tolerance_mm = 0;  ///< greatest deviation that the program allows somewhere
     std::vector<JobWarning> warnings;
     std::int64_t chip_segments = 0;
-    std::uint64_t events = 0;          ///< kernel events: what it cost
+    std::uint64_t events = 0;  ///< kernel events: what it cost
     std::uint64_t trace_hash = 0;
-    int rest_axis = -1;       ///< of the servos the one that stands farthest from where it was sent; -1: no servo
-    double rest_off = 0;      ///< and how far, mm or degrees
-    bool position_trusted = true;      ///< false once steps were lost, or an axis that positions by itself does not know where it is
+    int rest_axis = -1;   ///< of the servos the one that stands farthest from where it was sent; -1: no servo
+    double rest_off = 0;  ///< and how far, mm or degrees
+    bool position_trusted =
+        true;  ///< false once steps were lost, or an axis that positions by itself does not know where it is
 };
 
 /// What a monitor watches of a rack: all its axes.

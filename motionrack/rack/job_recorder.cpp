@@ -12,12 +12,15 @@ namespace {
 constexpr std::uint64_t most_unflushed = 1'000'000;
 constexpr Duration least_flush_period = whole_seconds(1);
 
-std::string lower(char letter) { return std::string(1, static_cast<char>(letter - 'A' + 'a')); }
+std::string lower(char letter) {
+    return std::string(1, static_cast<char>(letter - 'A' + 'a'));
+}
 
 /// "motion.xlmtp" -> "wires/motion/xlmtp"; names without a dot are the rack's.
 std::string wire_path(const std::string& name) {
     const std::size_t dot = name.find('.');
-    return dot == std::string::npos ? "wires/rack/" + name : "wires/" + name.substr(0, dot) + '/' + name.substr(dot + 1);
+    return dot == std::string::npos ? "wires/rack/" + name
+                                    : "wires/" + name.substr(0, dot) + '/' + name.substr(dot + 1);
 }
 
 }  // namespace
@@ -25,7 +28,8 @@ std::string wire_path(const std::string& name) {
 class JobRecorder::Ear final : public sim::EdgeListener {
   public:
     /// `counts`: the value is the count after the edge, else its direction.
-    Ear(JobRecorder& recorder, std::uint32_t signal, bool counts) : recorder_(recorder), signal_(signal), counts_(counts) {}
+    Ear(JobRecorder& recorder, std::uint32_t signal, bool counts)
+        : recorder_(recorder), signal_(signal), counts_(counts) {}
 
     void edges(const sim::EdgeBatch& batch) override {
         std::int64_t count = batch.first_count;
@@ -39,13 +43,18 @@ class JobRecorder::Ear final : public sim::EdgeListener {
     bool counts_;
 };
 
-// ---- what is recorded -------------------------------------------------------------------------------------------------
+// ---- what is recorded
 
-JobRecorder::JobRecorder(Rack& rack, trace::RecordingHead head) : rack_(rack), head_(std::move(head)) { buffer_.reserve(buffer_size); }
+JobRecorder::JobRecorder(Rack& rack, trace::RecordingHead head) : rack_(rack), head_(std::move(head)) {
+    buffer_.reserve(buffer_size);
+}
 
-JobRecorder::~JobRecorder() { stop_listening(); }
+JobRecorder::~JobRecorder() {
+    stop_listening();
+}
 
-Result<std::unique_ptr<JobRecorder>> JobRecorder::create(Rack& rack, const std::string& path, trace::RecordingHead head) {
+Result<std::unique_ptr<JobRecorder>> JobRecorder::create(Rack& rack, const std::string& path,
+                                                         trace::RecordingHead head) {
     std::unique_ptr<JobRecorder> out(new JobRecorder(rack, std::move(head)));
     out->add_axes();
     out->add_wires();
@@ -71,8 +80,9 @@ void JobRecorder::add_axes() {
         const RackAxis& config = axis.config;
         const control::AxisLimits& limit = limits[static_cast<std::size_t>(config.index())];
         const std::string name(1, config.letter);
-        head_.axes.push_back({name, std::string(config.unit()), axis.servo != nullptr, config.pulses_per_unit(), config.counts_per_unit(), config.start_position,
-                              limit.min_position, limit.max_position, limit.max_speed, limit.max_accel});
+        head_.axes.push_back({name, std::string(config.unit()), axis.servo != nullptr, config.pulses_per_unit(),
+                              config.counts_per_unit(), config.start_position, limit.min_position, limit.max_position,
+                              limit.max_speed, limit.max_accel});
         axis_indexes_.push_back(config.index());
         const std::string folder = "axes/" + lower(config.letter);
         if (!axis.servo) {
@@ -81,7 +91,8 @@ void JobRecorder::add_axes() {
         }
         if (axis.machine->has_encoder()) {
             const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
-            const std::uint32_t counts = add({name + ".encoder", folder + "/encoder", trace::SignalKind::counts, "count", count});
+            const std::uint32_t counts =
+                add({name + ".encoder", folder + "/encoder", trace::SignalKind::counts, "count", count});
             ears_.emplace_back(axis.encoder_ears.get(), std::make_unique<Ear>(*this, counts, true));
         }
     }
@@ -102,13 +113,14 @@ void JobRecorder::add_wires() {
 void JobRecorder::add_counters() {
     for (const auto& card : rack_.cards())
         for (const CardCounter& counter : card->counters()) {
-            const std::uint32_t signal = add({card->name() + "." + counter.name, "cards/" + card->name() + "/" + counter.name, trace::SignalKind::levels,
-                                              counter.encoder ? "count" : "step", card->counter(counter)});
+            const std::uint32_t signal =
+                add({card->name() + "." + counter.name, "cards/" + card->name() + "/" + counter.name,
+                     trace::SignalKind::levels, counter.encoder ? "count" : "step", card->counter(counter)});
             counters_.push_back({card.get(), counter, signal});
         }
 }
 
-// ---- recording --------------------------------------------------------------------------------------------------------
+// ---- recording
 
 void JobRecorder::listen() {
     for (const auto& [fork, ear] : ears_) fork->add(*ear);
@@ -124,7 +136,9 @@ void JobRecorder::stop_listening() {
     if (rack_.started()) rack_.kernel().schedule(id_, never);
 }
 
-void JobRecorder::begin() { rack_.kernel().schedule(id_, rack_.kernel().now()); }
+void JobRecorder::begin() {
+    rack_.kernel().schedule(id_, rack_.kernel().now());
+}
 
 void JobRecorder::push(Instant at, std::uint32_t signal, std::int64_t value) {
     if (buffer_.size() == buffer_size) {
@@ -148,7 +162,8 @@ void JobRecorder::act(Instant now) {
 void JobRecorder::sample(const Sample& sample, double deviation_mm) {
     for (std::size_t i = 0; i < sampled_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axis_indexes_[i]);
-        sampled_[i] = {sample.position[axis], sample.commanded[axis], sample.speed[axis], sample.accel[axis], sample.volts[axis]};
+        sampled_[i] = {sample.position[axis], sample.commanded[axis], sample.speed[axis], sample.accel[axis],
+                       sample.volts[axis]};
     }
     writer_.sample(sample.at, deviation_mm, sampled_);
 }
@@ -170,7 +185,8 @@ template <class Member>
 std::string of_axes(const JobOutcome& outcome, Member member) {
     std::string out;
     for (const AxisOutcome& axis : outcome.axes)
-        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", control::axis_letters[static_cast<std::size_t>(axis.index)], axis.*member);
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ",
+                           control::axis_letters[static_cast<std::size_t>(axis.index)], axis.*member);
     return out;
 }
 
@@ -209,7 +225,9 @@ Result<void> JobRecorder::finish(const JobOutcome& outcome, trace::ReportData re
     end.report = std::move(report);
     const Result<void> closed = writer_.close(end);
     if (!closed || lost_ == 0) return closed;
-    return fail(Trouble::io, fmt::format("{} events came at one instant, more than a recording can hold, and were left out.", lost_));
+    return fail(
+        Trouble::io,
+        fmt::format("{} events came at one instant, more than a recording can hold, and were left out.", lost_));
 }
 
 }  // namespace motionrack::rack

@@ -23,7 +23,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
 
     /// After the rack was started.
     void begin();
-    // ---- between runs ----
+    // ---- between runs
     void sample(const Sample& sample, double deviation_mm);
     /// Something from outside takes effect at its instant.
     void input(const trace::RecordedInput& input) { writer_.input(input); }

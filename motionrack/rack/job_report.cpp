@@ -17,10 +17,14 @@ constexpr std::size_t most_segments = 20'000;
 
 const char* kind_text(control::MoveKind kind) {
     switch (kind) {
-        case control::MoveKind::traverse: return "traverse";
-        case control::MoveKind::feed: return "line";
-        case control::MoveKind::arc: return "arc";
-        case control::MoveKind::dwell: return "dwell";
+        case control::MoveKind::traverse:
+            return "traverse";
+        case control::MoveKind::feed:
+            return "line";
+        case control::MoveKind::arc:
+            return "arc";
+        case control::MoveKind::dwell:
+            return "dwell";
     }
     return "";
 }
@@ -39,7 +43,9 @@ class LineIndex {
         }
     }
     std::string operator[](int line) const {
-        return line >= 1 && static_cast<std::size_t>(line) <= lines_.size() ? std::string(lines_[static_cast<std::size_t>(line) - 1]) : "";
+        return line >= 1 && static_cast<std::size_t>(line) <= lines_.size()
+                   ? std::string(lines_[static_cast<std::size_t>(line) - 1])
+                   : "";
     }
 
   private:
@@ -82,12 +88,13 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
 std::string verdict_text(const JobOutcome& outcome) {
     if (!outcome.ended) return outcome.ended.error().message;
     if (!outcome.position_trusted)
-        return "The program ended, but motors lost steps: the machine is not where the controller believes it is. Lower speed or acceleration.";
+        return "The program ended, but motors lost steps: the machine is not where the controller believes it is. "
+               "Lower speed or acceleration.";
     if (outcome.rest_axis < 0) return "The program ended; every axis stands exactly where it was sent.";
-    return fmt::format("The program ended; servos stand at most {:.3f} {} ({}) from where they were sent.", outcome.rest_off,
-                       outcome.rest_axis < 3 ? "mm" : "deg", control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
+    return fmt::format("The program ended; servos stand at most {:.3f} {} ({}) from where they were sent.",
+                       outcome.rest_off, outcome.rest_axis < 3 ? "mm" : "deg",
+                       control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
 }
-
 
 /// A jerk-limited ride is planned in many short lines: what was programmed counts.
 std::int64_t moves_of(const RackConfig& config, const JobOutcome& outcome) {
@@ -107,7 +114,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
                     {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
                     {"Moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
                     {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"}};
-    if (!rack.config().point_to_point()) data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
+    if (!rack.config().point_to_point())
+        data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
     add_axes(data, job, outcome);
     const std::vector<Sample>& samples = job.monitor().samples();
     const Instant began = samples.empty() ? Instant{0} : samples.front().at;
@@ -118,54 +126,70 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     for (const double off : job.monitor().deviations()) data.deviation_mm.push_back(static_cast<float>(off));
     data.tolerance_mm = outcome.tolerance_mm;
     for (const control::PlannedMove& planned : job.planned())
-        if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell) data.planned.push_back(path_segment(planned.move, planned.start));
+        if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell)
+            data.planned.push_back(path_segment(planned.move, planned.start));
     if (outcome.worst.mm > 0)
-        data.worst = trace::ReportWorst{outcome.worst.mm, to_seconds(outcome.worst.at - began), outcome.worst.line, outcome.worst.place};
+        data.worst = trace::ReportWorst{outcome.worst.mm, to_seconds(outcome.worst.at - began), outcome.worst.line,
+                                        outcome.worst.place};
     if (!outcome.ended && !samples.empty())
-        data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(), outcome.ended.error().message};
+        data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(),
+                                      outcome.ended.error().message};
     const LineIndex lines(program);
     for (const DrivenBlock& block : job.monitor().blocks())
-        data.blocks.push_back({block.line, lines[block.line], kind_text(block.kind), block.length, "mm", to_seconds(block.start - began),
-                               to_seconds(block.end - block.start), block.entry, block.cruise, block.exit, block.deviation_mm});
+        data.blocks.push_back({block.line, lines[block.line], kind_text(block.kind), block.length, "mm",
+                               to_seconds(block.start - began), to_seconds(block.end - block.start), block.entry,
+                               block.cruise, block.exit, block.deviation_mm});
     for (const JobWarning& warning : outcome.warnings)
         data.warnings.push_back({to_seconds(warning.at - began), warning.line, warning.text});
     data.notes = {
-        fmt::format("Positions are those of the motors' rotors, looked at every {:.3g} ms; what happens between two looks is not drawn.",
+        fmt::format("Positions are those of the motors' rotors, looked at every {:.3g} ms; what happens between two "
+                    "looks is not drawn.",
                     to_seconds(job.monitor().period()) * 1e3),
-        "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a start, a stop, a corner) there "
-        "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in pieces of a few pulses.",
+        "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a "
+        "start, a stop, a corner) there "
+        "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in "
+        "pieces of a few pulses.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
-        fmt::format("Deviation is the distance of X, Y, Z from the {}; a rotary axis that lags behind does not show in it.",
-                    rack.config().jerk_limited() ? "planned path, which cuts corners of the programmed one within its tolerance and is driven with limited jerk"
-                                                 : "programmed path")};
+        fmt::format(
+            "Deviation is the distance of X, Y, Z from the {}; a rotary axis that lags behind does not show in it.",
+            rack.config().jerk_limited() ? "planned path, which cuts corners of the programmed one within its "
+                                           "tolerance and is driven with limited jerk"
+                                         : "programmed path")};
     if (outcome.rest_axis >= 0)
-        data.notes.push_back("A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and friction let "
-                             "it; each move is as long as the card's slope table makes it, not as the plan has it. The table has 24 steps of speed up and 24 down, "
-                             "each a jump of the voltage, so the acceleration is in turn above its limit and below it.");
+        data.notes.push_back(
+            "A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and "
+            "friction let "
+            "it; each move is as long as the card's slope table makes it, not as the plan has it. The table has 24 "
+            "steps of speed up and 24 down, "
+            "each a jump of the voltage, so the acceleration is in turn above its limit and below it.");
     return data;
 }
 
-// ---- summary --------------------------------------------------------------------------------------------------------------------
+// ---- summary
 
 std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     std::string out = fmt::format("{}\n", verdict_text(outcome));
     out += fmt::format("  rack        {}\n", config.name);
-    out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time), outcome.run.plan.seconds,
-                       counted(moves_of(config, outcome), "move"), counted(outcome.run.plan.dwells, "dwell"),
-                       counted(outcome.run.plan.stops, "stop"));
+    out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time),
+                       outcome.run.plan.seconds, counted(moves_of(config, outcome), "move"),
+                       counted(outcome.run.plan.dwells, "dwell"), counted(outcome.run.plan.stops, "stop"));
     out += fmt::format("  path        {:.3f} mm, worst deviation {:.4f} mm", outcome.path_mm, outcome.worst.mm);
-    if (outcome.worst.line > 0) out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
+    if (outcome.worst.line > 0)
+        out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
     for (const control::ProgramProbe& probe : outcome.run.probes)
         out += fmt::format("\n  line {:<6} {}", probe.line, control::probe_text(probe.probe, probe.outcome));
-    out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>14}{:>22}{:>24}\n", "axis", "pulses", "counts", "expected", "lost", "ends at",
-                       "top speed / limit", "top accel / limit");
-    const auto of_pulses = [](const AxisOutcome& axis, std::int64_t count) { return axis.servo ? std::string("-") : fmt::format("{}", count); };
+    out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>14}{:>22}{:>24}\n", "axis", "pulses", "counts", "expected",
+                       "lost", "ends at", "top speed / limit", "top accel / limit");
+    const auto of_pulses = [](const AxisOutcome& axis, std::int64_t count) {
+        return axis.servo ? std::string("-") : fmt::format("{}", count);
+    };
     for (const AxisOutcome& axis : outcome.axes)
         out += fmt::format("  {:<5}{:>12}{:>12}{:>12}{:>8}{:>10.4f} {:<3}{:>13.3f} /{:>7.4g}{:>15.1f} /{:>7.4g}\n",
-                           control::axis_letters[static_cast<std::size_t>(axis.index)], of_pulses(axis, axis.pulses_sent), axis.counts_read,
-                           axis.counts_expected, of_pulses(axis, axis.lost_pulses), axis.real_end, axis.unit, axis.top.top_speed, axis.limits.max_speed,
-                           axis.top.top_accel, axis.limits.max_accel);
+                           control::axis_letters[static_cast<std::size_t>(axis.index)],
+                           of_pulses(axis, axis.pulses_sent), axis.counts_read, axis.counts_expected,
+                           of_pulses(axis, axis.lost_pulses), axis.real_end, axis.unit, axis.top.top_speed,
+                           axis.limits.max_speed, axis.top.top_accel, axis.limits.max_accel);
     return out;
 }
 
@@ -173,7 +197,8 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     nlohmann::ordered_json json;
     json["ok"] = outcome.ended.has_value() && outcome.position_trusted;
     json["verdict"] = verdict_text(outcome);
-    if (!outcome.ended) json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().place.line}};
+    if (!outcome.ended)
+        json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().place.line}};
     json["rack"] = config.name;
     json["seconds"] = to_seconds(outcome.time);
     json["planned_seconds"] = outcome.run.plan.seconds;
@@ -184,7 +209,8 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["events"] = outcome.events;
     json["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
     json["position_trusted"] = outcome.position_trusted;
-    json["worst_deviation"] = {{"mm", outcome.worst.mm}, {"line", outcome.worst.line}, {"seconds", to_seconds(outcome.worst.at)}};
+    json["worst_deviation"] = {
+        {"mm", outcome.worst.mm}, {"line", outcome.worst.line}, {"seconds", to_seconds(outcome.worst.at)}};
     if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
     for (const control::ProgramProbe& probe : outcome.run.probes)
         json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});
@@ -206,7 +232,8 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
                                 {"top_jump", axis.top.top_jump}});
     json["warnings"] = nlohmann::ordered_json::array();
     for (const JobWarning& warning : outcome.warnings)
-        json["warnings"].push_back({{"seconds", to_seconds(warning.at)}, {"line", warning.line}, {"text", warning.text}});
+        json["warnings"].push_back(
+            {{"seconds", to_seconds(warning.at)}, {"line", warning.line}, {"text", warning.text}});
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

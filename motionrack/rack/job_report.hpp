@@ -8,7 +8,8 @@
 namespace motionrack::rack {
 
 /// Everything the HTML report shows. `program` is the text that was run.
-trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcome, std::string_view program, const std::string& program_name);
+trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcome, std::string_view program,
+                            const std::string& program_name);
 
 /// The summary that a person reads at the end of a run, without colours, the same for the same job.
 std::string summary_of(const RackConfig& config, const JobOutcome& outcome);

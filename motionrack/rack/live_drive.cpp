@@ -10,7 +10,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t most_probes = 2000;  // that are told of
+constexpr std::size_t most_probes = 2000;   // that are told of
 constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
 
 }  // namespace
@@ -54,7 +54,8 @@ namespace {
 /// Lines of a program as far as the stream takes them.
 class Feeder {
   public:
-    Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run)
+    Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file,
+           control::ProgramRun& run)
         : walk_(text, settings, file), run_(run) {}
 
     void feed(control::Stream& stream) {
@@ -75,7 +76,9 @@ class Feeder {
             }
             run_.lines = walk_.furthest();
             const control::gcode::Block& block = stream.interpreter().block();
-            if (block.has_m(control::gcode::m_stop)) run_.ended = run_.ended || block.m[control::gcode::m_stop] == 2 || block.m[control::gcode::m_stop] == 30;
+            if (block.has_m(control::gcode::m_stop))
+                run_.ended =
+                    run_.ended || block.m[control::gcode::m_stop] == 2 || block.m[control::gcode::m_stop] == 30;
         }
         if (!more_ && !problem_ && walk_.has_faults()) problem_ = walk_.take_fault();
     }
@@ -89,7 +92,8 @@ class Feeder {
     std::optional<Error> problem_;
 };
 
-Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file, control::ProgramRun& run) {
+Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder,
+                   const std::string& file, control::ProgramRun& run) {
     using control::StreamState;
     std::int64_t probes = stream.last_probe().count;
     while (true) {
@@ -101,20 +105,31 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
         }
         if (!driven) return tl::unexpected<Error>(driven.error());
         switch (*driven) {
-            case StreamState::waiting: host.pass(look); break;
+            case StreamState::waiting:
+                host.pass(look);
+                break;
             case StreamState::held:
                 if (!orders.holds())
                     stream.resume();
                 else if (!orders.pending())
-                    return fail(Trouble::stopped, fmt::format("The job was held in line {}, and nobody resumed it.", stream.line_driven()), {stream.line_driven(), 0}, file);
+                    return fail(
+                        Trouble::stopped,
+                        fmt::format("The job was held in line {}, and nobody resumed it.", stream.line_driven()),
+                        {stream.line_driven(), 0}, file);
                 else
                     host.pass(look);
                 break;
-            case StreamState::paused: stream.resume(); break;  // M0: nobody waits in simulated time
-            case StreamState::driving: break;
+            case StreamState::paused:
+                stream.resume();
+                break;  // M0: nobody waits in simulated time
+            case StreamState::driving:
+                break;
             case StreamState::rest:
                 if (orders.stopped())
-                    return fail(Trouble::stopped, fmt::format("Stopped on request in line {}; the axes came to rest along the path.", stream.line_driven()), {stream.line_driven(), 0}, file);
+                    return fail(Trouble::stopped,
+                                fmt::format("Stopped on request in line {}; the axes came to rest along the path.",
+                                            stream.line_driven()),
+                                {stream.line_driven(), 0}, file);
                 if (!feeder.more()) return feeder.outcome();
                 break;
         }
@@ -123,13 +138,14 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
 
 }  // namespace
 
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const control::gcode::Settings& settings,
-                        const std::string& file, control::ProgramRun& run) {
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
+                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run) {
     // What is left of a move after a hold is planned again: what was programmed counts.
     double path_mm = 0;
     stream.on_move([&](const control::Move& move, const control::Point& start) {
         ++run.moves;
-        const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] || move.kind == control::MoveKind::arc;
+        const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] ||
+                            move.kind == control::MoveKind::arc;
         if (linear) path_mm += control::geometry_of(move, start).length;
     });
     Feeder feeder(text, settings, file, run);

@@ -43,9 +43,9 @@ class PathWatch final : public control::PathAxes {
     std::vector<control::BlockStart> starts_, heard_;
 };
 
-/// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as Controller::run. The stream's stop flag
-/// must be the axes', and `orders` be attached to it.
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const control::gcode::Settings& settings,
-                        const std::string& file, control::ProgramRun& run);
+/// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as Controller::run. The
+/// stream's stop flag must be the axes', and `orders` be attached to it.
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
+                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run);
 
 }  // namespace motionrack::rack

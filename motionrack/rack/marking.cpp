@@ -13,8 +13,9 @@ namespace {
 
 constexpr double places_per_unit = 1e5;  // of the parts: 10 nm, or 1/100,000 degree
 /// Faults of the encoder's lines; see parts::LineOutput.
-constexpr std::array<std::string_view, 7> encoder_faults = {"encoder.broken_a", "encoder.broken_b", "encoder.swapped", "encoder.inverted_a",
-                                                            "encoder.inverted_b", "encoder.noise",    "encoder.jitter"};
+constexpr std::array<std::string_view, 7> encoder_faults = {
+    "encoder.broken_a",   "encoder.broken_b", "encoder.swapped", "encoder.inverted_a",
+    "encoder.inverted_b", "encoder.noise",    "encoder.jitter"};
 
 std::int64_t places(double units) {
     return static_cast<std::int64_t>(std::floor(units * places_per_unit + 0.5));
@@ -81,7 +82,8 @@ RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
     MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked
     out.drive = std::make_unique<parts::TrackDrive>(kernel, config.name, *track, config.greatest_speed());
     if (config.has_encoder()) {
-        out.counts = std::make_unique<parts::TrackMotion>(kernel, config.name + ".counts", out.track(), config.counts_per_unit * (1 - config.slip));
+        out.counts = std::make_unique<parts::TrackMotion>(kernel, config.name + ".counts", out.track(),
+                                                          config.counts_per_unit * (1 - config.slip));
         out.drive->add(*out.counts);
         parts::LineEncoderSettings lines;
         lines.index = false;
@@ -97,8 +99,10 @@ RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
     if (config.passing) {
         out.place = std::make_unique<parts::TrackMotion>(kernel, config.name + ".place", out.track(), places_per_unit);
         out.drive->add(*out.place);
-        const parts::PartSensorSettings sensor{places(config.passing->first), places(config.passing->every), places(config.passing->length)};
-        out.sensor = std::make_unique<parts::PartSensor>(kernel, config.name + ".sensor", config.name + ".sensor_n", *out.place, sensor);
+        const parts::PartSensorSettings sensor{places(config.passing->first), places(config.passing->every),
+                                               places(config.passing->length)};
+        out.sensor = std::make_unique<parts::PartSensor>(kernel, config.name + ".sensor", config.name + ".sensor_n",
+                                                         *out.place, sensor);
     }
     return out;
 }
@@ -109,8 +113,8 @@ RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, con
     const auto wire = [&](const char* pin) { return kernel.find_wire(config.card + "." + pin); };
     RunningScanner out;
     out.config = config;
-    out.head = std::make_unique<parts::ScanHead>(kernel, config.name, parts::ScanHeadWires{wire("xout"), wire("yout"), wire("laser_on")},
-                                                 std::move(*station));
+    out.head = std::make_unique<parts::ScanHead>(
+        kernel, config.name, parts::ScanHeadWires{wire("xout"), wire("yout"), wire("laser_on")}, std::move(*station));
     return out;
 }
 

@@ -22,10 +22,10 @@ namespace motionrack::rack {
 struct RunningTrack {
     RackTrack config;
     std::unique_ptr<parts::TrackDrive> drive;
-    std::unique_ptr<parts::TrackMotion> counts;   ///< what its encoder sees; this and the encoder may be nullptr
+    std::unique_ptr<parts::TrackMotion> counts;  ///< what its encoder sees; this and the encoder may be nullptr
     std::unique_ptr<parts::LineEncoder> encoder;
-    std::unique_ptr<parts::WordSource> sender;    ///< may be nullptr
-    std::unique_ptr<parts::TrackMotion> place;    ///< of the parts; this and the sensor may be nullptr
+    std::unique_ptr<parts::WordSource> sender;  ///< may be nullptr
+    std::unique_ptr<parts::TrackMotion> place;  ///< of the parts; this and the sensor may be nullptr
     std::unique_ptr<parts::PartSensor> sensor;
 
     const parts::Track& track() const { return drive->track(); }
@@ -36,8 +36,8 @@ struct RunningTrack {
     sim::DeviceId device_of(std::string_view fault) const;
 };
 
-/// One scan head of the running machine. What it has marked can be looked at between runs: station().workpiece() has points, which grow, and
-/// the piece that is being marked.
+/// One scan head of the running machine. What it has marked can be looked at between runs: station().workpiece() has
+/// points, which grow, and the piece that is being marked.
 struct RunningScanner {
     RackScanner config;
     std::unique_ptr<parts::ScanHead> head;

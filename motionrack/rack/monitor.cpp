@@ -1,9 +1,8 @@
 // Sampling in virtual time, and what is made of the samples between runs.
-#include <motionrack/rack/monitor.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <motionrack/rack/monitor.hpp>
 
 namespace motionrack::rack {
 
@@ -11,7 +10,7 @@ namespace {
 constexpr std::size_t most_blocks = 20'000;
 // Pulses: a piece begins and ends at whole pulses of its own axis and of the one that leads it.
 constexpr double most_rounding = 2;
-}
+}  // namespace
 
 void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
     const bool ramp = std::fabs(rate - before) <= jump_hz;
@@ -78,7 +77,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
     }
 }
 
-// ---- in virtual time ----------------------------------------------------------------------------------------------------------
+// ---- in virtual time
 
 void Monitor::begin() {
     running_ = true;
@@ -121,7 +120,7 @@ void Monitor::take(Instant now) {
     }
 }
 
-// ---- between runs -------------------------------------------------------------------------------------------------------------
+// ---- between runs
 
 void Monitor::planned(std::int64_t block, const control::PlannedMove& move) {
     planned_.push_back({block, move, control::geometry_of(move.move, move.start)});
@@ -155,8 +154,16 @@ void Monitor::work_off(const RawSample& raw) {
         while (planned_.size() > 1 && planned_[1].block < current_) planned_.pop_front();
         for (const Planned& planned : planned_) {
             if (planned.block != current_) continue;
-            open_block_ = {current_, planned.move.move.line, planned.move.move.kind, planned.move.length, planned.move.entry,
-                           planned.move.cruise, planned.move.exit, start.at, start.at, 0};
+            open_block_ = {current_,
+                           planned.move.move.line,
+                           planned.move.move.kind,
+                           planned.move.length,
+                           planned.move.entry,
+                           planned.move.cruise,
+                           planned.move.exit,
+                           start.at,
+                           start.at,
+                           0};
             block_open_ = true;
         }
     }
@@ -168,11 +175,13 @@ void Monitor::work_off(const RawSample& raw) {
         sample.commanded[axis] = axes_[i].origin + static_cast<double>(raw.commanded[i]) / axes_[i].pulses_per_unit;
         sample.volts[axis] = raw.volts[i];
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
-        if (raw.steady[i]) statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
+        if (raw.steady[i])
+            statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
     }
     accelerations(raw, sample);
     const double off = deviation_of(sample);
-    if (off > worst_.mm) worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
+    if (off > worst_.mm)
+        worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
     if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
     ++taken_;
     kept_.add(sample, off);
@@ -200,12 +209,14 @@ double Monitor::deviation_of(const Sample& sample) {
     for (const Planned& planned : planned_) {
         if (planned.block > current_ + 1) break;
         if (planned.block + 1 < current_) continue;
-        const bool straight = planned.path.shape == control::PathShape::line || planned.path.shape == control::PathShape::arc;
+        const bool straight =
+            planned.path.shape == control::PathShape::line || planned.path.shape == control::PathShape::arc;
         const double off =
             straight ? control::distance_to(planned.path, sample.position[0], sample.position[1], sample.position[2])
-                     : std::sqrt((sample.position[0] - planned.move.start[0]) * (sample.position[0] - planned.move.start[0]) +
-                                 (sample.position[1] - planned.move.start[1]) * (sample.position[1] - planned.move.start[1]) +
-                                 (sample.position[2] - planned.move.start[2]) * (sample.position[2] - planned.move.start[2]));
+                     : std::sqrt(
+                           (sample.position[0] - planned.move.start[0]) * (sample.position[0] - planned.move.start[0]) +
+                           (sample.position[1] - planned.move.start[1]) * (sample.position[1] - planned.move.start[1]) +
+                           (sample.position[2] - planned.move.start[2]) * (sample.position[2] - planned.move.start[2]));
         if (best < 0 || off < best) best = off;
     }
     return std::max(best, 0.0);

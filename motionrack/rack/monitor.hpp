@@ -1,5 +1,5 @@
-// Watches where the machine really is while a job runs: samples of every axis, top speeds and accelerations, and the distance from the
-// programmed path.
+// Watches where the machine really is while a job runs: samples of every axis, top speeds and accelerations, and the
+// distance from the programmed path.
 //
 //   kernel --act(t), every period--> ring of samples --drain(), between runs--> series, statistics, deviation
 #pragma once
@@ -21,30 +21,32 @@ namespace motionrack::rack {
 
 /// One axis as the monitor sees it. Position in mm or degrees = origin + count / counts_per_unit.
 struct WatchedAxis {
-    int index = 0;                        ///< 0 .. 5: control::axis_letters
-    sim::Motion* commanded = nullptr;     ///< the card's pulses
-    const sim::Motion* real = nullptr;    ///< the rotor, in pulses
+    int index = 0;                          ///< 0 .. 5: control::axis_letters
+    sim::Motion* commanded = nullptr;       ///< the card's pulses
+    const sim::Motion* real = nullptr;      ///< the rotor, in pulses
     const parts::DcMotor* servo = nullptr;  ///< what turns it, if no pulses do
     double pulses_per_unit = 1;
-    double origin = 0;                    ///< mm or degrees where both counts are 0
-    double jump_hz = 1;                   ///< rates that change by more than this at once are jumps, not ramps
-    double full_step = 16;                ///< pulses: a change that is over before the axis is that far away is no jump
-    double accel_hz = 0;                  ///< the axis' acceleration limit, pulses/s2
+    double origin = 0;      ///< mm or degrees where both counts are 0
+    double jump_hz = 1;     ///< rates that change by more than this at once are jumps, not ramps
+    double full_step = 16;  ///< pulses: a change that is over before the axis is that far away is no jump
+    double accel_hz = 0;    ///< the axis' acceleration limit, pulses/s2
 };
 
 struct Sample {
     Instant at{};
-    std::array<double, control::axis_count> position = {};  ///< real, mm or degrees
-    std::array<double, control::axis_count> commanded = {}; ///< by the pulses, mm or degrees
-    std::array<double, control::axis_count> speed = {};     ///< of the pulses, per second
-    std::array<float, control::axis_count> volts = {};      ///< at the amplifier of a servo
-    std::array<float, control::axis_count> accel = {};      ///< over 4 samples, per second squared; NaN where the speed jumped
+    std::array<double, control::axis_count> position = {};   ///< real, mm or degrees
+    std::array<double, control::axis_count> commanded = {};  ///< by the pulses, mm or degrees
+    std::array<double, control::axis_count> speed = {};      ///< of the pulses, per second
+    std::array<float, control::axis_count> volts = {};       ///< at the amplifier of a servo
+    std::array<float, control::axis_count> accel =
+        {};  ///< over 4 samples, per second squared; NaN where the speed jumped
 };
 
 struct AxisStatistics {
-    double top_speed = 0;   ///< per second, at every change of the pulse rate
-    double top_accel = 0;   ///< per second squared, over 4 samples without a jump
-    double top_jump = 0;    ///< greatest change of speed at once (start, joint, stop), less what whole pulses make of it; per second
+    double top_speed = 0;  ///< per second, at every change of the pulse rate
+    double top_accel = 0;  ///< per second squared, over 4 samples without a jump
+    double top_jump =
+        0;  ///< greatest change of speed at once (start, joint, stop), less what whole pulses make of it; per second
 };
 
 /// A planned move as it was really driven.
@@ -73,7 +75,8 @@ class Monitor final : public sim::Device {
   public:
     static constexpr std::size_t ring_size = 1 << 14;
 
-    /// `period`: between samples; doubled whenever more than `most_samples` are kept (every second one is then dropped).
+    /// `period`: between samples; doubled whenever more than `most_samples` are kept (every second one is then
+    /// dropped).
     Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples);
 
     /// Begins sampling now.

@@ -35,10 +35,12 @@ Result<OrderPlan::Order> OrderPlan::read(const TimedText& text) {
         out.value = equals == std::string_view::npos ? std::nan("") : number_of(action.substr(equals + 1));
         return out.value >= 0.01 && out.value <= most;
     };
-    const bool good = (name == "stop" && plain(Kind::stop)) || (name == "hold" && plain(Kind::hold)) || (name == "resume" && plain(Kind::resume)) ||
-                      (name == "feed" && part(Kind::feed, 2)) || (name == "rapid" && part(Kind::rapid, 1));
+    const bool good = (name == "stop" && plain(Kind::stop)) || (name == "hold" && plain(Kind::hold)) ||
+                      (name == "resume" && plain(Kind::resume)) || (name == "feed" && part(Kind::feed, 2)) ||
+                      (name == "rapid" && part(Kind::rapid, 1));
     if (good) return out;
-    return fail(Trouble::bad_input, fmt::format("The order {} is none: orders are hold, resume, stop, feed=PART (0.01 .. 2) and rapid=PART (0.01 .. 1), each with its "
+    return fail(Trouble::bad_input, fmt::format("The order {} is none: orders are hold, resume, stop, feed=PART (0.01 "
+                                                ".. 2) and rapid=PART (0.01 .. 1), each with its "
                                                 "time, such as feed=0.5@1.5s. Nothing was moved.",
                                                 in_quotes(text.text)));
 }
@@ -50,7 +52,8 @@ Result<std::unique_ptr<OrderPlan>> OrderPlan::create(Rack& rack, const std::vect
         plan->needs_stream_ = plan->needs_stream_ || order.kind != Kind::stop;
         plan->orders_.push_back(std::move(order));
     }
-    std::stable_sort(plan->orders_.begin(), plan->orders_.end(), [](const Order& a, const Order& b) { return a.at < b.at; });
+    std::stable_sort(plan->orders_.begin(), plan->orders_.end(),
+                     [](const Order& a, const Order& b) { return a.at < b.at; });
     MOTIONRACK_CHECK(plan->check_holds());
     plan->id_ = rack.kernel().add(*plan, sim::Phase::observers, "orders");
     return plan;
@@ -63,10 +66,16 @@ Result<void> OrderPlan::check_holds() const {
         if (order.kind == Kind::resume || order.kind == Kind::stop) holds = nullptr;
     }
     if (holds == nullptr) return {};
-    return fail(Trouble::refused, fmt::format("After the order {} the job would stand for ever; add a resume or a stop after it. Nothing was moved.", in_quotes(holds->text)));
+    return fail(
+        Trouble::refused,
+        fmt::format(
+            "After the order {} the job would stand for ever; add a resume or a stop after it. Nothing was moved.",
+            in_quotes(holds->text)));
 }
 
-void OrderPlan::begin() { aim(); }
+void OrderPlan::begin() {
+    aim();
+}
 
 void OrderPlan::aim() {
     const Instant now = rack_.kernel().now();
@@ -84,7 +93,8 @@ void OrderPlan::act(Instant now) {
 std::optional<Instant> OrderPlan::ask_stop() {
     if (std::exchange(asked_, true) || stop_flag_) return std::nullopt;
     Order order{rack_.kernel().now() + asked_ahead, Kind::stop, 1, "stop", false};
-    const auto after = std::upper_bound(orders_.begin(), orders_.end(), order.at, [](Instant at, const Order& one) { return at < one.at; });
+    const auto after = std::upper_bound(orders_.begin(), orders_.end(), order.at,
+                                        [](Instant at, const Order& one) { return at < one.at; });
     orders_.insert(after, order);
     aim();
     return order.at;
@@ -103,11 +113,21 @@ void OrderPlan::apply(const Order& order) {
     if (order.kind == Kind::hold || order.kind == Kind::resume) holds_ = order.kind == Kind::hold;
     if (stream_ == nullptr) return;
     switch (order.kind) {
-        case Kind::stop: stream_->stop(); break;
-        case Kind::hold: stream_->hold(); break;
-        case Kind::resume: stream_->resume(); break;
-        case Kind::feed: stream_->set_overrides(feed_ = order.value, rapid_); break;
-        case Kind::rapid: stream_->set_overrides(feed_, rapid_ = order.value); break;
+        case Kind::stop:
+            stream_->stop();
+            break;
+        case Kind::hold:
+            stream_->hold();
+            break;
+        case Kind::resume:
+            stream_->resume();
+            break;
+        case Kind::feed:
+            stream_->set_overrides(feed_ = order.value, rapid_);
+            break;
+        case Kind::rapid:
+            stream_->set_overrides(feed_, rapid_ = order.value);
+            break;
     }
 }
 

@@ -2,7 +2,8 @@
 //
 //   kernel ──act at the instant──► break_run ──► between runs: apply_due() ──► stop flag, Stream
 //
-// A stop that is asked for takes effect a microsecond later, at an instant that a recording has: planned there, it does the same again.
+// A stop that is asked for takes effect a microsecond later, at an instant that a recording has: planned there, it does
+// the same again.
 #pragma once
 
 #include <atomic>
@@ -19,8 +20,9 @@ namespace motionrack::rack {
 
 class OrderPlan final : public sim::Device {
   public:
-    /// Before the rack is started. Orders: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 .. 1). Errors: bad_input for
-    /// the first that is none of these; refused, a hold after which neither resume nor stop is planned.
+    /// Before the rack is started. Orders: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 .. 1).
+    /// Errors: bad_input for the first that is none of these; refused, a hold after which neither resume nor stop is
+    /// planned.
     static Result<std::unique_ptr<OrderPlan>> create(Rack& rack, const std::vector<TimedText>& orders);
     /// Whether there is an order of that name; its value may be wrong.
     static bool knows(std::string_view action);
@@ -34,12 +36,13 @@ class OrderPlan final : public sim::Device {
     /// For those who drive without a Stream.
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
 
-    // ---- between runs ----
+    // ---- between runs
     /// Comes to rest soon; once. Gives the instant at which it takes effect.
     std::optional<Instant> ask_stop();
     void apply_due();
     bool stopped() const { return stop_flag_; }
-    /// The last of holds and resumes was a hold. A resume that comes before the axes stand lets them go on as soon as they do.
+    /// The last of holds and resumes was a hold. A resume that comes before the axes stand lets them go on as soon as
+    /// they do.
     bool holds() const { return holds_; }
     /// An order is still to come.
     bool pending() const;

@@ -1,8 +1,7 @@
-#include <motionrack/rack/path_segment.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/geometry.hpp>
+#include <motionrack/rack/path_segment.hpp>
 
 namespace motionrack::rack {
 
@@ -11,7 +10,8 @@ trace::ReportSegment path_segment(const control::Move& move, const control::Poin
     segment.line = move.line;
     segment.traverse = move.kind == control::MoveKind::traverse;
     const control::Geometry path = control::geometry_of(move, start);
-    const double pieces = path.shape == control::PathShape::arc ? std::clamp(std::ceil(std::fabs(path.sweep) / 0.06), 2.0, 2000.0) : 1;
+    const double pieces =
+        path.shape == control::PathShape::arc ? std::clamp(std::ceil(std::fabs(path.sweep) / 0.06), 2.0, 2000.0) : 1;
     for (double i = 0; i <= pieces; ++i) {
         const control::Point at = control::position_at(path, path.length * i / pieces);
         segment.points.push_back({at[0], at[1], at[2]});

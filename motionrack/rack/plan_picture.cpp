@@ -1,5 +1,3 @@
-#include <motionrack/rack/plan_picture.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <motionrack/control/profile.hpp>
 #include <motionrack/control/ride/ride.hpp>
 #include <motionrack/rack/path_segment.hpp>
+#include <motionrack/rack/plan_picture.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <vector>
 
@@ -36,15 +35,21 @@ struct AxisTrack {
     bool moves = false;
 };
 
-double greatest(double a, double b, double c) { return std::max({std::fabs(a), std::fabs(b), std::fabs(c)}); }
+double greatest(double a, double b, double c) {
+    return std::max({std::fabs(a), std::fabs(b), std::fabs(c)});
+}
 
 /// The jerk-limited plan, look by look.
 class Looks {
   public:
-    Looks(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start) : limits_(limits) {
+    Looks(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start)
+        : limits_(limits) {
         for (const control::Move& move : moves)
-            for (std::size_t i = 0; i < 3; ++i) linear_ = linear_ || move.kind == control::MoveKind::arc || move.end[i] != start[i];
-        drive(moves, start, [this](const control::Stretch& stretch) { seconds_ += stretch.seconds - stretch.overlap + stretch.rest_seconds; });
+            for (std::size_t i = 0; i < 3; ++i)
+                linear_ = linear_ || move.kind == control::MoveKind::arc || move.end[i] != start[i];
+        drive(moves, start, [this](const control::Stretch& stretch) {
+            seconds_ += stretch.seconds - stretch.overlap + stretch.rest_seconds;
+        });
         drive(moves, start, [this](const control::Stretch& stretch) { look_at(stretch); });
         if (path.seconds.empty()) add(0, {.place = start});
     }
@@ -63,7 +68,8 @@ class Looks {
     }
 
   private:
-    void drive(std::span<const control::Move> moves, const control::Point& start, control::Ride::OnStretch on_stretch) const {
+    void drive(std::span<const control::Move> moves, const control::Point& start,
+               control::Ride::OnStretch on_stretch) const {
         control::Ride ride(limits_, start, std::move(on_stretch));
         for (const control::Move& move : moves) ride.push(move);
         ride.flush();
@@ -93,7 +99,9 @@ class Looks {
         path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : greatest(v[3], v[4], v[5]));
         driven.push_back({state.place[0], state.place[1], state.place[2]});
         for (std::size_t i = 0; i < axes.size(); ++i) {
-            const auto part = [](double value, double limit) { return static_cast<float>(limit > 0 ? value / limit : 0); };
+            const auto part = [](double value, double limit) {
+                return static_cast<float>(limit > 0 ? value / limit : 0);
+            };
             axes[i].accel.push_back(part(state.accel[i], limits_[i].max_accel));
             axes[i].jerk.push_back(part(state.jerk[i], limits_[i].max_jerk));
             axes[i].moves = axes[i].moves || v[i] != 0;
@@ -112,7 +120,8 @@ class Looks {
 };
 
 /// The corners of the speed's trapezoids, and S-curves in chords.
-Track corners_of_trapezoids(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start) {
+Track corners_of_trapezoids(std::span<const control::Move> moves, const control::MachineLimits& limits,
+                            const control::Point& start) {
     Track out;
     double begin = 0;
     control::Planner planner(limits, start);
@@ -125,11 +134,13 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                 const control::SCurve curve(planned.length, planned.cruise, planned.accel, planned.jerk);
                 double from = 0;
                 for (const double end : curve.phase_ends()) {
-                    for (int i = 0; i <= 5; ++i) out.add(begin + from + (end - from) * i / 5, curve.sample(from + (end - from) * i / 5).speed);
+                    for (int i = 0; i <= 5; ++i)
+                        out.add(begin + from + (end - from) * i / 5, curve.sample(from + (end - from) * i / 5).speed);
                     from = end;
                 }
             } else {
-                const control::Trapezoid trapezoid(planned.length, planned.entry, planned.exit, planned.cruise, planned.accel);
+                const control::Trapezoid trapezoid(planned.length, planned.entry, planned.exit, planned.cruise,
+                                                   planned.accel);
                 out.add(begin, planned.entry);
                 for (const double end : trapezoid.phase_ends()) out.add(begin + end, trapezoid.sample(end).speed);
             }
@@ -154,8 +165,11 @@ Track looked_at(const Track& corners, double end) {
         const double time = end * i / looks;
         while (k + 1 < corners.seconds.size() && corners.seconds[k + 1] <= time) ++k;
         const double from = static_cast<double>(corners.speed[k]);
-        if (k + 1 == corners.seconds.size()) out.add(time, time > corners.seconds[k] ? 0 : from);
-        else out.add(time, from + (static_cast<double>(corners.speed[k + 1]) - from) * (time - corners.seconds[k]) / (corners.seconds[k + 1] - corners.seconds[k]));
+        if (k + 1 == corners.seconds.size())
+            out.add(time, time > corners.seconds[k] ? 0 : from);
+        else
+            out.add(time, from + (static_cast<double>(corners.speed[k + 1]) - from) * (time - corners.seconds[k]) /
+                                     (corners.seconds[k + 1] - corners.seconds[k]));
     }
     return out;
 }
@@ -163,7 +177,8 @@ Track looked_at(const Track& corners, double end) {
 std::vector<trace::SvgChart> charts_of(const Looks& plan, const Track& trapezoids, const RackConfig& config) {
     std::vector<trace::SvgChart> out;
     out.push_back({fmt::format("path speed, {}/s", plan.is_linear() ? "mm" : "deg"),
-                   {{"trapezoids", "b", trapezoids.seconds, trapezoids.speed}, {"jerk-limited", "z", plan.path.seconds, plan.path.speed}},
+                   {{"trapezoids", "b", trapezoids.seconds, trapezoids.speed},
+                    {"jerk-limited", "z", plan.path.seconds, plan.path.speed}},
                    {}});
     for (const RackAxis& axis : config.axes) {
         const AxisTrack& track = plan.axes[static_cast<std::size_t>(axis.index())];
@@ -189,14 +204,19 @@ trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves
     const bool flat = !extent.some || extent.high[2] - extent.low[2] <= 0.05 * extent.diagonal();
     // As wide as it can be, with some room for the marks and the scale.
     const double wide = extent.high[0] - extent.low[0], high = extent.high[1] - extent.low[1];
-    const int height = std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : most_path_height, least_path_height, most_path_height);
+    const int height =
+        std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : most_path_height,
+                   least_path_height, most_path_height);
     const double most = static_cast<double>(*std::max_element(plan.path.speed.begin(), plan.path.speed.end()));
-    return {trace::svg_path(data, flat ? trace::PathView::plan : trace::PathView::perspective, {width, height, false}, {plan.path.speed, most, "mm/s"}), height};
+    return {trace::svg_path(data, flat ? trace::PathView::plan : trace::PathView::perspective, {width, height, false},
+                            {plan.path.speed, most, "mm/s"}),
+            height};
 }
 
 }  // namespace
 
-std::string plan_picture(const std::string& title, std::span<const control::Move> moves, const RackConfig& config, const control::Point& start) {
+std::string plan_picture(const std::string& title, std::span<const control::Move> moves, const RackConfig& config,
+                         const control::Point& start) {
     const control::MachineLimits limits = config.limits();
     Looks plan(moves, limits, start);
     const Track corners = corners_of_trapezoids(moves, limits, start);

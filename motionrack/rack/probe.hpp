@@ -10,7 +10,8 @@ class Probe final : public sim::Device {
   public:
     /// Before the rack is started.
     explicit Probe(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "probe")) {}
-    /// Calls `look` every `period` (> 0) from now on, within the kernel's run: it must neither allocate nor change anything. Between runs.
+    /// Calls `look` every `period` (> 0) from now on, within the kernel's run: it must neither allocate nor change
+    /// anything. Between runs.
     void begin(Duration period, std::function<void(Instant now)> look) {
         period_ = period;
         look_ = std::move(look);

@@ -15,9 +15,9 @@ namespace motionrack::rack {
 
 /// One thing that can be asked of a part that is there.
 struct Quantity {
-    std::string name;      ///< with its unit: "position_mm"
+    std::string name;  ///< with its unit: "position_mm"
     std::string_view doc;
-    bool whole = false;    ///< it counts something: its values are whole
+    bool whole = false;                      ///< it counts something: its values are whole
     std::function<double(Instant now)> get;  ///< as long as the rack lives
 };
 struct QuantitiesOfPart {
@@ -34,10 +34,10 @@ std::vector<std::pair<std::string_view, std::string_view>> declared_quantities(P
 /// Errors: bad_input if there is no such part or quantity, with the ones that there are.
 Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);
 
-/// Pushes an axis there by hand; of a belt or table speed_{u}_s can be set, for good or until the fault drive.profile. A motor in
-/// step goes to the nearest place of the same electrical phase (a multiple of four full steps away), as a real one under current
-/// does: read the quantity to see where it came to. Between runs.
-/// Errors: bad_input; refused if it cannot be set, if the value is no number or too far away (see greatest_push).
+/// Pushes an axis there by hand; of a belt or table speed_{u}_s can be set, for good or until the fault drive.profile.
+/// A motor in step goes to the nearest place of the same electrical phase (a multiple of four full steps away), as a
+/// real one under current does: read the quantity to see where it came to. Between runs. Errors: bad_input; refused if
+/// it cannot be set, if the value is no number or too far away (see greatest_push).
 Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double value);
 
 }  // namespace motionrack::rack

@@ -112,24 +112,30 @@ void Rack::build_axis(const RackAxis& axis) {
     running.card = card(axis.card)->motion();
     MOTIONRACK_ASSERT(running.card != nullptr);
     running.channel = running.card->channel_number(axis.channel);
-    if (axis.servo) running.servo = std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
+    if (axis.servo)
+        running.servo =
+            std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
     running.machine = std::make_unique<parts::AxisMachine>(kernel_, name, settings);
-    running.pulse_ears = std::make_unique<EdgeFork>([machine = running.machine.get()](sim::EdgeListener* ear) { machine->listen_pulse_edges(ear); });
-    running.encoder_ears = std::make_unique<EdgeFork>([machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().listen_edges(ear); });
+    running.pulse_ears = std::make_unique<EdgeFork>(
+        [machine = running.machine.get()](sim::EdgeListener* ear) { machine->listen_pulse_edges(ear); });
+    running.encoder_ears = std::make_unique<EdgeFork>(
+        [machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().listen_edges(ear); });
     axes_.push_back(std::move(running));
 }
 
 void Rack::join_links() {
     std::vector<sim::Motion*> pulses(axes_.size(), &still_);
     for (const PulseLink& link : config_.pulse_links)
-        pulses[static_cast<std::size_t>(link.axis)] = &cards_[static_cast<std::size_t>(link.card)]->motion()->pulses(link.channel);
+        pulses[static_cast<std::size_t>(link.axis)] =
+            &cards_[static_cast<std::size_t>(link.card)]->motion()->pulses(link.channel);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         RunningAxis& axis = axes_[i];
         axis.machine->connect(axis.servo ? *axis.servo : *pulses[i]);
         const RackSwitches& switches = axis.config.switches;
         if (!switches.has_cam()) continue;
-        axis.cam = std::make_unique<parts::ReferenceCam>(kernel_, fmt::format("{}.cam", axis.config.letter), axis.machine->rotor(),
-                                                         rotor_at(axis.config, *switches.cam_from), rotor_at(axis.config, *switches.cam_to), 0);
+        axis.cam = std::make_unique<parts::ReferenceCam>(
+            kernel_, fmt::format("{}.cam", axis.config.letter), axis.machine->rotor(),
+            rotor_at(axis.config, *switches.cam_from), rotor_at(axis.config, *switches.cam_to), 0);
     }
     for (const EncoderLink& link : config_.encoder_links) {
         sim::Motion* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
@@ -141,7 +147,8 @@ void Rack::join_links() {
     }
     for (const auto& card : cards_)
         if (MotionCard* mover = card->motion();
-            mover != nullptr && std::none_of(axes_.begin(), axes_.end(), [&](const RunningAxis& axis) { return axis.card == mover; }))
+            mover != nullptr &&
+            std::none_of(axes_.begin(), axes_.end(), [&](const RunningAxis& axis) { return axis.card == mover; }))
             mover->connect_ideal_machine();
 }
 
@@ -160,11 +167,16 @@ void Rack::build_probe() {
 /// The name of an end's wire in the kernel. Pulses and encoder tracks of an axis have none: they are links.
 std::string Rack::wire_name(const WireEnd& end) const {
     switch (end.owner) {
-        case EndOwner::card: return config_.cards[static_cast<std::size_t>(end.index)].name + "." + end.pin;
-        case EndOwner::axis: return std::string(1, config_.axes[static_cast<std::size_t>(end.index)].letter) + "." + end.pin;
-        case EndOwner::track: return tracks_[static_cast<std::size_t>(end.index)].wire_name(end.pin);
-        case EndOwner::estop: return "estop";
-        case EndOwner::probe: return "probe";
+        case EndOwner::card:
+            return config_.cards[static_cast<std::size_t>(end.index)].name + "." + end.pin;
+        case EndOwner::axis:
+            return std::string(1, config_.axes[static_cast<std::size_t>(end.index)].letter) + "." + end.pin;
+        case EndOwner::track:
+            return tracks_[static_cast<std::size_t>(end.index)].wire_name(end.pin);
+        case EndOwner::estop:
+            return "estop";
+        case EndOwner::probe:
+            return "probe";
     }
     return {};
 }
@@ -190,7 +202,8 @@ CardProcessor& Rack::processor_of(const std::string& card) {
         if (name == card) return *processor;
     grating_bus::Card* found = grating_card_of(*this, card);
     MOTIONRACK_ASSERT(found != nullptr);  // read_rack has looked
-    return *processors_.emplace_back(card, std::make_unique<CardProcessor>(kernel_, card + ".processor", *found)).second;
+    return *processors_.emplace_back(card, std::make_unique<CardProcessor>(kernel_, card + ".processor", *found))
+                .second;
 }
 
 void Rack::build_stages() {
@@ -198,12 +211,15 @@ void Rack::build_stages() {
         RunningStage stage;
         stage.config = config;
         stage.motor = std::make_unique<parts::LinearStage>(kernel_, config.name, motor_settings(config));
-        stage.scale = std::make_unique<parts::LinearScale>(kernel_, config.name + ".scale", *stage.motor, scale_settings(config));
+        stage.scale =
+            std::make_unique<parts::LinearScale>(kernel_, config.name + ".scale", *stage.motor, scale_settings(config));
         grating_bus_of(*this)->decoders()[0]->connect(static_cast<int>(config.input), stage.scale.get());
-        junctions_->join(kernel_.find_wire(fmt::format("{}.vout{}", config.card, config.output)), stage.motor->drive_wire(), false);
+        junctions_->join(kernel_.find_wire(fmt::format("{}.vout{}", config.card, config.output)),
+                         stage.motor->drive_wire(), false);
         if (config.servo) {
             stage.processor = &processor_of(config.card);
-            stage.processor->add(static_cast<int>(config.output), StagePlan(config), loop_settings(config, config_.card(config.card)->grating_bus.first),
+            stage.processor->add(static_cast<int>(config.output), StagePlan(config),
+                                 loop_settings(config, config_.card(config.card)->grating_bus.first),
                                  from_seconds(config.servo->compute_us * 1e-6), stage.scale->count(Instant{0}));
         }
         stages_.push_back(std::move(stage));
@@ -212,12 +228,14 @@ void Rack::build_stages() {
 
 void Rack::build_scanners() {
     for (const RackScanner& scanner : config_.scanners)
-        scanners_.push_back(build_scanner(kernel_, scanner, scanner.track ? &track(*scanner.track)->drive->track() : nullptr));
+        scanners_.push_back(
+            build_scanner(kernel_, scanner, scanner.track ? &track(*scanner.track)->drive->track() : nullptr));
 }
 
 /// The wire of an output. The tracks of an encoder are made as wires where the first card asks for them.
 sim::WireId Rack::output_wire(const WireEnd& end) {
-    if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b")) return kernel_.find_wire(wire_name(end));
+    if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b"))
+        return kernel_.find_wire(wire_name(end));
     RunningAxis& axis = axes_[static_cast<std::size_t>(end.index)];
     const std::string name = fmt::format("{}.lines", axis.config.letter);
     if (!axis.lines) {
@@ -252,14 +270,17 @@ void Rack::copy_from(Rack& other) {
 
 Result<control::PathAxes*> Rack::path_axes(const std::optional<control::Point>& position) {
     if (axes_.empty())
-        return fail(Trouble::refused, "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
+        return fail(Trouble::refused,
+                    "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
     if (config_.point_to_point()) return positioning_axes(position);
     for (const RunningAxis& axis : axes_)
         if (axis.card != axes_.front().card)
-            return fail(Trouble::refused, fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
-                                                      "one card. Nothing was moved; put them on one card.",
-                                                      axes_.front().config.letter, axes_.front().config.card, axis.config.letter,
-                                                      axis.config.card));
+            return fail(
+                Trouble::refused,
+                fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
+                            "one card. Nothing was moved; put them on one card.",
+                            axes_.front().config.letter, axes_.front().config.card, axis.config.letter,
+                            axis.config.card));
     return axes_.front().card->path_axes(config_, position);
 }
 
@@ -289,18 +310,25 @@ control::Point Rack::start_position() const {
 
 std::string Rack::describe(const sim::Condition& condition) {
     if (condition.device == sim::no_device)
-        return fmt::format("{}: at {:.6f} s this wire leads back to what drives it and did not come to rest after {} changes; it was left as "
-                           "it was. Look at the section [wires] of the rack file",
-                           kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
+        return fmt::format(
+            "{}: at {:.6f} s this wire leads back to what drives it and did not come to rest after {} changes; it was "
+            "left as "
+            "it was. Look at the section [wires] of the rack file",
+            kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
     for (const RunningAxis& axis : axes_)
-        if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device)) return parts::describe(condition, kernel_.device_name(condition.device));
+        if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device))
+            return parts::describe(condition, kernel_.device_name(condition.device));
     for (const RunningStage& stage : stages_)
-        if (stage.processor != nullptr && stage.processor->id() == condition.device && stage.config.output == condition.a) return describe_loop(condition, stage.config);
+        if (stage.processor != nullptr && stage.processor->id() == condition.device &&
+            stage.config.output == condition.a)
+            return describe_loop(condition, stage.config);
     for (const RunningStage& stage : stages_)
-        if (stage.motor->id() == condition.device || stage.scale->id() == condition.device) return parts::describe(condition, stage.config.name);
+        if (stage.motor->id() == condition.device || stage.scale->id() == condition.device)
+            return parts::describe(condition, stage.config.name);
     for (const auto& card : cards_)
         if (card->speaks_for(condition.device)) return card->describe(condition);
-    return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a, condition.b);
+    return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a,
+                       condition.b);
 }
 
 }  // namespace motionrack::rack

@@ -38,12 +38,14 @@ namespace motionrack::rack {
 struct RunningAxis {
     RackAxis config;
     MotionCard* card = nullptr;
-    int channel = 0;  ///< of the card
+    int channel = 0;                        ///< of the card
     std::unique_ptr<parts::DcMotor> servo;  ///< nullptr: a stepping motor, which is a part of the machine
     std::unique_ptr<parts::AxisMachine> machine;
     std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
-    std::unique_ptr<parts::LineEncoder> lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
-    std::unique_ptr<EdgeFork> pulse_ears, encoder_ears;  ///< who hears the edges of the card's pulses and of the encoder
+    std::unique_ptr<parts::LineEncoder>
+        lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
+    std::unique_ptr<EdgeFork> pulse_ears,
+        encoder_ears;  ///< who hears the edges of the card's pulses and of the encoder
 
     /// What turns the machine: the card's pulses or the servo.
     sim::Motion& turned_by() const { return servo ? static_cast<sim::Motion&>(*servo) : card->pulses(channel); }
@@ -80,9 +82,9 @@ class Rack {
     /// No more parts: virtual time can run.
     void start();
     bool started() const { return started_; }
-    /// All axes of the rack as a group that follows paths: those of one card that can, or axes that position one by one (see
-    /// point_to_point). They are set up at the machine's start position, or go on from where their counters say that they stand. Errors:
-    /// refused if the rack has both kinds. The rack must be started.
+    /// All axes of the rack as a group that follows paths: those of one card that can, or axes that position one by one
+    /// (see point_to_point). They are set up at the machine's start position, or go on from where their counters say
+    /// that they stand. Errors: refused if the rack has both kinds. The rack must be started.
     Result<control::PathAxes*> path_axes() { return path_axes(start_position()); }
     Result<control::PathAxes*> path_axes_here() { return path_axes(std::nullopt); }
     /// For progress, draining and Ctrl-C: see VirtualPort.

@@ -28,7 +28,8 @@ trace::RecordingHead head_of(const JobRequest& request, const OrderPlan& orders)
     head.subprograms = request.subprograms;
     head.live = orders.needs_stream();
     head.sample_period = JobSettings().sample_period;
-    for (const TimedText& fault : request.faults) head.inputs.push_back({fault.at, std::string(fault_word) + fault.action});
+    for (const TimedText& fault : request.faults)
+        head.inputs.push_back({fault.at, std::string(fault_word) + fault.action});
     for (const TimedText& order : request.orders) head.inputs.push_back({order.at, order.action});
     return head;
 }
@@ -40,7 +41,8 @@ Result<std::vector<TimedText>> read_orders(const std::vector<std::string>& texts
     for (const std::string& text : texts) {
         std::optional<TimedText> timed = read_timed_text(text);
         if (!timed)
-            return fail(Trouble::bad_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
+            return fail(Trouble::bad_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, "
+                                                        "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
                                                         in_quotes(text), most_planned_seconds));
         out.push_back(std::move(*timed));
     }
@@ -52,7 +54,8 @@ control::gcode::Settings reading_of(const JobRequest& request) {
     out.tools = request.tools;
     out.subprogram = [texts = request.subprograms](const std::string& name) -> Result<std::string> {
         const auto found = texts.find(name);
-        if (found == texts.end()) return fail(Trouble::bad_input, fmt::format("no text of {} came with it", in_quotes(name)));
+        if (found == texts.end())
+            return fail(Trouble::bad_input, fmt::format("no text of {} came with it", in_quotes(name)));
         return found->second;
     };
     return out;
@@ -62,7 +65,10 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     const trace::RecordingHead& head = recording.head();
     RackReading reading = read_rack_text(head.rack, head.rack_file);
     if (!reading.config)
-        return fail(Trouble::bad_input, fmt::format("The rack of the recording cannot be read by this version: {}", reading.errors.front().text()), {}, recording.path());
+        return fail(
+            Trouble::bad_input,
+            fmt::format("The rack of the recording cannot be read by this version: {}", reading.errors.front().text()),
+            {}, recording.path());
     JobRequest out;
     out.config = std::move(*reading.config);
     out.rack_file = head.rack_file;
@@ -76,7 +82,8 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     for (const trace::RecordedInput& input : recording.inputs()) {
         const bool fault = input.text.compare(0, fault_word.size(), fault_word) == 0;
         const std::string action = fault ? input.text.substr(fault_word.size()) : input.text;
-        (fault ? out.faults : out.orders).push_back({input.at, action, fmt::format("{}@{}s", action, to_seconds(input.at))});
+        (fault ? out.faults : out.orders)
+            .push_back({input.at, action, fmt::format("{}@{}s", action, to_seconds(input.at))});
     }
     return out;
 }
@@ -89,14 +96,16 @@ Result<std::unique_ptr<RecordedJob>> RecordedJob::create(const JobRequest& reque
     MOTIONRACK_TRY(out->faults_, FaultPlan::create_timed(out->rack_, request.faults));
     MOTIONRACK_TRY(out->orders_, OrderPlan::create(out->rack_, request.orders));
     if (!watchers.recording.empty()) {
-        MOTIONRACK_TRY(out->recorder_, JobRecorder::create(out->rack_, watchers.recording, head_of(request, *out->orders_)));
+        MOTIONRACK_TRY(out->recorder_,
+                       JobRecorder::create(out->rack_, watchers.recording, head_of(request, *out->orders_)));
     }
     return out;
 }
 
 RecordedJob::~RecordedJob() = default;
 
-const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked, std::function<void(const JobProgress&)> progress) {
+const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked,
+                                   std::function<void(const JobProgress&)> progress) {
     JobSettings settings;
     settings.program = request_.program;
     settings.program_name = request_.program_name;
@@ -104,7 +113,8 @@ const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked, std::fun
     settings.orders = orders_.get();
     settings.progress = std::move(progress);
     settings.on_slice = [this, stop_asked] { between_runs(stop_asked); };
-    if (recorder_) settings.on_sample = [this](const Sample& sample, double deviation) { recorder_->sample(sample, deviation); };
+    if (recorder_)
+        settings.on_sample = [this](const Sample& sample, double deviation) { recorder_->sample(sample, deviation); };
     job_ = std::make_unique<Job>(rack_, settings);
     rack_.start();
     if (waves_) waves_->begin();

@@ -1,4 +1,5 @@
-// A job with all that may watch it, and everything that it is made of: what a recording keeps, so that it can be run again.
+// A job with all that may watch it, and everything that it is made of: what a recording keeps, so that it can be run
+// again.
 //
 //   JobRequest ──► RecordedJob ──► rack, job, faults, orders        files, options ──► JobRequest
 //                       │                                           recording ───────► JobRequest
@@ -21,13 +22,13 @@ namespace motionrack::rack {
 
 struct JobRequest {
     RackConfig config;
-    std::string rack_file, rack_text;        ///< what the config was read from; only recordings need them
+    std::string rack_file, rack_text;  ///< what the config was read from; only recordings need them
     std::string program, program_name;
     bool block_delete = false, stream = false;
     control::gcode::ToolTable tools;
     std::map<std::string, std::string> subprograms;  ///< texts of those that the program calls and does not have itself
     std::vector<TimedText> faults, orders;
-    std::string version;                     ///< of the program that runs it
+    std::string version;  ///< of the program that runs it
 };
 
 /// Takes "ORDER@TIME" as users write it. Errors: bad_input.
@@ -40,7 +41,7 @@ control::gcode::Settings reading_of(const JobRequest& request);
 Result<JobRequest> request_of(const trace::RecordingReader& recording);
 
 struct JobWatchers {
-    std::string recording = {};                      ///< its path; empty: none
+    std::string recording = {};  ///< its path; empty: none
     std::optional<WaveSettings> waves = std::nullopt;
 };
 

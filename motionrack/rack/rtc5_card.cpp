@@ -67,9 +67,7 @@ class Host final : public sim::VirtualHost {
 class Rtc5Card final : public Card {
   public:
     Rtc5Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
-        : name_(config.name),
-          card_(kernel, config.name, settings_of(config.rtc5)),
-          host_(kernel, card_, log) {}
+        : name_(config.name), card_(kernel, config.name, settings_of(config.rtc5)), host_(kernel, card_, log) {}
 
     rtc5::Card& card() { return card_; }
 
@@ -92,7 +90,9 @@ class Rtc5Card final : public Card {
     std::vector<std::string> value_names() const override {
         std::vector<std::string> out;
         for (const Value& value : values)
-            if (std::none_of(map().registers.begin(), map().registers.end(), [&](const RegisterInfo& reg) { return reg.name == value.name; })) out.emplace_back(value.name);
+            if (std::none_of(map().registers.begin(), map().registers.end(),
+                             [&](const RegisterInfo& reg) { return reg.name == value.name; }))
+                out.emplace_back(value.name);
         return out;
     }
     std::vector<CardCounter> counters() const override { return {{"encoder0", 0, true}, {"encoder1", 1, true}}; }
@@ -120,7 +120,8 @@ class Rtc5Card final : public Card {
 
 }  // namespace
 
-std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::span<const std::unique_ptr<Card>>) {
+std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                std::span<const std::unique_ptr<Card>>) {
     return std::make_unique<Rtc5Card>(kernel, config, log);
 }
 

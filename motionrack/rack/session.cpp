@@ -16,7 +16,9 @@ Session::Session(const RackConfig& config)
     rack_.start();
 }
 
-Session::~Session() { static_cast<void>(stop_trace()); }
+Session::~Session() {
+    static_cast<void>(stop_trace());
+}
 
 Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text) {
     const RackReading reading = read_rack(path_or_text);
@@ -29,7 +31,7 @@ Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text) {
     return tl::unexpected<Error>(std::move(all));
 }
 
-// ---- time -------------------------------------------------------------------------------------------------------------
+// ---- time
 
 Result<void> Session::room_for(Duration time) const {
     if (now() <= latest - time) return {};
@@ -69,7 +71,7 @@ void Session::look() {
     next_look_ = (now() / period + 1) * period;
 }
 
-// ---- the bus ----------------------------------------------------------------------------------------------------------
+// ---- the bus
 
 Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32_t address) {
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, false));
@@ -92,15 +94,19 @@ Result<std::int64_t> Session::peek(std::string_view card, std::string_view name)
     return on->inspect(name);
 }
 
-// ---- parts, copies, recordings ----------------------------------------------------------------------------------------
+// ---- parts, copies, recordings
 
-Result<double> Session::part(std::string_view part_dot_quantity) { return get_quantity(rack_, part_dot_quantity); }
+Result<double> Session::part(std::string_view part_dot_quantity) {
+    return get_quantity(rack_, part_dot_quantity);
+}
 
 Result<void> Session::set_part(std::string_view part_dot_quantity, double value) {
     return set_quantity(rack_, part_dot_quantity, value);
 }
 
-Result<void> Session::fault(std::string_view fault, std::string_view target) { return inject_fault(rack_, fault, target); }
+Result<void> Session::fault(std::string_view fault, std::string_view target) {
+    return inject_fault(rack_, fault, target);
+}
 
 std::unique_ptr<Session> Session::copy() {
     std::unique_ptr<Session> out(new Session(rack_.config()));

@@ -28,14 +28,14 @@ class Session {
 
     Rack& rack() { return rack_; }
 
-    // ---- time ----
+    // ---- time
     /// Lets the world run for `ns` nanoseconds, 0 .. most_ns. Errors: refused beyond that, and beyond latest.
     Result<void> advance(std::uint64_t ns);
     std::uint64_t now_ns() const { return static_cast<std::uint64_t>(now().count()) / 10; }
     static constexpr std::uint64_t most_ns = 1'000'000'000'000'000;
     static constexpr Instant latest{never.count() / 2};
 
-    // ---- the bus ----
+    // ---- the bus
     /// One access of the host's bus: it takes the card's bus time. `bits`: 8, 16, 32. Errors: bad_input (there is no
     /// such card), refused (the card has no accesses of that width, nothing at that address).
     Result<std::uint32_t> read(std::string_view card, int bits, std::uint32_t address);
@@ -44,7 +44,7 @@ class Session {
     /// A register or value of a card by its name, without effects: see Card::inspect. Takes no time. Errors: bad_input.
     Result<std::int64_t> peek(std::string_view card, std::string_view name);
 
-    // ---- wires and parts ----
+    // ---- wires and parts
     /// See WireDesk.
     Result<double> wire(std::string_view name) const { return desk_.get(name); }
     Result<void> set_wire(std::string_view name, double value) { return desk_.set(name, value); }
@@ -54,17 +54,17 @@ class Session {
     /// See faults.hpp.
     Result<void> fault(std::string_view fault, std::string_view target);
 
-    // ---- the whole world ----
+    // ---- the whole world
     /// A world of its own in the same state: the same calls from here on do the same in both. A recording stays with
     /// this one.
     std::unique_ptr<Session> copy();
     /// Equal worlds, equal hash: time, cards, wires, parts, conditions told, and the history of the wires.
     std::uint64_t state_hash() { return rack_.kernel().state_hash(); }
 
-    // ---- recordings ----
-    /// Begins one; its name ends in .vcd or .csv. `signals`: patterns with * and ?, separated by blanks or commas; empty:
-    /// all but the pins that cards drive on demand. Errors: refused (one runs already, the name's ending), bad_input (no
-    /// signal fits), io.
+    // ---- recordings
+    /// Begins one; its name ends in .vcd or .csv. `signals`: patterns with * and ?, separated by blanks or commas;
+    /// empty: all but the pins that cards drive on demand. Errors: refused (one runs already, the name's ending),
+    /// bad_input (no signal fits), io.
     Result<void> start_trace(const std::string& path, std::string_view signals);
     /// Ends it. Errors: refused (none runs), io.
     Result<void> stop_trace();

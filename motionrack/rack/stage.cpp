@@ -19,19 +19,21 @@ gb::MotionLimits limits_of(const RackStageServo& s) {
 
 }  // namespace
 
-// ---- settings -------------------------------------------------------------------------------------------------------
+// ---- settings
 
 std::string profile_flaw(const RackStage& stage) {
     if (!stage.servo) return {};
     const RackStageServo& s = *stage.servo;
     if (s.profile == StageProfile::scan && !(s.from_mm < s.to_mm))
-        return fmt::format("from_mm is {} and to_mm is {}; a scan goes from the smaller to the greater.", number_text(s.from_mm), number_text(s.to_mm));
+        return fmt::format("from_mm is {} and to_mm is {}; a scan goes from the smaller to the greater.",
+                           number_text(s.from_mm), number_text(s.to_mm));
     if (s.profile != StageProfile::steps) return {};
     if (s.step_mm == 0) return "step_mm is 0; a step goes somewhere.";
     const double way = std::fabs(s.step_mm) * nm_per_mm;
     const double move = gb::StepProfile(0, way, 1, 1e9, limits_of(s)).move_s();
     if (move > s.every_ms * 1e-3)
-        return fmt::format("A step of {} mm takes {:.3f} ms with these limits, but every_ms is {}.", number_text(s.step_mm), move * 1e3, number_text(s.every_ms));
+        return fmt::format("A step of {} mm takes {:.3f} ms with these limits, but every_ms is {}.",
+                           number_text(s.step_mm), move * 1e3, number_text(s.every_ms));
     return {};
 }
 
@@ -42,7 +44,8 @@ StagePlan::StagePlan(const RackStage& stage) : profile_(gb::HoldProfile{stage.st
     const gb::MotionLimits limits = limits_of(s);
     if (s.profile == StageProfile::scan) profile_ = gb::ScanProfile(s.from_mm * nm_per_mm, s.to_mm * nm_per_mm, limits);
     if (s.profile == StageProfile::steps)
-        profile_ = gb::StepProfile(stage.start_mm.value_or(0) * nm_per_mm, s.step_mm * nm_per_mm, static_cast<int>(s.steps), s.every_ms * 1e-3, limits);
+        profile_ = gb::StepProfile(stage.start_mm.value_or(0) * nm_per_mm, s.step_mm * nm_per_mm,
+                                   static_cast<int>(s.steps), s.every_ms * 1e-3, limits);
 }
 
 gb::Setpoint StagePlan::at(double seconds) const {
@@ -81,7 +84,8 @@ gb::ServoSettings loop_settings(const RackStage& stage, std::int64_t first) {
     const double um = 1e-3;  // a nm in um
     gb::ServoSettings out;
     out.word = static_cast<std::uint64_t>(stage.input - first);
-    out.nm_per_count = stage.scale.pitch_um * 1e3 / static_cast<double>(stage.scale.interpolation) * (stage.scale.reversed ? -1 : 1);
+    out.nm_per_count =
+        stage.scale.pitch_um * 1e3 / static_cast<double>(stage.scale.interpolation) * (stage.scale.reversed ? -1 : 1);
     out.zero_nm = stage.scale.zero_mm * nm_per_mm;
     out.gains = gb::tuned(s.bandwidth_hz, stage.accel_per_volt_m_s2, stage.viscous_per_s);
     if (s.p_v_um) out.gains.p = *s.p_v_um * um;
@@ -91,17 +95,19 @@ gb::ServoSettings loop_settings(const RackStage& stage, std::int64_t first) {
     return out;
 }
 
-// ---- processor ------------------------------------------------------------------------------------------------------
+// ---- processor
 
 CardProcessor::CardProcessor(sim::Kernel& kernel, const std::string& name, gb::Card& card)
     : kernel_(kernel), card_(card), id_(kernel.add(*this, sim::Phase::cards, name)) {
-    static_assert(sizeof(State) == gb::output_count * (sizeof(gb::ServoLoop) + 8) + 8, "padding would get into the state's hash");
+    static_assert(sizeof(State) == gb::output_count * (sizeof(gb::ServoLoop) + 8) + 8,
+                  "padding would get into the state's hash");
     state_.stale_at = card.settings().offset + 2 * card.settings().period;
     card.add_listener(*this);
     schedule();
 }
 
-void CardProcessor::add(int output, const StagePlan& plan, const gb::ServoSettings& settings, Duration compute, std::int64_t count) {
+void CardProcessor::add(int output, const StagePlan& plan, const gb::ServoSettings& settings, Duration compute,
+                        std::int64_t count) {
     const auto n = static_cast<std::size_t>(output);
     plans_[n] = plan;
     compute_[n] = compute;
@@ -136,7 +142,8 @@ void CardProcessor::act(Instant now) {
     for (std::size_t n = 0; n < plans_.size(); ++n) {
         if (now < state_.put_out[n]) continue;
         state_.put_out[n] = never;
-        if (used_[n]) card_.put_out(static_cast<int>(n), static_cast<int>(std::floor(state_.loops[n].volts() * 1e6 + 0.5)));
+        if (used_[n])
+            card_.put_out(static_cast<int>(n), static_cast<int>(std::floor(state_.loops[n].volts() * 1e6 + 0.5)));
     }
     schedule();
 }
@@ -144,16 +151,21 @@ void CardProcessor::act(Instant now) {
 void CardProcessor::report_open(std::size_t n) {
     const gb::ServoLoop& loop = state_.loops[n];
     const LoopCondition code = loop.state() == gb::LoopState::stale ? LoopCondition::stale : LoopCondition::too_far;
-    kernel_.report(id_, static_cast<std::uint16_t>(code), static_cast<std::int64_t>(n), static_cast<std::int64_t>(loop.error().last_nm));
+    kernel_.report(id_, static_cast<std::uint16_t>(code), static_cast<std::int64_t>(n),
+                   static_cast<std::int64_t>(loop.error().last_nm));
 }
 
 std::string describe_loop(const sim::Condition& condition, const RackStage& stage) {
     const double at = to_seconds(condition.at);
     if (static_cast<LoopCondition>(condition.code) == LoopCondition::stale)
-        return fmt::format("stage {}: at {:.6f} s card {} had no frame for two periods and opened its loop: 0 V, its position is not trusted", stage.name, at,
-                           stage.card);
-    return fmt::format("stage {}: at {:.6f} s it was {} nm from where it was to be, more than limit_um = {}; card {} opened its loop: 0 V", stage.name, at,
-                       condition.b, number_text(stage.servo->limit_um), stage.card);
+        return fmt::format(
+            "stage {}: at {:.6f} s card {} had no frame for two periods and opened its loop: 0 V, its position is not "
+            "trusted",
+            stage.name, at, stage.card);
+    return fmt::format(
+        "stage {}: at {:.6f} s it was {} nm from where it was to be, more than limit_um = {}; card {} opened its loop: "
+        "0 V",
+        stage.name, at, condition.b, number_text(stage.servo->limit_um), stage.card);
 }
 
 void CardProcessor::schedule() {

@@ -1,4 +1,5 @@
-// The linear stages of a rack: motor and scale of each, and what runs on the processors of the motion cards that close their loops.
+// The linear stages of a rack: motor and scale of each, and what runs on the processors of the motion cards that close
+// their loops.
 //
 //   card ──frames──► CardProcessor: loops, one an output ──NAME.voutN──► stage ──► scale ──► decoder
 #pragma once
@@ -36,14 +37,15 @@ class StagePlan {
 /// What a processor reports; a: number of the output, b: the following error in nm.
 enum class LoopCondition : std::uint16_t { stale = 1, too_far = 2 };
 
-/// The loops of one card: at each frame the voltages for its outputs, some time later; two periods without a frame: 0 V. Its time is the
-/// frames' sequence, for a card knows no clock but the pulses that it counts.
+/// The loops of one card: at each frame the voltages for its outputs, some time later; two periods without a frame: 0
+/// V. Its time is the frames' sequence, for a card knows no clock but the pulses that it counts.
 class CardProcessor final : public sim::Device, private grating_bus::FrameListener {
   public:
     CardProcessor(sim::Kernel& kernel, const std::string& name, grating_bus::Card& card);
 
     /// Before the kernel starts. `count`: of the scale, now. The loop is closed from the first frame on.
-    void add(int output, const StagePlan& plan, const grating_bus::ServoSettings& settings, Duration compute, std::int64_t count);
+    void add(int output, const StagePlan& plan, const grating_bus::ServoSettings& settings, Duration compute,
+             std::int64_t count);
     grating_bus::ServoLoop& loop(int output) { return state_.loops[static_cast<std::size_t>(output)]; }
     sim::DeviceId id() const { return id_; }
     const StagePlan& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
@@ -80,9 +82,13 @@ struct RunningStage {
     CardProcessor* processor = nullptr;  ///< nullptr: nobody closes its loop
 
     /// nullptr if nobody closes it.
-    grating_bus::ServoLoop* loop() const { return processor ? &processor->loop(static_cast<int>(config.output)) : nullptr; }
+    grating_bus::ServoLoop* loop() const {
+        return processor ? &processor->loop(static_cast<int>(config.output)) : nullptr;
+    }
     /// Where it is to be; nothing sensible without a loop.
-    grating_bus::Setpoint wanted(double seconds) const { return processor->plan(static_cast<int>(config.output)).at(seconds); }
+    grating_bus::Setpoint wanted(double seconds) const {
+        return processor->plan(static_cast<int>(config.output)).at(seconds);
+    }
 };
 
 parts::LinearStageSettings motor_settings(const RackStage& stage);

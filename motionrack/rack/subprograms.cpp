@@ -15,8 +15,10 @@ Result<std::string> read(const std::filesystem::path& file) {
     std::error_code missing;
     const std::uintmax_t size = std::filesystem::file_size(file, missing);
     std::ifstream in(file, std::ios::binary);
-    if (missing || !in) return fail(Trouble::bad_input, fmt::format("{} beside it is not there or cannot be read", file.string()));
-    if (size > largest) return fail(Trouble::bad_input, fmt::format("{} beside it is larger than 64 MiB", file.string()));
+    if (missing || !in)
+        return fail(Trouble::bad_input, fmt::format("{} beside it is not there or cannot be read", file.string()));
+    if (size > largest)
+        return fail(Trouble::bad_input, fmt::format("{} beside it is larger than 64 MiB", file.string()));
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 

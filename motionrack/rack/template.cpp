@@ -188,10 +188,13 @@ std::string marking() {
     const RackLens lens;
     Writer out;
     write_head(out, config, "scan", "rtc5");
-    out.section("belt.line", "what carries the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
+    out.section("belt.line",
+                "what carries the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
     out.fields(track_fields(), &line, &line_defaults, "mm");
     out.line("# profile = [[0, 0], [0.5, 100]]        # in place of the speed: seconds and speeds, straight between");
-    out.section("belt.line.parts", "parts at equal distances before a light barrier, which starts the card; leave it out and there are none");
+    out.section(
+        "belt.line.parts",
+        "parts at equal distances before a light barrier, which starts the card; leave it out and there are none");
     out.fields(passing_fields(), &parts, &parts, "mm");
     out.section("scanner.head", "mirrors and laser over the belt, and the part, which keeps what was marked");
     out.fields(scanner_fields(), &head, &head_defaults, "", {"bits_per_mm"});

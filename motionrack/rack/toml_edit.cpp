@@ -29,22 +29,30 @@ std::string quoted(std::string_view text) {
     return out + '"';
 }
 
-std::string key_text(std::string_view key) { return is_bare(key) ? std::string(key) : quoted(key); }
+std::string key_text(std::string_view key) {
+    return is_bare(key) ? std::string(key) : quoted(key);
+}
 
 /// Whole numbers are written without a point, which every field for numbers takes.
 std::string value_text(const TomlNode& node) {
     std::string out;
     switch (node.type) {
-        case TomlType::text: return quoted(node.text);
-        case TomlType::integer: return std::to_string(node.integer);
-        case TomlType::number: return number_text(node.number);
-        case TomlType::flag: return node.flag ? "true" : "false";
-        case TomlType::date: return "1970-01-01";  // no reader of ours takes one
+        case TomlType::text:
+            return quoted(node.text);
+        case TomlType::integer:
+            return std::to_string(node.integer);
+        case TomlType::number:
+            return number_text(node.number);
+        case TomlType::flag:
+            return node.flag ? "true" : "false";
+        case TomlType::date:
+            return "1970-01-01";  // no reader of ours takes one
         case TomlType::array:
             for (const TomlNode& child : node.children) out += (out.empty() ? "" : ", ") + value_text(child);
             return fmt::format("[{}]", out);
         case TomlType::table:
-            for (const TomlNode& child : node.children) out += (out.empty() ? "" : ", ") + key_text(child.key) + " = " + value_text(child);
+            for (const TomlNode& child : node.children)
+                out += (out.empty() ? "" : ", ") + key_text(child.key) + " = " + value_text(child);
             return fmt::format("{{{}}}", out);
     }
     return out;
@@ -88,7 +96,8 @@ bool put_value(TomlNode& root, std::span<const std::string> path, const TomlNode
     TomlNode* at = &root;
     std::size_t depth = 0;
     const auto child_of = [](TomlNode& table, std::string_view key) {
-        const auto found = std::find_if(table.children.begin(), table.children.end(), [&](const TomlNode& child) { return child.key == key; });
+        const auto found = std::find_if(table.children.begin(), table.children.end(),
+                                        [&](const TomlNode& child) { return child.key == key; });
         return found == table.children.end() ? nullptr : &*found;
     };
     for (TomlNode* next = at; depth < path.size(); ++depth, at = next) {

@@ -1,4 +1,5 @@
-// Changing the tree of a TOML text and writing it again: one line a value, so that an error's line tells which value it is about.
+// Changing the tree of a TOML text and writing it again: one line a value, so that an error's line tells which value it
+// is about.
 //
 //   [axis.X]              axis.X.card = "motion"
 //   card = "motion"  ──►  axis.X.max_mm = 300
@@ -13,13 +14,14 @@
 
 namespace motionrack::rack {
 
-/// The keys of a dotted name; those with dots stand in double quotes: axis.X.max_mm, wires."motion.xin1". Empty: it is no such name.
+/// The keys of a dotted name; those with dots stand in double quotes: axis.X.max_mm, wires."motion.xin1". Empty: it is
+/// no such name.
 std::vector<std::string> toml_path(std::string_view text);
 /// The dotted name of these keys, with quotes where TOML needs them.
 std::string toml_name(std::span<const std::string> path);
 
-/// Puts `value` at `path`, over what is there, with the tables that it needs on the way. False: something on the way is no table, or a
-/// table is there; nothing was changed.
+/// Puts `value` at `path`, over what is there, with the tables that it needs on the way. False: something on the way is
+/// no table, or a table is there; nothing was changed.
 bool put_value(TomlNode& root, std::span<const std::string> path, const TomlNode& value);
 
 /// A value of the tree with its name; an empty table is one, too.

@@ -255,8 +255,9 @@ class FieldReader {
         const auto length = static_cast<double>(node_.text.size());
         if (length < field_.min || length > field_.max) {
             refuse(fmt::format("is {}, {} bytes long, but must be {}", in_quotes(node_.text), length, range()));
-        } else if (std::any_of(node_.text.begin(), node_.text.end(),
-                               [&](char c) { return static_cast<unsigned char>(c) < 0x20 && !(field_.lines && c == '\n'); })) {
+        } else if (std::any_of(node_.text.begin(), node_.text.end(), [&](char c) {
+                       return static_cast<unsigned char>(c) < 0x20 && !(field_.lines && c == '\n');
+                   })) {
             refuse(fmt::format("is {}, with a line end or control character in it, which names cannot have",
                                in_quotes(node_.text)));
         } else {

@@ -15,7 +15,7 @@
 
 namespace motionrack::rack {
 
-// ---- The tree ---------------------------------------------------------------------------------------------------
+// ---- The tree
 
 enum class TomlType : std::uint8_t { table, text, integer, number, flag, array, date };
 
@@ -48,7 +48,7 @@ Result<TomlNode> parse_toml(std::string_view text, std::string_view file);
 /// "text", "whole number", "table" ...: the type's name in a sentence.
 std::string_view type_name(TomlType type);
 
-// ---- Problems ---------------------------------------------------------------------------------------------------
+// ---- Problems
 
 /// Collects everything that is wrong with one file, so that the user sees all of it at once.
 class Problems {
@@ -84,7 +84,7 @@ std::string did_you_mean(std::string_view text, std::span<const std::string_view
 /// A number as the user would write it: the shortest text that reads back to the same double.
 std::string number_text(double value);
 
-// ---- Fields -----------------------------------------------------------------------------------------------------
+// ---- Fields
 
 /// A field's value; monostate is "not there" (optional fields only). Choices are their names.
 using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;

@@ -44,7 +44,8 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
             if (high_) recorder_.push(std::min(last_ + (at - last_) / 2, last_ + longest_pulse), step_, 0);
             if (batch.step != sense_) {
                 sense_ = batch.step;
-                recorder_.push(std::max(high_ ? last_ + (at - last_) / 2 : Instant{0}, at - direction_lead), direction_, sense_ > 0);
+                recorder_.push(std::max(high_ ? last_ + (at - last_) / 2 : Instant{0}, at - direction_lead), direction_,
+                               sense_ > 0);
             }
             recorder_.push(at, step_, 1);
             last_ = at;
@@ -89,7 +90,7 @@ std::uint64_t WaveRecorder::Counter::value() const {
     return static_cast<std::uint64_t>(card->counter({{}, channel, encoder}));
 }
 
-// ---- choosing ---------------------------------------------------------------------------------------------------------
+// ---- choosing
 
 WireTap::WireTap(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "tap")) {
     for (std::size_t i = 0; i < kernel.wire_count(); ++i)
@@ -101,7 +102,9 @@ WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
     buffer_.reserve(buffer_size);
 }
 
-WaveRecorder::~WaveRecorder() { stop_listening(); }
+WaveRecorder::~WaveRecorder() {
+    stop_listening();
+}
 
 Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const WaveSettings& settings) {
     std::unique_ptr<WaveRecorder> out(new WaveRecorder(rack, settings));
@@ -116,7 +119,9 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
     if (settings.sink) {
         out->sink_ = settings.sink(out->signals_);
     } else {
-        MOTIONRACK_TRY(out->sink_, make_wave_sink({settings.path, settings.format, settings.timescale, rack.kernel().now()}, out->signals_));
+        MOTIONRACK_TRY(
+            out->sink_,
+            make_wave_sink({settings.path, settings.format, settings.timescale, rack.kernel().now()}, out->signals_));
     }
     if (!rack.started()) {
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
@@ -180,9 +185,9 @@ void WaveRecorder::choose_wires() {
         }
         const std::size_t dot = name.find('.');
         const bool plain = dot == std::string::npos;
-        wire_signals_[i] = static_cast<std::int64_t>(add(plain ? "rack" : name.substr(0, dot),
-                                                         plain ? name : name.substr(dot + 1), kernel.wire_bits(wire),
-                                                         shown(wire, kernel.level(wire))));
+        wire_signals_[i] =
+            static_cast<std::int64_t>(add(plain ? "rack" : name.substr(0, dot), plain ? name : name.substr(dot + 1),
+                                          kernel.wire_bits(wire), shown(wire, kernel.level(wire))));
         signals_.back().is_signed = false;
     }
 }
@@ -197,7 +202,7 @@ void WaveRecorder::choose_counters() {
         }
 }
 
-// ---- recording --------------------------------------------------------------------------------------------------------
+// ---- recording
 
 void WaveRecorder::begin() {
     MOTIONRACK_ASSERT(is_device_);
@@ -255,7 +260,9 @@ Result<void> WaveRecorder::finish() {
     drain();
     const Result<void> closed = sink_->close(std::max(rack_.kernel().now(), last_));
     if (!closed || lost_ == 0) return closed;
-    return fail(Trouble::io, fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
+    return fail(
+        Trouble::io,
+        fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
 }
 
 }  // namespace motionrack::rack

@@ -87,8 +87,7 @@ class CsvSink final : public WaveSink {
 
 Result<WaveFormat> wave_format(const std::string& path) {
     const auto ends_in = [&](std::string_view ending) {
-        return path.size() > ending.size() &&
-               path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+        return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
     };
     if (ends_in(".vcd")) return WaveFormat::vcd;
     if (ends_in(".csv")) return WaveFormat::csv;

@@ -18,9 +18,9 @@ namespace motionrack::rack {
 struct WaveSignal {
     std::string scope;
     std::string name;
-    int bits = 1;                ///< 1 .. 64
-    bool is_signed = false;      ///< a counter below 0 is told as a negative number where the format has such
-    std::uint64_t initial = 0;   ///< value when the recording begins
+    int bits = 1;               ///< 1 .. 64
+    bool is_signed = false;     ///< a counter below 0 is told as a negative number where the format has such
+    std::uint64_t initial = 0;  ///< value when the recording begins
 };
 
 class WaveSink {
@@ -45,6 +45,7 @@ struct WaveSinkSettings {
 };
 
 /// Errors: refused (the timescale), io. Nothing is written then.
-Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings, const std::vector<WaveSignal>& signals);
+Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings,
+                                                 const std::vector<WaveSignal>& signals);
 
 }  // namespace motionrack::rack

@@ -29,11 +29,13 @@ void WireDesk::add_cards() {
             Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
             if (pin.volts > 0) wire.unit = pin.volts;
             if (pin.direction == PinDirection::output)
-                wire.refused = fmt::format("{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
+                wire.refused = fmt::format(
+                    "{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
             wires_[name] = std::move(wire);
         }
     for (const auto& card : rack_.cards())
-        for (const std::string& name : card->shared_wires()) wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
+        for (const std::string& name : card->shared_wires())
+            wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
 }
 
 void WireDesk::add_axes() {
@@ -46,14 +48,17 @@ void WireDesk::add_axes() {
             if (end.name == "enc_a" || end.name == "enc_b") {
                 wire.kind = Kind::track;
                 wire.which = end.name == "enc_b";
-                wire.refused = fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
+                wire.refused =
+                    fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
             } else if (end.volts > 0) {
                 wire.unit = end.volts;
             } else if (end.direction == PinDirection::input) {
                 wire.kind = Kind::pulses;
-                wire.refused = fmt::format("{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
+                wire.refused = fmt::format(
+                    "{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
                 for (const RackWire& joined : config.wires)
-                    if (config.end_name(joined.to) == name) wire.id = rack_.kernel().find_wire(config.end_name(joined.from));
+                    if (config.end_name(joined.to) == name)
+                        wire.id = rack_.kernel().find_wire(config.end_name(joined.from));
             }
             wires_[name] = std::move(wire);
         }
@@ -98,10 +103,11 @@ tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
     std::vector<std::string_view> names;
     for (const auto& [known, wire] : wires_) names.push_back(known);
     const std::string hint = did_you_mean(name, names);
-    return fail(Trouble::bad_input,
-                fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
-                            "file lists them. Nothing was done.",
-                            in_quotes(name), hint.empty() ? "." : hint));
+    return fail(
+        Trouble::bad_input,
+        fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
+                    "file lists them. Nothing was done.",
+                    in_quotes(name), hint.empty() ? "." : hint));
 }
 
 std::vector<WireDesk::Named> WireDesk::names() const {
@@ -132,7 +138,8 @@ void WireDesk::add_ideal_encoders() {
 /// The levels that the encoder shows at the channel (bit 0: A).
 unsigned WireDesk::lines_at(const EncoderInput& input) const {
     if (input.link.axis == no_axis)
-        return sim::lines_of(rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->pulses(0).count(rack_.kernel().now()));
+        return sim::lines_of(
+            rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->pulses(0).count(rack_.kernel().now()));
     RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.link.axis)];
     const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
     return sim::lines_of(input.link.swapped ? -count : count);
@@ -143,7 +150,8 @@ Result<double> WireDesk::get(std::string_view name) const {
     if (wire == nullptr) return unknown(name);
     const sim::Kernel& kernel = rack_.kernel();
     if (wire->kind == Kind::track) {
-        const parts::Lines lines = rack_.axes()[static_cast<std::size_t>(wire->index)].machine->encoder_lines(kernel.now());
+        const parts::Lines lines =
+            rack_.axes()[static_cast<std::size_t>(wire->index)].machine->encoder_lines(kernel.now());
         return wire->which == 0 ? lines.a : lines.b;
     }
     if (wire->kind == Kind::counted) {
@@ -160,19 +168,23 @@ Result<void> WireDesk::check(std::string_view name, double value) const {
     if (std::isnan(value)) return {};
     if (wire->unit != 1) {
         if (std::fabs(value) <= most_volts) return {};
-        return fail(Trouble::refused, fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
-                                                  most_volts, most_volts));
+        return fail(Trouble::refused,
+                    fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
+                                most_volts, most_volts));
     }
     if (wire->bits > 1) {
         const double greatest = std::ldexp(1.0, wire->bits - 1);
         if (value >= -greatest && value < greatest && value == std::floor(value)) return {};
-        return fail(Trouble::refused, fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
-                                                  name, value, -greatest, greatest - 1));
+        return fail(
+            Trouble::refused,
+            fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
+                        name, value, -greatest, greatest - 1));
     }
     if (value != 0 && value != 1)
-        return fail(Trouble::refused, fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
-                                                  "Nothing was done.",
-                                                  name, value));
+        return fail(Trouble::refused,
+                    fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
+                                "Nothing was done.",
+                                name, value));
     return {};
 }
 
@@ -182,7 +194,8 @@ Result<void> WireDesk::set(std::string_view name, double value) {
     const bool released = std::isnan(value);
     const int level = released ? 0 : static_cast<int>(std::floor(value / wire.unit + 0.5));
     rack_.input_log().add({rack_.kernel().now(), released ? sim::InputKind::release_wire : sim::InputKind::force_wire,
-                           static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(level != 0), static_cast<double>(level)});
+                           static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(level != 0),
+                           static_cast<double>(level)});
     if (released)
         release(wire);
     else

@@ -1,5 +1,5 @@
-// The wires of a running rack by their names, as a hand with a test lead has them: every pin can be looked at, inputs and
-// switches can be driven, and then what drove them before is cut off until they are released.
+// The wires of a running rack by their names, as a hand with a test lead has them: every pin can be looked at, inputs
+// and switches can be driven, and then what drove them before is cut off until they are released.
 //
 //   part ──X.limit_plus──► junction ──c1.xlmtp──► chip        set("X.limit_plus", 0): the switch is stuck
 //                                         ▲                  set("c1.xlmtp", 0): this pin alone
@@ -30,9 +30,9 @@ class WireDesk {
     bool knows(std::string_view name) const { return wires_.find(name) != wires_.end(); }
     struct Named {
         std::string_view name;
-        bool volts = false;      ///< a voltage, else a level
-        bool drivable = false;   ///< set takes it
-        bool recorded = false;   ///< a recording has its changes, by this name
+        bool volts = false;     ///< a voltage, else a level
+        bool drivable = false;  ///< set takes it
+        bool recorded = false;  ///< a recording has its changes, by this name
         int bits = 1;
     };
     /// All wires in the order of their names.

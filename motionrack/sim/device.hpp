@@ -13,8 +13,8 @@ namespace motionrack::sim {
 /// The order of things that happen at one instant.
 enum class Phase : std::uint8_t { wires, cards, parts, observers };
 
-/// A device acts at the instants it asked for (Kernel::schedule), and is told of wires it listens to. Everything reached from
-/// act, on_wire, level_at and sync runs in virtual time: no allocation, no locks, no I/O, no text.
+/// A device acts at the instants it asked for (Kernel::schedule), and is told of wires it listens to. Everything
+/// reached from act, on_wire, level_at and sync runs in virtual time: no allocation, no locks, no I/O, no text.
 class Device {
   public:
     virtual ~Device() = default;
@@ -27,13 +27,17 @@ class Device {
     /// Someone began or ceased to want the changes of a lazily driven wire; schedule accordingly.
     virtual void wanted_changed(int pin, bool wanted, Instant now) { (void)pin, (void)wanted, (void)now; }
     /// A lazily driven wire is held at `level` from outside (Kernel::force), or no longer.
-    virtual void forced_changed(int pin, bool forced, int level, Instant now) { (void)pin, (void)forced, (void)level, (void)now; }
+    virtual void forced_changed(int pin, bool forced, int level, Instant now) {
+        (void)pin, (void)forced, (void)level, (void)now;
+    }
     /// Hand over whatever has been put off (edges to listeners) up to and including `now`.
     virtual void sync(Instant now) { (void)now; }
     /// Everything that a snapshot must hold, as bytes of trivially copyable state.
     virtual std::span<std::byte> state() { return {}; }
     /// Injects a fault by name; false if this device has no such fault. `value` is the fault's parameter, 0 clears it.
-    virtual bool fault(std::string_view name, double value, Instant now) { return (void)name, (void)value, (void)now, false; }
+    virtual bool fault(std::string_view name, double value, Instant now) {
+        return (void)name, (void)value, (void)now, false;
+    }
 };
 
 /// The bytes of a trivially copyable state, for Device::state.

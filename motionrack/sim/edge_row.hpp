@@ -9,10 +9,11 @@ namespace motionrack::sim {
 
 class EdgeRow {
   public:
-    /// An edge at `at`, not before the last one, that leads to `count`; `step` +1 or -1. What does not fit into the batch
-    /// with it is handed over first.
+    /// An edge at `at`, not before the last one, that leads to `count`; `step` +1 or -1. What does not fit into the
+    /// batch with it is handed over first.
     void add(EdgeListener& listener, Instant at, std::int64_t count, int step) {
-        const bool fits = batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= longest;
+        const bool fits =
+            batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= longest;
         if (!fits) hand_over(listener);
         if (batch_.size == 0) {
             batch_.origin = at;

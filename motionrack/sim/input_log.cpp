@@ -4,7 +4,8 @@
 
 namespace motionrack::sim {
 
-void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end, const std::function<void(const Input&)>& apply) {
+void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end,
+            const std::function<void(const Input&)>& apply) {
     auto run = [&kernel](Instant until) {
         while (kernel.run_until(until) == RunEnd::broken) {
         }

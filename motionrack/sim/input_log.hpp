@@ -37,8 +37,9 @@ class InputLog {
 
 class Kernel;
 
-/// Plays `inputs` into a fresh world of the same wiring: each enters at its instant, then time goes on to `end`. `apply` does
-/// one input (write the register, force the wire); it is called between runs.
-void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end, const std::function<void(const Input&)>& apply);
+/// Plays `inputs` into a fresh world of the same wiring: each enters at its instant, then time goes on to `end`.
+/// `apply` does one input (write the register, force the wire); it is called between runs.
+void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end,
+            const std::function<void(const Input&)>& apply);
 
 }  // namespace motionrack::sim

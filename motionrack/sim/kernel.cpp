@@ -1,15 +1,14 @@
 // The run loop, the queue of wire changes, and snapshots.
-#include <motionrack/sim/kernel.hpp>
-
 #include <algorithm>
 #include <cstring>
+#include <motionrack/sim/kernel.hpp>
 
 namespace motionrack::sim {
 
 namespace {
 constexpr std::size_t queue_capacity = 4096;
 constexpr std::size_t most_changes = 20'000;  // of wires at one event
-}
+}  // namespace
 
 DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
     MOTIONRACK_ASSERT(!started_);
@@ -47,7 +46,7 @@ void Kernel::start() {
     started_ = true;
 }
 
-// ---- running ----------------------------------------------------------------------------------------------------------------
+// ---- running
 
 std::size_t Kernel::earliest() const {
     std::size_t best = 0;
@@ -97,7 +96,7 @@ void Kernel::report(DeviceId device, std::uint16_t code, std::int64_t a, std::in
     mix(std::uint64_t{code} << 32 | index(device));
 }
 
-// ---- wires ------------------------------------------------------------------------------------------------------------------
+// ---- wires
 
 void Kernel::set_wire(WireId wire, int level) {
     WireState& w = wire_state_[index(wire)];
@@ -113,7 +112,9 @@ void Kernel::change(WireId wire, int level) {
         return;
     }
     if (queue_size_ - queue_head_ >= queue_capacity || queue_size_ >= most_changes) {
-        if (!unsettled_) report(no_device, wires_never_settle, static_cast<std::int64_t>(index(wire)), static_cast<std::int64_t>(queue_size_));
+        if (!unsettled_)
+            report(no_device, wires_never_settle, static_cast<std::int64_t>(index(wire)),
+                   static_cast<std::int64_t>(queue_size_));
         unsettled_ = true;
         return;  // it keeps its level, which is what its listeners heard last
     }
@@ -129,7 +130,8 @@ void Kernel::deliver() {
         const Wire& wire = wires_[index(c.wire)];
         const std::uint32_t wants = wire_state_[index(c.wire)].wants;
         for (std::size_t i = 0; i < wire.listeners.size(); ++i)
-            if (wants >> i & 1) devices_[index(wire.listeners[i].device)].device->on_wire(wire.listeners[i].pin, c.level, state_.now);
+            if (wants >> i & 1)
+                devices_[index(wire.listeners[i].device)].device->on_wire(wire.listeners[i].pin, c.level, state_.now);
     }
     queue_head_ = queue_size_ = 0;
     unsettled_ = false;
@@ -138,7 +140,8 @@ void Kernel::deliver() {
 int Kernel::level(WireId wire) const {
     const Wire& w = wires_[index(wire)];
     const WireState& s = wire_state_[index(wire)];
-    if (w.lazy_pin >= 0 && !s.forced && !s.wants) return devices_[index(w.lazy_owner)].device->level_at(w.lazy_pin, state_.now);
+    if (w.lazy_pin >= 0 && !s.forced && !s.wants)
+        return devices_[index(w.lazy_owner)].device->level_at(w.lazy_pin, state_.now);
     return s.level;
 }
 
@@ -155,7 +158,9 @@ void Kernel::want(WireId wire, DeviceId device, bool wanted) {
     owner.wanted_changed(w.lazy_pin, s.wants != 0, state_.now);
 }
 
-bool Kernel::wanted(WireId wire) const { return wire_state_[index(wire)].wants != 0; }
+bool Kernel::wanted(WireId wire) const {
+    return wire_state_[index(wire)].wants != 0;
+}
 
 void Kernel::force(WireId wire, int level) {
     WireState& w = wire_state_[index(wire)];
@@ -179,7 +184,7 @@ WireId Kernel::find_wire(std::string_view name) const {
     return WireId::none;
 }
 
-// ---- looking and rewinding --------------------------------------------------------------------------------------------------
+// ---- looking and rewinding
 
 std::vector<Condition> Kernel::conditions() const {
     std::vector<Condition> out;
@@ -193,7 +198,8 @@ std::uint64_t Kernel::dropped_conditions() const {
 }
 
 void Kernel::mix(std::uint64_t value) {
-    std::uint64_t h = state_.trace_hash ^ value ^ static_cast<std::uint64_t>(state_.now.count()) * 0xFF51AFD7ED558CCDull;
+    std::uint64_t h =
+        state_.trace_hash ^ value ^ static_cast<std::uint64_t>(state_.now.count()) * 0xFF51AFD7ED558CCDull;
     h ^= h >> 32;
     h *= 0xD6E8FEB86659FD93ull;
     state_.trace_hash = h ^ (h >> 29);
@@ -230,7 +236,9 @@ Snapshot Kernel::snapshot() {
     std::size_t size = condition_bytes().size();
     each_piece([&size](std::span<std::byte> piece) { size += piece.size(); });
     out.bytes.reserve(size);
-    const auto append = [&out](std::span<std::byte> piece) { out.bytes.insert(out.bytes.end(), piece.begin(), piece.end()); };
+    const auto append = [&out](std::span<std::byte> piece) {
+        out.bytes.insert(out.bytes.end(), piece.begin(), piece.end());
+    };
     each_piece(append);
     append(condition_bytes());
     return out;

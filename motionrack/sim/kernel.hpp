@@ -2,8 +2,8 @@
 //
 //   schedule(id, t) ──► due[id] ──► earliest (t, phase, seq) ──► act(t) ──► set_wire ──► queue ──► on_wire, same instant
 //
-// After start() nothing reached from run_until allocates, locks or does I/O. Input from outside enters between runs and is what the
-// InputLog (input_log.hpp) records.
+// After start() nothing reached from run_until allocates, locks or does I/O. Input from outside enters between runs and
+// is what the InputLog (input_log.hpp) records.
 #pragma once
 
 #include <array>
@@ -51,9 +51,10 @@ class Kernel {
   public:
     static constexpr std::size_t condition_capacity = 4096;
 
-    // ---- building, before start() -------------------------------------------------------------------------------------------
+    // ---- building, before start()
     DeviceId add(Device& device, Phase phase, std::string name);
-    /// A wire with its level at rest. Names are unique ("motion.xlmtp"). `bits`: how many a recording shows of the level; 1: whether it is 0.
+    /// A wire with its level at rest. Names are unique ("motion.xlmtp"). `bits`: how many a recording shows of the
+    /// level; 1: whether it is 0.
     WireId add_wire(std::string name, int level, int bits = 1);
     /// `device` is told (on_wire with `pin`) of every change, while it wants it (see want).
     void listen(WireId wire, DeviceId device, int pin);
@@ -62,27 +63,28 @@ class Kernel {
     /// No more devices or wires; buffers are made.
     void start();
 
-    // ---- running ------------------------------------------------------------------------------------------------------------
+    // ---- running
     /// Runs until virtual time is `until`, or a device breaks the run. On return every device has been synced.
     RunEnd run_until(Instant until);
     /// Ends run_until after the present event.
     void break_run() { break_ = true; }
     Instant now() const { return state_.now; }
 
-    // ---- for devices --------------------------------------------------------------------------------------------------------
+    // ---- for devices
     /// When `device` wants to act next (>= now, or never); replaces what it asked for before.
     void schedule(DeviceId device, Instant at);
     /// Sets a wire's level now; listeners hear of it at this instant, first in, first out.
     void set_wire(WireId wire, int level);
     int level(WireId wire) const;
-    /// A listener begins or ceases to want changes (listeners want them from the start unless the wire is driven lazily).
+    /// A listener begins or ceases to want changes (listeners want them from the start unless the wire is driven
+    /// lazily).
     void want(WireId wire, DeviceId device, bool wanted);
     bool wanted(WireId wire) const;
     /// Whether drive_lazily was called for it.
     bool lazy(WireId wire) const { return wires_[index(wire)].lazy_pin >= 0; }
     void report(DeviceId device, std::uint16_t code, std::int64_t a = 0, std::int64_t b = 0);
 
-    // ---- from outside, between runs -----------------------------------------------------------------------------------------
+    // ---- from outside, between runs
     /// Holds a wire at `level` whatever drives it (a stuck line, a hand on a switch) until release.
     void force(WireId wire, int level);
     void release(WireId wire);
@@ -98,7 +100,8 @@ class Kernel {
     Device& device(DeviceId id) { return *devices_[index(id)].device; }
     std::size_t device_count() const { return devices_.size(); }
 
-    /// Conditions since the start, oldest first; at most condition_capacity are kept, dropped_conditions() tells of the rest.
+    /// Conditions since the start, oldest first; at most condition_capacity are kept, dropped_conditions() tells of the
+    /// rest.
     std::vector<Condition> conditions() const;
     std::uint64_t dropped_conditions() const;
     /// Events run since the start: what a run costs.
@@ -143,8 +146,8 @@ class Kernel {
     };
     struct WireState {
         std::int32_t level = 0;
-        std::int32_t driven = 0;  // what its driver says, while forced
-        std::uint32_t wants = 0;  // bit i: listener i wants changes
+        std::int32_t driven = 0;   // what its driver says, while forced
+        std::uint32_t wants = 0;   // bit i: listener i wants changes
         std::uint32_t forced = 0;  // as wide as the others: padding would get into the state's hash
     };
     struct Due {

@@ -1,7 +1,7 @@
 // A position as a function of time, in whole counts: what a card says of its pulses and an encoder of its lines.
 //
-// Nobody ticks. The owner answers "where at t?", tells when the count leaves a watched range, and, only while somebody listens, makes
-// the single edges, in batches:
+// Nobody ticks. The owner answers "where at t?", tells when the count leaves a watched range, and, only while somebody
+// listens, makes the single edges, in batches:
 //
 //     owner --count(t), rate(t)--> anyone
 //           --crossed(now)-------> the listener whose range was left (at the very instant of the edge)
@@ -39,8 +39,8 @@ class MotionListener {
     virtual ~MotionListener() = default;
     /// The count left the range given to Motion::watch; the listener must set a new one.
     virtual void crossed(Instant now) = 0;
-    /// The law of motion changed: the rate was `before` just before this instant (along a curve it changes between laws too) and
-    /// is `rate` from now on; counts a second, signed.
+    /// The law of motion changed: the rate was `before` just before this instant (along a curve it changes between laws
+    /// too) and is `rate` from now on; counts a second, signed.
     virtual void rate_changed(double before, double rate, Instant now) = 0;
 };
 
@@ -55,12 +55,13 @@ class Motion {
     virtual std::int64_t count(Instant t) const = 0;
     /// Mean rate of the present law at `t`, counts a second, signed.
     virtual double rate(Instant t) const = 0;
-    /// Calls listener `slot` (crossed) as soon as count <= below or count >= above; at once if that is so already (at the next instant).
+    /// Calls listener `slot` (crossed) as soon as count <= below or count >= above; at once if that is so already (at
+    /// the next instant).
     virtual void watch(int slot, std::int64_t below, std::int64_t above) = 0;
     /// Adds a listener before the kernel starts; returns its slot (at most max_listeners).
     virtual int listen(MotionListener& listener) = 0;
-    /// Before the start: listeners are also to hear rate_changed when |rate| passes `rate` (counts a second, >= 0) along a curve; at most
-    /// max_listeners marks. A motion whose rate changes in steps has nothing to do for it.
+    /// Before the start: listeners are also to hear rate_changed when |rate| passes `rate` (counts a second, >= 0)
+    /// along a curve; at most max_listeners marks. A motion whose rate changes in steps has nothing to do for it.
     virtual void mark_rate(double rate) { (void)rate; }
     /// From now on (the owner's present instant) edges are made and handed over; nullptr: nobody listens.
     virtual void listen_edges(EdgeListener* listener) = 0;

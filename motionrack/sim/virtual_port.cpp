@@ -1,11 +1,10 @@
 // Bus accesses and waiting in virtual time.
-#include <motionrack/sim/virtual_port.hpp>
-
 #include <algorithm>
+#include <motionrack/sim/virtual_port.hpp>
 
 namespace motionrack::sim {
 
-// ---- time -------------------------------------------------------------------------------------------------------------------
+// ---- time
 
 VirtualHost::VirtualHost(Kernel& kernel, DeviceId id, WireId interrupt, int active, Duration access, InputLog* log)
     : kernel_(kernel), id_(id), interrupt_(interrupt), active_(active), access_(access), log_(log) {}
@@ -20,7 +19,9 @@ bool VirtualHost::wait(Duration timeout) {
     return kernel_.level(interrupt_) == active_;
 }
 
-void VirtualHost::pass(Duration duration) { run_to(later(kernel_.now(), duration), false); }
+void VirtualHost::pass(Duration duration) {
+    run_to(later(kernel_.now(), duration), false);
+}
 
 void VirtualHost::run_to(Instant until, bool until_interrupt) {
     while (true) {
@@ -35,9 +36,10 @@ void VirtualHost::run_to(Instant until, bool until_interrupt) {
     }
 }
 
-// ---- accesses ---------------------------------------------------------------------------------------------------------------
+// ---- accesses
 
-VirtualPort::VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log)
+VirtualPort::VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access,
+                         InputLog* log)
     : VirtualHost(kernel, id, interrupt, 0, access, log), device_(device) {}
 
 void VirtualPort::write(std::uint32_t offset, std::uint16_t value) {
@@ -53,7 +55,8 @@ std::uint16_t VirtualPort::read(std::uint32_t offset) {
     return value;
 }
 
-VirtualBytePort::VirtualBytePort(Kernel& kernel, ByteDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log)
+VirtualBytePort::VirtualBytePort(Kernel& kernel, ByteDevice& device, DeviceId id, WireId interrupt, Duration access,
+                                 InputLog* log)
     : VirtualHost(kernel, id, interrupt, 1, access, log), device_(device) {}
 
 void VirtualBytePort::out(std::uint8_t port, std::uint8_t value) {

@@ -28,8 +28,8 @@ class VirtualHost : public Interrupt {
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
   protected:
-    /// `interrupt`: the card's line, `active`: its level when an interrupt is asked for. `access`: the time one access takes (0 or
-    /// more). `log` may be nullptr.
+    /// `interrupt`: the card's line, `active`: its level when an interrupt is asked for. `access`: the time one access
+    /// takes (0 or more). `log` may be nullptr.
     VirtualHost(Kernel& kernel, DeviceId id, WireId interrupt, int active, Duration access, InputLog* log);
     /// Lets the time of an access pass and notes it.
     void begin_access(InputKind kind, std::uint32_t offset, std::uint16_t value);
@@ -53,7 +53,8 @@ class VirtualHost : public Interrupt {
 /// A 16-bit register bus; its interrupt line is active low.
 class VirtualPort final : public RegisterPort, public VirtualHost {
   public:
-    VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log = nullptr);
+    VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access,
+                InputLog* log = nullptr);
 
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t read(std::uint32_t offset) override;
@@ -65,7 +66,8 @@ class VirtualPort final : public RegisterPort, public VirtualHost {
 /// An 8-bit port space; its interrupt line is active high.
 class VirtualBytePort final : public BytePort, public VirtualHost {
   public:
-    VirtualBytePort(Kernel& kernel, ByteDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log = nullptr);
+    VirtualBytePort(Kernel& kernel, ByteDevice& device, DeviceId id, WireId interrupt, Duration access,
+                    InputLog* log = nullptr);
 
     void out(std::uint8_t port, std::uint8_t value) override;
     std::uint8_t in(std::uint8_t port) override;

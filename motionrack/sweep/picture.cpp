@@ -22,7 +22,7 @@ constexpr std::array<const char*, most_lines> looks = {"z", "x", "y", "a", "b", 
 
 /// Something that is varied, with more than one value.
 struct Varied {
-    std::size_t at = 0;              ///< in the parameters
+    std::size_t at = 0;  ///< in the parameters
     std::string name;
     bool number = false;
     std::vector<std::string> names;  ///< of one that is no number, in the order of the file
@@ -40,7 +40,8 @@ class Picture {
         for (std::size_t p = 0; p < sweep.parameters().size(); ++p) look_at(p);
         measures_ = {{"time, s", column("time_s")}, {"worst deviation, mm", column("worst_deviation_mm")}};
         std::vector<double> lost = lost_pulses();
-        if (std::any_of(lost.begin(), lost.end(), [](double one) { return one > 0; })) measures_.push_back({"lost pulses", std::move(lost)});
+        if (std::any_of(lost.begin(), lost.end(), [](double one) { return one > 0; }))
+            measures_.push_back({"lost pulses", std::move(lost)});
     }
 
     std::string draw() {
@@ -62,7 +63,10 @@ class Picture {
         std::set<std::string> seen;
         for (const auto& values : values_) seen.insert(value_text(values[p]));
         for (const rack::TomlNode& value : sweep_.parameters()[p].values)
-            if (const std::string name = value_text(value); !out.number && seen.count(name) != 0 && std::find(out.names.begin(), out.names.end(), name) == out.names.end()) out.names.push_back(name);
+            if (const std::string name = value_text(value);
+                !out.number && seen.count(name) != 0 &&
+                std::find(out.names.begin(), out.names.end(), name) == out.names.end())
+                out.names.push_back(name);
         if (seen.size() > 1) varied_.push_back(std::move(out));
     }
 
@@ -82,11 +86,15 @@ class Picture {
         return out;
     }
 
-    bool bad(std::size_t point) const { return cell_of(results_.row(static_cast<std::int64_t>(point)), "ended") != "ok"; }
+    bool bad(std::size_t point) const {
+        return cell_of(results_.row(static_cast<std::int64_t>(point)), "ended") != "ok";
+    }
     double number(const Varied& varied, std::size_t point) const {
         const rack::TomlNode& value = values_[point][varied.at];
-        if (varied.number) return value.type == rack::TomlType::integer ? static_cast<double>(value.integer) : value.number;
-        return static_cast<double>(std::find(varied.names.begin(), varied.names.end(), value_text(value)) - varied.names.begin());
+        if (varied.number)
+            return value.type == rack::TomlType::integer ? static_cast<double>(value.integer) : value.number;
+        return static_cast<double>(std::find(varied.names.begin(), varied.names.end(), value_text(value)) -
+                                   varied.names.begin());
     }
 
     static std::string shown(const std::string& text) { return text.empty() ? "none" : text; }
@@ -99,7 +107,8 @@ class Picture {
                 const std::string value = shown(value_text(values_[i][one->at]));
                 name += by.size() == 1 ? value : fmt::format("{}{} {}", name.empty() ? "" : ", ", one->name, value);
             }
-            auto found = std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.first == name; });
+            auto found =
+                std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.first == name; });
             if (found == groups_.end()) found = groups_.insert(groups_.end(), {name, {}});
             found->second.push_back(i);
             if (groups_.size() > most_maps) return;
@@ -110,7 +119,8 @@ class Picture {
         std::size_t ok = 0;
         for (std::size_t i = 0; i < values_.size(); ++i) ok += !bad(i);
         const auto file = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
-        std::string out = fmt::format("{} on {}: {}", file(sweep_.program_name()), file(sweep_.rack_name()), rack::counted(values_.size(), "point"));
+        std::string out = fmt::format("{} on {}: {}", file(sweep_.program_name()), file(sweep_.rack_name()),
+                                      rack::counted(values_.size(), "point"));
         if (ok < values_.size()) out += fmt::format(", {} did not end well (crosses)", values_.size() - ok);
         return out;
     }
@@ -130,10 +140,14 @@ class Picture {
         for (std::size_t i = 0; i < values_.size(); ++i) out.series[0].dots.push_back(dot(measure, x, i));
         return out;
     }
-    trace::SvgDot dot(const Measure& measure, const Varied& x, std::size_t point) const { return {number(x, point), measure.values[point], bad(point)}; }
+    trace::SvgDot dot(const Measure& measure, const Varied& x, std::size_t point) const {
+        return {number(x, point), measure.values[point], bad(point)};
+    }
 
     void draw_lines(const Varied& x) {
-        for (const Measure& measure : measures_) parts_.push_back({trace::svg_scatter(scatter(measure, x, true), {width, chart_height, false}), chart_height});
+        for (const Measure& measure : measures_)
+            parts_.push_back(
+                {trace::svg_scatter(scatter(measure, x, true), {width, chart_height, false}), chart_height});
     }
 
     void draw_maps(const Varied& x, const Varied& y) {
@@ -141,7 +155,8 @@ class Picture {
             std::vector<std::string> row;
             for (const Measure& measure : measures_) {
                 trace::SvgMap map{measure.title, x.name, y.name, {}};
-                for (const std::size_t i : points) map.spots.push_back({number(x, i), number(y, i), measure.values[i], bad(i)});
+                for (const std::size_t i : points)
+                    map.spots.push_back({number(x, i), number(y, i), measure.values[i], bad(i)});
                 row.push_back(trace::svg_map(map, {width / static_cast<int>(measures_.size()), map_height, false}));
             }
             add_row(name, row, map_height);
@@ -157,7 +172,8 @@ class Picture {
                 // There is room for the names once in a row.
                 for (trace::SvgDots& series : one.series)
                     if (!row.empty()) series.name.clear();
-                row.push_back(trace::svg_scatter(one, {width / static_cast<int>(measures_.size()), chart_height, false}));
+                row.push_back(
+                    trace::svg_scatter(one, {width / static_cast<int>(measures_.size()), chart_height, false}));
             }
             add_row({}, row, chart_height);
         }
@@ -182,6 +198,8 @@ class Picture {
 
 }  // namespace
 
-std::string picture_of(const Sweep& sweep, const Results& results) { return Picture(sweep, results).draw(); }
+std::string picture_of(const Sweep& sweep, const Results& results) {
+    return Picture(sweep, results).draw();
+}
 
 }  // namespace motionrack::sweep

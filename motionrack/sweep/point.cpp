@@ -1,4 +1,5 @@
-// The text of a point. Each part is its name, its length in bytes and its bytes, so that programs may have any bytes in them:
+// The text of a point. Each part is its name, its length in bytes and its bytes, so that programs may have any bytes in
+// them:
 //
 //   motionrack point 1
 //   version 5
@@ -18,7 +19,9 @@ namespace {
 
 constexpr std::string_view head = "motionrack point 1\n";
 
-void add_part(std::string& out, std::string_view name, std::string_view bytes) { out += fmt::format("{} {}\n{}\n", name, bytes.size(), bytes); }
+void add_part(std::string& out, std::string_view name, std::string_view bytes) {
+    out += fmt::format("{} {}\n{}\n", name, bytes.size(), bytes);
+}
 
 struct Part {
     std::string_view name, bytes;
@@ -31,7 +34,8 @@ std::optional<Part> take_part(std::string_view& text) {
     std::size_t size = 0;
     const auto [stop, bad] = std::from_chars(text.data() + blank + 1, text.data() + end, size);
     const std::string_view rest = text.substr(end + 1);
-    if (bad != std::errc() || stop != text.data() + end || size >= rest.size() || rest[size] != '\n') return std::nullopt;
+    if (bad != std::errc() || stop != text.data() + end || size >= rest.size() || rest[size] != '\n')
+        return std::nullopt;
     Part out{text.substr(0, blank), rest.substr(0, size)};
     text = rest.substr(size + 1);
     return out;
@@ -53,7 +57,9 @@ std::string text_of(const PointText& point) {
 }
 
 Result<PointText> read_point(std::string_view text) {
-    const auto damaged = [] { return fail(Trouble::bad_input, "This is no point of a sweep, or it is damaged. Nothing was run."); };
+    const auto damaged = [] {
+        return fail(Trouble::bad_input, "This is no point of a sweep, or it is damaged. Nothing was run.");
+    };
     if (!text.starts_with(head)) return damaged();
     text.remove_prefix(head.size());
     PointText out;
@@ -86,12 +92,15 @@ Result<PointText> read_point(std::string_view text) {
     }
     if (!whole || !text.empty()) return damaged();
     if (version != MOTIONRACK_VERSION)
-        return fail(Trouble::refused, fmt::format("The point was made by version {:.20} of motionrack and this is {}, which may drive it otherwise. Nothing was run; use "
+        return fail(Trouble::refused, fmt::format("The point was made by version {:.20} of motionrack and this is {}, "
+                                                  "which may drive it otherwise. Nothing was run; use "
                                                   "the same version on all machines.",
                                                   version, MOTIONRACK_VERSION));
     return out;
 }
 
-std::string key_of(std::string_view text) { return authority::hash_of(text).substr(0, 32); }
+std::string key_of(std::string_view text) {
+    return authority::hash_of(text).substr(0, 32);
+}
 
 }  // namespace motionrack::sweep

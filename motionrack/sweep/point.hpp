@@ -1,4 +1,5 @@
-// A point of a sweep: one run, with everything that it is made of in one text, so that any machine computes the same row from it.
+// A point of a sweep: one run, with everything that it is made of in one text, so that any machine computes the same
+// row from it.
 //
 //   PointText ──text_of──► text ──key_of──► key              rack, program, subprograms, tools, faults
 //                           └───run_point──► row             ended, time, deviation, axes, hash of the history
@@ -32,8 +33,8 @@ Result<PointText> read_point(std::string_view text);
 /// Tells points apart: 32 hexadecimal digits of the text's hash.
 std::string key_of(std::string_view text);
 
-/// The results of a point: columns by their names, with numbers as the shortest text that reads back to the same number. A row has
-/// the columns of axes that the rack has.
+/// The results of a point: columns by their names, with numbers as the shortest text that reads back to the same
+/// number. A row has the columns of axes that the rack has.
 using Row = std::vector<std::pair<std::string, std::string>>;
 
 /// A column that a row may have.
@@ -48,8 +49,9 @@ std::span<const ResultColumn> result_columns();
 /// The cell of that name; empty if the row has none.
 std::string_view cell_of(const Row& row, std::string_view column);
 
-/// Runs the point from its start to its end, and nothing else: the same text gives the same row on every machine. What goes wrong in
-/// the run is in the row. `stop` may be nullptr. Errors: as read_point; bad_input, its rack cannot be read; stopped.
+/// Runs the point from its start to its end, and nothing else: the same text gives the same row on every machine. What
+/// goes wrong in the run is in the row. `stop` may be nullptr. Errors: as read_point; bad_input, its rack cannot be
+/// read; stopped.
 Result<Row> run_point(std::string_view text, const std::atomic<bool>* stop);
 
 }  // namespace motionrack::sweep

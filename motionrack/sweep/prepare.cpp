@@ -76,9 +76,14 @@ class Preparation {
         for (const Parameter& parameter : parameters()) {
             TomlNode scratch = sweep_.rack_;
             if (parameter.kind == ParameterKind::rack && !rack::put_value(scratch, parameter.path, value))
-                problems_.error(parameter.place, fmt::format("{} cannot be varied: it is a table of the rack file, or below something that is none. Write the whole name of a key, such as axis.X.max_mm.", parameter.name));
-            if (parameter.kind == ParameterKind::text && files_.program.find("{" + parameter.path[1] + "}") == std::string::npos)
-                problems_.error(parameter.place, fmt::format("{} has no {{{}}}, so nothing would be varied.", files_.program_name, parameter.path[1]));
+                problems_.error(parameter.place,
+                                fmt::format("{} cannot be varied: it is a table of the rack file, or below something "
+                                            "that is none. Write the whole name of a key, such as axis.X.max_mm.",
+                                            parameter.name));
+            if (parameter.kind == ParameterKind::text &&
+                files_.program.find("{" + parameter.path[1] + "}") == std::string::npos)
+                problems_.error(parameter.place, fmt::format("{} has no {{{}}}, so nothing would be varied.",
+                                                             files_.program_name, parameter.path[1]));
         }
     }
 
@@ -94,7 +99,7 @@ class Preparation {
         for (std::int64_t i = 0; i < points; ++i) sweep_.keys_.push_back(key_of(text_of(sweep_.point(i))));
     }
 
-    // ---- racks ----
+    // ---- racks
 
     void check_rack(const std::vector<TomlNode>& values) {
         const std::vector<rack::TomlLine> lines = sweep_.rack_lines(values);
@@ -116,7 +121,8 @@ class Preparation {
             if (parameters()[p].kind != ParameterKind::fault) continue;
             rack::Rack rack(config);
             for (const std::string& fault : words_of(values[p].text))
-                if (const auto plan = rack::FaultPlan::create(rack, {fault}); !plan) tell(values[p].value_place, plan.error().message);
+                if (const auto plan = rack::FaultPlan::create(rack, {fault}); !plan)
+                    tell(values[p].value_place, plan.error().message);
         }
     }
 
@@ -129,11 +135,15 @@ class Preparation {
         for (std::size_t p = 0; p < values.size(); ++p) {
             const Parameter& parameter = parameters()[p];
             if (parameter.kind != ParameterKind::rack) continue;
-            if (parameter.name == name) return tell(static_cast<std::size_t>(error.place.column) <= name.size() ? parameter.place : values[p].value_place, error.message);
+            if (parameter.name == name)
+                return tell(static_cast<std::size_t>(error.place.column) <= name.size() ? parameter.place
+                                                                                        : values[p].value_place,
+                            error.message);
             with += fmt::format("{}{} = {}", with.empty() ? "" : ", ", parameter.name, value_text(values[p]));
             place = parameter.place;
         }
-        const std::string line = at < lines.size() ? fmt::format(" at {} = {}", lines[at].name, lines[at].value) : std::string();
+        const std::string line =
+            at < lines.size() ? fmt::format(" at {} = {}", lines[at].name, lines[at].value) : std::string();
         tell(place, fmt::format("With {} the rack is wrong{}: {}", with, line, error.message));
     }
 
@@ -141,14 +151,17 @@ class Preparation {
         if (told_.insert({place.line, place.column, message}).second) problems_.error(place, message);
     }
 
-    // ---- programs ----
+    // ---- programs
 
     void check_program(const std::vector<TomlNode>& values) {
         std::string with;
         for (std::size_t p = 0; p < values.size(); ++p)
-            if (parameters()[p].kind == ParameterKind::text) with += fmt::format("{}{} = {}", with.empty() ? "" : ", ", parameters()[p].path[1], value_text(values[p]));
+            if (parameters()[p].kind == ParameterKind::text)
+                with +=
+                    fmt::format("{}{} = {}", with.empty() ? "" : ", ", parameters()[p].path[1], value_text(values[p]));
         if (!programs_.insert(with).second) return;
-        const control::gcode::Check check = control::gcode::check_program(sweep_.program_text(values), reading_, program_problems, files_.program_name);
+        const control::gcode::Check check =
+            control::gcode::check_program(sweep_.program_text(values), reading_, program_problems, files_.program_name);
         for (Error problem : check.problems) {
             if (!with.empty()) problem.message += fmt::format(" (with {})", with);
             others_.push_back(std::move(problem));
@@ -159,11 +172,13 @@ class Preparation {
     rack::Problems problems_;
     const SweepFiles& files_;
     control::gcode::Settings reading_;
-    std::vector<Error> others_, warnings_;       // of other files
+    std::vector<Error> others_, warnings_;             // of other files
     std::set<std::string> racks_, programs_, faults_;  // that were looked at
     std::set<std::tuple<int, int, std::string>> told_;
 };
 
-SweepReading prepare(SweepFile file, const std::string& name, const SweepFiles& files) { return Preparation(std::move(file), name, files).run(); }
+SweepReading prepare(SweepFile file, const std::string& name, const SweepFiles& files) {
+    return Preparation(std::move(file), name, files).run();
+}
 
 }  // namespace motionrack::sweep

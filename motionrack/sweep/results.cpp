@@ -14,11 +14,14 @@ namespace motionrack::sweep {
 
 namespace {
 
-bool is_hdf5(const std::string& path) { return path.ends_with(".h5") || path.ends_with(".hdf5"); }
+bool is_hdf5(const std::string& path) {
+    return path.ends_with(".h5") || path.ends_with(".hdf5");
+}
 
 Result<void> put_in_place(const std::string& made, const std::string& path) {
     if (std::rename(made.c_str(), path.c_str()) == 0) return {};
-    return fail(Trouble::io, fmt::format("{} could not be put there: {}. Its rows are kept in {}.", path, std::generic_category().message(errno), made));
+    return fail(Trouble::io, fmt::format("{} could not be put there: {}. Its rows are kept in {}.", path,
+                                         std::generic_category().message(errno), made));
 }
 
 /// Columns in the order of every table; those of results only where `shown` says so.
@@ -31,14 +34,17 @@ std::vector<std::string> heads(const Sweep& sweep, const std::vector<bool>& show
     return out;
 }
 
-std::vector<bool> all_shown() { return std::vector<bool>(result_columns().size(), true); }
+std::vector<bool> all_shown() {
+    return std::vector<bool>(result_columns().size(), true);
+}
 
 /// Which results some point has.
 std::vector<bool> shown_of(const Sweep& sweep, const Results& results) {
     const auto columns = result_columns();
     std::vector<bool> out(columns.size(), false);
     for (std::int64_t i = 0; i < sweep.points(); ++i)
-        for (std::size_t c = 0; c < columns.size(); ++c) out[c] = out[c] || !cell_of(results.row(i), columns[c].name).empty();
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            out[c] = out[c] || !cell_of(results.row(i), columns[c].name).empty();
     return out;
 }
 
@@ -136,7 +142,10 @@ Result<Rows> read_rows_csv(const std::string& path) {
     MOTIONRACK_TRY(trace::CsvRows csv, trace::CsvRows::open(path));
     const std::vector<std::string>& head = csv.head();
     if (head.size() < 3 || head[0] != "key" || head[1] != "point")
-        return fail(Trouble::refused, "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.", {}, path);
+        return fail(
+            Trouble::refused,
+            "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
+            {}, path);
     std::vector<std::string> fields;
     while (true) {
         const Result<bool> next = csv.next(fields);

@@ -3,7 +3,8 @@
 //   results.csv.part   a row as soon as its point is done, in that order; what is in it survives a kill
 //   results.csv        all rows, by point; written whole when the last one is there, then the other is gone
 //
-// Rows are found again by their key, the hash of everything that they were made of: rows of another program, rack or value are not taken.
+// Rows are found again by their key, the hash of everything that they were made of: rows of another program, rack or
+// value are not taken.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,8 @@ using Rows = std::unordered_map<std::string, Row>;
 
 class Results {
   public:
-    /// Takes what an earlier run left, unless `fresh`. A path that ends in .h5 or .hdf5 is HDF5, any other CSV. Errors: io; refused,
-    /// there is a file that is no table of a sweep.
+    /// Takes what an earlier run left, unless `fresh`. A path that ends in .h5 or .hdf5 is HDF5, any other CSV. Errors:
+    /// io; refused, there is a file that is no table of a sweep.
     static Result<std::unique_ptr<Results>> open(const Sweep& sweep, const std::string& path, bool fresh);
 
     bool has(std::int64_t point) const { return rows_.count(sweep_.key(point)) != 0; }
@@ -33,7 +34,8 @@ class Results {
     /// The points that have none; of those with the same key the first.
     std::vector<std::int64_t> missing() const;
 
-    /// The row of this point; it is in the file when this returns. Another one with the same key is left out. Errors: io.
+    /// The row of this point; it is in the file when this returns. Another one with the same key is left out. Errors:
+    /// io.
     Result<void> add(std::int64_t point, Row row);
     /// Writes the table, if all rows are there; then the other file is gone. Errors: io.
     Result<void> finish();
@@ -66,8 +68,8 @@ std::vector<TableColumn> table_of(const Sweep& sweep, const Results& results);
 /// Writes a table, over what was there. Errors: io.
 Result<void> write_table_hdf5(const std::vector<TableColumn>& table, const std::string& path);
 
-/// The rows of a table that was written, or of one that was cut off; none if there is no such file. Errors: io; refused, the file is no
-/// table of a sweep.
+/// The rows of a table that was written, or of one that was cut off; none if there is no such file. Errors: io;
+/// refused, the file is no table of a sweep.
 Result<Rows> read_rows_csv(const std::string& path);
 Result<Rows> read_rows_hdf5(const std::string& path);
 

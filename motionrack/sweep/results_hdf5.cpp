@@ -81,7 +81,10 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     if (!std::filesystem::exists(path, missing) || std::filesystem::is_empty(path, missing)) return out;
     const Result<File> file = File::open(path);
     if (!file || file->attribute_text("format") != format)
-        return fail(Trouble::refused, "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.", {}, path);
+        return fail(
+            Trouble::refused,
+            "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
+            {}, path);
     MOTIONRACK_TRY(const std::vector<std::string> keys, read_column(*file, {"key", "", true}));
     std::vector<Row> rows(keys.size());
     for (const ResultColumn& column : result_columns()) {

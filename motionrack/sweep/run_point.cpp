@@ -11,7 +11,9 @@ namespace motionrack::sweep {
 
 namespace {
 
-std::string number_text(double value) { return std::isfinite(value) ? fmt::format("{}", value == 0 ? 0.0 : value) : std::string(); }
+std::string number_text(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value == 0 ? 0.0 : value) : std::string();
+}
 
 /// What a row has of each axis.
 struct AxisColumn {
@@ -33,25 +35,35 @@ std::string with_unit(std::string_view text, std::size_t axis) {
     return out;
 }
 
-std::string axis_column_name(std::size_t axis, const AxisColumn& column) { return fmt::format("{}_{}", letters[axis], with_unit(column.name, axis)); }
+std::string axis_column_name(std::size_t axis, const AxisColumn& column) {
+    return fmt::format("{}_{}", letters[axis], with_unit(column.name, axis));
+}
 
 std::string ended_text(const rack::JobOutcome& outcome) {
     if (outcome.ended) return outcome.position_trusted ? "ok" : "lost_steps";
     switch (outcome.ended.error().trouble) {
-        case Trouble::bad_input: return "bad_input";
-        case Trouble::refused: return "refused";
-        case Trouble::machine: return "machine";
-        case Trouble::io: return "io";
-        case Trouble::stopped: break;
+        case Trouble::bad_input:
+            return "bad_input";
+        case Trouble::refused:
+            return "refused";
+        case Trouble::machine:
+            return "machine";
+        case Trouble::io:
+            return "io";
+        case Trouble::stopped:
+            break;
     }
     return "stopped";
 }
 
 Row row_of(const rack::JobOutcome& outcome) {
-    Row out = {{"ended", ended_text(outcome)}, {"time_s", number_text(to_seconds(outcome.time))}, {"worst_deviation_mm", number_text(outcome.worst.mm)}};
+    Row out = {{"ended", ended_text(outcome)},
+               {"time_s", number_text(to_seconds(outcome.time))},
+               {"worst_deviation_mm", number_text(outcome.worst.mm)}};
     for (const rack::AxisOutcome& axis : outcome.axes)
         for (const AxisColumn& column : axis_columns)
-            out.emplace_back(axis_column_name(static_cast<std::size_t>(axis.index), column), number_text(column.value(axis)));
+            out.emplace_back(axis_column_name(static_cast<std::size_t>(axis.index), column),
+                             number_text(column.value(axis)));
     out.emplace_back("trace_hash", fmt::format("{:016x}", outcome.trace_hash));
     return out;
 }
@@ -69,7 +81,8 @@ std::span<const ResultColumn> result_columns() {
     static const std::vector<ResultColumn> columns = [] {
         std::vector<ResultColumn> out = {{"ended", "", true}, {"time_s", "s"}, {"worst_deviation_mm", "mm"}};
         for (std::size_t axis = 0; axis < letters.size(); ++axis)
-            for (const AxisColumn& column : axis_columns) out.push_back({axis_column_name(axis, column), with_unit(column.unit, axis)});
+            for (const AxisColumn& column : axis_columns)
+                out.push_back({axis_column_name(axis, column), with_unit(column.unit, axis)});
         out.push_back({"trace_hash", "", true});
         return out;
     }();
@@ -93,12 +106,14 @@ Result<Row> run_point(std::string_view text, const std::atomic<bool>* stop) {
     request.subprograms = std::move(point.subprograms);
     MOTIONRACK_TRY(request.tools, control::gcode::read_tool_table(point.tools, "tools"));
     MOTIONRACK_TRY(request.faults, rack::read_faults(point.faults));
-    const control::gcode::Check check = control::gcode::check_program(request.program, rack::reading_of(request), 1, request.program_name);
+    const control::gcode::Check check =
+        control::gcode::check_program(request.program, rack::reading_of(request), 1, request.program_name);
     if (!check.problems.empty()) return refused(check.problems.front());
     auto job = rack::RecordedJob::create(request, {});
     if (!job) return refused(job.error());
     const rack::JobOutcome& outcome = (*job)->run(stop, {});
-    if (!outcome.ended && outcome.ended.error().trouble == Trouble::stopped) return tl::unexpected<Error>(outcome.ended.error());
+    if (!outcome.ended && outcome.ended.error().trouble == Trouble::stopped)
+        return tl::unexpected<Error>(outcome.ended.error());
     return row_of(outcome);
 }
 

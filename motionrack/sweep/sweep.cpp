@@ -22,7 +22,8 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t param
 
 TomlNode drawn(const Parameter& parameter, std::uint64_t luck) {
     const double part = static_cast<double>(luck >> 11) * 0x1p-53;
-    if (!parameter.range) return parameter.values[static_cast<std::size_t>(part * static_cast<double>(parameter.values.size()))];
+    if (!parameter.range)
+        return parameter.values[static_cast<std::size_t>(part * static_cast<double>(parameter.values.size()))];
     const NumberRange& range = *parameter.range;
     TomlNode out;
     out.value_place = parameter.place;
@@ -38,7 +39,8 @@ std::vector<TomlNode> Sweep::values(std::int64_t i) const {
     const std::vector<Parameter>& parameters = file_.parameters;
     if (file_.settings.order == Order::random) {
         for (std::size_t p = 0; p < parameters.size(); ++p)
-            out.push_back(drawn(parameters[p], mixed(static_cast<std::uint64_t>(file_.settings.seed), static_cast<std::uint64_t>(i), p)));
+            out.push_back(drawn(parameters[p], mixed(static_cast<std::uint64_t>(file_.settings.seed),
+                                                     static_cast<std::uint64_t>(i), p)));
         return out;
     }
     out.resize(parameters.size());
@@ -54,7 +56,8 @@ std::vector<TomlNode> Sweep::values(std::int64_t i) const {
 std::vector<rack::TomlLine> Sweep::rack_lines(const std::vector<TomlNode>& values) const {
     TomlNode root = rack_;
     for (std::size_t p = 0; p < values.size(); ++p)
-        if (file_.parameters[p].kind == ParameterKind::rack) MOTIONRACK_ASSERT(rack::put_value(root, file_.parameters[p].path, values[p]));
+        if (file_.parameters[p].kind == ParameterKind::rack)
+            MOTIONRACK_ASSERT(rack::put_value(root, file_.parameters[p].path, values[p]));
     return rack::toml_lines(root);
 }
 

@@ -20,7 +20,8 @@ class Sweep {
   public:
     std::int64_t points() const { return static_cast<std::int64_t>(keys_.size()); }
     const std::vector<Parameter>& parameters() const { return file_.parameters; }
-    /// Of point `i`, 0 .. points() - 1: a value for each parameter. Of a grid the last parameter changes from point to point.
+    /// Of point `i`, 0 .. points() - 1: a value for each parameter. Of a grid the last parameter changes from point to
+    /// point.
     std::vector<rack::TomlNode> values(std::int64_t i) const;
     PointText point(std::int64_t i) const;
     const std::string& key(std::int64_t i) const { return keys_[static_cast<std::size_t>(i)]; }
@@ -51,12 +52,12 @@ struct SweepReading {
 struct SweepFiles {
     std::string rack_name, rack;
     std::string program_name, program;
-    std::string tools_name, tools;                                   ///< empty: none
+    std::string tools_name, tools;                                      ///< empty: none
     std::function<Result<std::string>(const std::string&)> subprogram;  ///< by its name; may be empty
 };
 
-/// Reads the texts and checks them together: the rack of every point, each text of the program on the rack as its file has it, each
-/// fault on the first rack that gets it.
+/// Reads the texts and checks them together: the rack of every point, each text of the program on the rack as its file
+/// has it, each fault on the first rack that gets it.
 SweepReading prepare(SweepFile file, const std::string& name, const SweepFiles& files);
 
 }  // namespace motionrack::sweep

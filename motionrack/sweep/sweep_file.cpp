@@ -15,12 +15,19 @@ namespace {
 using rack::TomlNode;
 using rack::TomlType;
 
-bool is_scalar(const TomlNode& node) { return node.type == TomlType::text || node.type == TomlType::integer || node.type == TomlType::number || node.type == TomlType::flag; }
-bool is_range(const TomlNode& node) { return node.type == TomlType::table && (node.find("from") != nullptr || node.find("to") != nullptr || node.find("steps") != nullptr); }
+bool is_scalar(const TomlNode& node) {
+    return node.type == TomlType::text || node.type == TomlType::integer || node.type == TomlType::number ||
+           node.type == TomlType::flag;
+}
+bool is_range(const TomlNode& node) {
+    return node.type == TomlType::table &&
+           (node.find("from") != nullptr || node.find("to") != nullptr || node.find("steps") != nullptr);
+}
 
 bool is_word(std::string_view text) {
-    return !text.empty() && text.size() <= 32 &&
-           std::all_of(text.begin(), text.end(), [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+    return !text.empty() && text.size() <= 32 && std::all_of(text.begin(), text.end(), [](char c) {
+        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
 }
 
 class Reader {
@@ -33,14 +40,23 @@ class Reader {
             const bool known = std::find(sections.begin(), sections.end(), node.key) != sections.end();
             if (!known) {
                 const std::string hint = rack::did_you_mean(node.key, sections);
-                problems_.error(node.key_place, fmt::format("A sweep file has no section {}{}", rack::in_quotes(node.key), hint.empty() ? ": it has sweep, vary." : hint));
+                problems_.error(node.key_place,
+                                fmt::format("A sweep file has no section {}{}", rack::in_quotes(node.key),
+                                            hint.empty() ? ": it has sweep, vary." : hint));
             } else if (node.type != TomlType::table) {
-                problems_.error(node.value_place, fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", node.key, rack::type_name(node.type), node.key));
+                problems_.error(
+                    node.value_place,
+                    fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.",
+                                node.key, rack::type_name(node.type), node.key));
             }
         }
         const TomlNode *sweep = file_.root.find("sweep"), *vary = file_.root.find("vary");
-        if (sweep == nullptr) problems_.error({1, 1}, "There is no section [sweep]: it says which program runs on which rack.");
-        if (vary == nullptr) problems_.error({1, 1}, "There is no section [vary]: it says what is varied, such as \"axis.X.max_accel_mm_s2\" = [500, 1000].");
+        if (sweep == nullptr)
+            problems_.error({1, 1}, "There is no section [sweep]: it says which program runs on which rack.");
+        if (vary == nullptr)
+            problems_.error({1, 1},
+                            "There is no section [vary]: it says what is varied, such as \"axis.X.max_accel_mm_s2\" = "
+                            "[500, 1000].");
         if (sweep != nullptr && sweep->type == TomlType::table) read_sweep(*sweep);
         if (vary != nullptr && vary->type == TomlType::table) read_vary(*vary);
     }
@@ -51,9 +67,12 @@ class Reader {
         const auto refused = rack::read_fields(node, sweep_fields, &settings, {"[sweep]", "", "", {}}, problems_);
         random_ = settings.order == Order::random;
         if (!refused.empty()) return;
-        if (random_ && !settings.points) problems_.error(node.place_of("order"), "A random sweep needs points = NUMBER: how many are drawn.");
+        if (random_ && !settings.points)
+            problems_.error(node.place_of("order"), "A random sweep needs points = NUMBER: how many are drawn.");
         if (!random_ && settings.points)
-            problems_.error(node.place_of("points"), "points says how many are drawn by chance, but this sweep takes all combinations; write order = \"random\", or leave points out.");
+            problems_.error(node.place_of("points"),
+                            "points says how many are drawn by chance, but this sweep takes all combinations; write "
+                            "order = \"random\", or leave points out.");
     }
 
     void read_vary(const TomlNode& vary) {
@@ -65,18 +84,29 @@ class Reader {
             else
                 descend(node, {node.key});
         }
-        if (vary.children.empty()) problems_.error(vary.key_place, "Nothing is varied; write such as \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
+        if (vary.children.empty())
+            problems_.error(vary.key_place,
+                            "Nothing is varied; write such as \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
         if (file_.parameters.size() > most_parameters)
-            problems_.error(file_.parameters[most_parameters].place, fmt::format("{} things are varied; at most {} can be. Leave some out.", file_.parameters.size(), most_parameters));
+            problems_.error(file_.parameters[most_parameters].place,
+                            fmt::format("{} things are varied; at most {} can be. Leave some out.",
+                                        file_.parameters.size(), most_parameters));
         if (problems_.any_errors()) return;
         if (const std::int64_t points = file_.points(); points > most_points)
-            problems_.error(vary.key_place, fmt::format("The sweep has {} points, more than the {} that can be; take fewer steps, or order = \"random\" with points.",
-                                                        points == std::numeric_limits<std::int64_t>::max() ? "far more than 10^18" : std::to_string(points), most_points));
+            problems_.error(vary.key_place,
+                            fmt::format("The sweep has {} points, more than the {} that can be; take fewer steps, or "
+                                        "order = \"random\" with points.",
+                                        points == std::numeric_limits<std::int64_t>::max() ? "far more than 10^18"
+                                                                                           : std::to_string(points),
+                                        most_points));
     }
 
     void descend(const TomlNode& node, const std::vector<std::string>& path) {
         if (node.type != TomlType::table || is_range(node)) return add(node, path);
-        if (node.children.empty()) return problems_.error(node.key_place, fmt::format("{} is an empty table; give a list of values, or from, to and steps.", rack::toml_name(path)));
+        if (node.children.empty())
+            return problems_.error(node.key_place,
+                                   fmt::format("{} is an empty table; give a list of values, or from, to and steps.",
+                                               rack::toml_name(path)));
         for (const TomlNode& child : node.children) {
             std::vector<std::string> deeper = path;
             deeper.push_back(child.key);
@@ -92,25 +122,39 @@ class Reader {
         if (path.size() == 1 && path[0] == "fault") parameter.kind = ParameterKind::fault;
         if (path[0] == "text") parameter.kind = ParameterKind::text;
         for (const Parameter& other : file_.parameters)
-            if (other.name == parameter.name) return problems_.error(node.key_place, fmt::format("{} is varied twice; leave one out.", parameter.name));
+            if (other.name == parameter.name)
+                return problems_.error(node.key_place,
+                                       fmt::format("{} is varied twice; leave one out.", parameter.name));
         if (parameter.kind == ParameterKind::text && (path.size() != 2 || !is_word(path[1])))
-            return problems_.error(node.key_place, fmt::format("{} names no text of the program: write \"text.NAME\" for {{NAME}}, up to 32 letters, digits and '_'.", rack::in_quotes(parameter.name)));
+            return problems_.error(node.key_place, fmt::format("{} names no text of the program: write \"text.NAME\" "
+                                                               "for {{NAME}}, up to 32 letters, digits and '_'.",
+                                                               rack::in_quotes(parameter.name)));
         if (is_range(node) ? !read_range(node, parameter) : !read_values(node, parameter)) return;
         file_.parameters.push_back(std::move(parameter));
     }
 
     bool read_values(const TomlNode& node, Parameter& parameter) {
         const auto wrong = [&](Place place, std::string_view what) {
-            problems_.error(place, fmt::format("{} {}; write a list of values, or {{ from = 1, to = 2, steps = 5 }}.", parameter.name, what));
+            problems_.error(place, fmt::format("{} {}; write a list of values, or {{ from = 1, to = 2, steps = 5 }}.",
+                                               parameter.name, what));
             return false;
         };
-        if (is_scalar(node)) parameter.values = {node};
-        else if (node.type == TomlType::array) parameter.values = node.children;
-        else return wrong(node.value_place, fmt::format("is {}", rack::type_name(node.type)));
+        if (is_scalar(node))
+            parameter.values = {node};
+        else if (node.type == TomlType::array)
+            parameter.values = node.children;
+        else
+            return wrong(node.value_place, fmt::format("is {}", rack::type_name(node.type)));
         if (parameter.values.empty()) return wrong(node.value_place, "has no values");
-        if (static_cast<std::int64_t>(parameter.values.size()) > most_steps) return wrong(node.value_place, fmt::format("has {} values, more than {}", parameter.values.size(), most_steps));
+        if (static_cast<std::int64_t>(parameter.values.size()) > most_steps)
+            return wrong(node.value_place,
+                         fmt::format("has {} values, more than {}", parameter.values.size(), most_steps));
         bool good = true;
-        for (const TomlNode& value : parameter.values) good = (is_scalar(value) ? check_value(value, parameter) : wrong(value.value_place, fmt::format("has {} in its list", rack::type_name(value.type)))) && good;
+        for (const TomlNode& value : parameter.values)
+            good = (is_scalar(value)
+                        ? check_value(value, parameter)
+                        : wrong(value.value_place, fmt::format("has {} in its list", rack::type_name(value.type)))) &&
+                   good;
         return good;
     }
 
@@ -119,11 +163,20 @@ class Reader {
             problems_.error(value.value_place, what);
             return false;
         };
-        if (value.type == TomlType::number && !std::isfinite(value.number)) return refuse(fmt::format("{} has {} in its list, which is no number that can be used.", parameter.name, rack::number_text(value.number)));
-        if (parameter.kind == ParameterKind::text && value.type == TomlType::text && (value.text.size() > 1000 || value.text.find_first_of("\r\n") != std::string::npos))
-            return refuse(fmt::format("{} has {} in its list; a text of the program has at most 1000 bytes and no line end.", parameter.name, rack::in_quotes(value.text)));
+        if (value.type == TomlType::number && !std::isfinite(value.number))
+            return refuse(fmt::format("{} has {} in its list, which is no number that can be used.", parameter.name,
+                                      rack::number_text(value.number)));
+        if (parameter.kind == ParameterKind::text && value.type == TomlType::text &&
+            (value.text.size() > 1000 || value.text.find_first_of("\r\n") != std::string::npos))
+            return refuse(
+                fmt::format("{} has {} in its list; a text of the program has at most 1000 bytes and no line end.",
+                            parameter.name, rack::in_quotes(value.text)));
         if (parameter.kind != ParameterKind::fault) return true;
-        if (value.type != TomlType::text) return refuse(fmt::format("fault has {} in its list, but faults are texts: \"X.limit_plus=0@1.5s\", several of them with blanks between; \"\" for none.", rack::type_name(value.type)));
+        if (value.type != TomlType::text)
+            return refuse(
+                fmt::format("fault has {} in its list, but faults are texts: \"X.limit_plus=0@1.5s\", several of them "
+                            "with blanks between; \"\" for none.",
+                            rack::type_name(value.type)));
         if (const auto faults = rack::read_faults(words_of(value.text)); !faults) return refuse(faults.error().message);
         return true;
     }
@@ -132,19 +185,33 @@ class Reader {
         RangeSettings settings;
         TomlNode table = node;
         table.key_place = node.value_place;
-        if (!rack::read_fields(table, range_fields, &settings, {parameter.name, "", "", {}}, problems_).empty()) return false;
+        if (!rack::read_fields(table, range_fields, &settings, {parameter.name, "", "", {}}, problems_).empty())
+            return false;
         const auto refuse = [&](Place place, const std::string& what) {
             problems_.error(place, what);
             return false;
         };
-        if (parameter.kind == ParameterKind::fault) return refuse(node.value_place, "fault has no numbers between; write a list of texts: [\"\", \"X.limit_plus=0@1.5s\"].");
-        if (settings.from == settings.to) return refuse(node.place_of("to"), fmt::format("from and to of {} are both {}; give two numbers, or a list of one.", parameter.name, rack::number_text(settings.to)));
-        if (!settings.steps && !random_) return refuse(node.value_place, fmt::format("{} has no steps: how many numbers from {} to {}.", parameter.name, rack::number_text(settings.from), rack::number_text(settings.to)));
+        if (parameter.kind == ParameterKind::fault)
+            return refuse(node.value_place,
+                          "fault has no numbers between; write a list of texts: [\"\", \"X.limit_plus=0@1.5s\"].");
+        if (settings.from == settings.to)
+            return refuse(node.place_of("to"),
+                          fmt::format("from and to of {} are both {}; give two numbers, or a list of one.",
+                                      parameter.name, rack::number_text(settings.to)));
+        if (!settings.steps && !random_)
+            return refuse(node.value_place,
+                          fmt::format("{} has no steps: how many numbers from {} to {}.", parameter.name,
+                                      rack::number_text(settings.from), rack::number_text(settings.to)));
         const NumberRange range{settings.from, settings.to, settings.whole};
         if (range.whole && (range.from != std::floor(range.from) || range.to != std::floor(range.to)))
-            return refuse(node.value_place, fmt::format("{} is to be whole, so from and to must be, but they are {} and {}.", parameter.name, rack::number_text(range.from), rack::number_text(range.to)));
-        if (const double numbers = std::fabs(range.to - range.from) + 1; range.whole && settings.steps && static_cast<double>(*settings.steps) > numbers)
-            return refuse(node.place_of("steps"), fmt::format("{} has {} steps, but there are only {} whole numbers.", parameter.name, *settings.steps, rack::number_text(numbers)));
+            return refuse(node.value_place,
+                          fmt::format("{} is to be whole, so from and to must be, but they are {} and {}.",
+                                      parameter.name, rack::number_text(range.from), rack::number_text(range.to)));
+        if (const double numbers = std::fabs(range.to - range.from) + 1;
+            range.whole && settings.steps && static_cast<double>(*settings.steps) > numbers)
+            return refuse(node.place_of("steps"),
+                          fmt::format("{} has {} steps, but there are only {} whole numbers.", parameter.name,
+                                      *settings.steps, rack::number_text(numbers)));
         if (!settings.steps) {
             parameter.range = range;
             return true;
@@ -154,7 +221,9 @@ class Reader {
             value.value_place = node.value_place;
             value.type = TomlType::number;
             const double part = static_cast<double>(i) / static_cast<double>(*settings.steps - 1);
-            value.number = i == 0 ? range.from : i == *settings.steps - 1 ? range.to : tidied(range.from + (range.to - range.from) * part, range);
+            value.number = i == 0                     ? range.from
+                           : i == *settings.steps - 1 ? range.to
+                                                      : tidied(range.from + (range.to - range.from) * part, range);
         }
         return true;
     }
@@ -167,14 +236,17 @@ class Reader {
 }  // namespace
 
 bool Parameter::numeric() const {
-    return range || std::all_of(values.begin(), values.end(), [](const TomlNode& value) { return value.type == TomlType::integer || value.type == TomlType::number; });
+    return range || std::all_of(values.begin(), values.end(), [](const TomlNode& value) {
+               return value.type == TomlType::integer || value.type == TomlType::number;
+           });
 }
 
 std::int64_t SweepFile::points() const {
     if (settings.order == Order::random) return settings.points.value_or(0);
     std::int64_t out = 1;
     for (const Parameter& parameter : parameters)
-        if (__builtin_mul_overflow(out, static_cast<std::int64_t>(parameter.values.size()), &out)) return std::numeric_limits<std::int64_t>::max();
+        if (__builtin_mul_overflow(out, static_cast<std::int64_t>(parameter.values.size()), &out))
+            return std::numeric_limits<std::int64_t>::max();
     return out;
 }
 
@@ -195,10 +267,14 @@ std::vector<std::string> words_of(const std::string& text) {
 
 std::string value_text(const TomlNode& value) {
     switch (value.type) {
-        case TomlType::text: return value.text;
-        case TomlType::flag: return value.flag ? "true" : "false";
-        case TomlType::integer: return std::to_string(value.integer);
-        default: return rack::number_text(value.number);
+        case TomlType::text:
+            return value.text;
+        case TomlType::flag:
+            return value.flag ? "true" : "false";
+        case TomlType::integer:
+            return std::to_string(value.integer);
+        default:
+            return rack::number_text(value.number);
     }
 }
 

@@ -25,11 +25,16 @@ Instead of a list, numbers between two others:
 std::string sweep_file_reference() {
     const SweepSettings settings;
     const RangeSettings range;
-    std::string out = fmt::format("# The sweep file\nTOML, for [`motionrack sweep`](../howto/sweep.md). Unknown keys, wrong types, values out of range, racks and programs that would be refused are told all at once, with line and column, "
-                                  "before anything runs. A sweep has at most {} points and {} things that are varied.\n\n", most_points, most_parameters);
+    std::string out = fmt::format(
+        "# The sweep file\nTOML, for [`motionrack sweep`](../howto/sweep.md). Unknown keys, wrong types, values out of "
+        "range, racks and programs that would be refused are told all at once, with line and column, "
+        "before anything runs. A sweep has at most {} points and {} things that are varied.\n\n",
+        most_points, most_parameters);
     out += "## [sweep]\n" + rack::fields_table(sweep_fields, &settings, &settings);
     out += fmt::format("## [vary]\n{}", vary_doc) + rack::fields_table(range_fields, &range, &range);
-    out += "A grid has all combinations; its points are numbered so that the last line of `[vary]` changes first. Numbers between others have few digits: they are off by at most a 20,000th of the range.\n";
+    out +=
+        "A grid has all combinations; its points are numbered so that the last line of `[vary]` changes first. Numbers "
+        "between others have few digits: they are off by at most a 20,000th of the range.\n";
     return out;
 }
 

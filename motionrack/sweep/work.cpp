@@ -2,20 +2,29 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <mutex>
 #include <motionrack/sweep/work.hpp>
+#include <mutex>
 #include <thread>
 
 namespace motionrack::sweep {
 
 namespace {
 
-std::int64_t now_ms() { return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+std::int64_t now_ms() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
 
 class Crew {
   public:
-    Crew(const Sweep& sweep, Results& results, const std::atomic<bool>& stop, const std::function<void(const WorkProgress&)>& progress)
-        : sweep_(sweep), results_(results), stop_(stop), progress_(progress), clock_(results), todo_(results.missing()) {}
+    Crew(const Sweep& sweep, Results& results, const std::atomic<bool>& stop,
+         const std::function<void(const WorkProgress&)>& progress)
+        : sweep_(sweep),
+          results_(results),
+          stop_(stop),
+          progress_(progress),
+          clock_(results),
+          todo_(results.missing()) {}
 
     Result<void> run(int jobs) {
         const auto threads = std::min<std::size_t>(static_cast<std::size_t>(jobs), todo_.size());
@@ -45,7 +54,11 @@ class Crew {
             if (progress_) progress_(clock_.now(results_));
             return {};
         } catch (const std::exception& e) {
-            return fail(Trouble::io, fmt::format("Point {} could not be run: {}. Rows that were done are kept; take fewer jobs if memory is short.", point, e.what()));
+            return fail(
+                Trouble::io,
+                fmt::format(
+                    "Point {} could not be run: {}. Rows that were done are kept; take fewer jobs if memory is short.",
+                    point, e.what()));
         }
     }
 
@@ -77,11 +90,14 @@ WorkClock::WorkClock(const Results& results) : before_(results.done()), began_ms
 WorkProgress WorkClock::now(const Results& results) const {
     WorkProgress out{results.done(), results.points(), 0};
     const std::int64_t since = out.done - before_;
-    if (since > 0) out.seconds_left = static_cast<double>(now_ms() - began_ms_) * 1e-3 * static_cast<double>(out.points - out.done) / static_cast<double>(since);
+    if (since > 0)
+        out.seconds_left = static_cast<double>(now_ms() - began_ms_) * 1e-3 *
+                           static_cast<double>(out.points - out.done) / static_cast<double>(since);
     return out;
 }
 
-Result<void> run_here(const Sweep& sweep, Results& results, int jobs, const std::atomic<bool>& stop, const std::function<void(const WorkProgress&)>& progress) {
+Result<void> run_here(const Sweep& sweep, Results& results, int jobs, const std::atomic<bool>& stop,
+                      const std::function<void(const WorkProgress&)>& progress) {
     return Crew(sweep, results, stop, progress).run(jobs);
 }
 

@@ -12,10 +12,12 @@ bool read_ps(std::string_view seconds, std::int64_t& ps) {
     static constexpr std::int64_t a_second = 1'000'000'000'000, most = 8'640'000;
     std::int64_t whole = 0, part = 0, place = a_second;
     std::size_t i = 0;
-    for (; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9' && whole <= most; ++i) whole = whole * 10 + (seconds[i] - '0');
+    for (; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9' && whole <= most; ++i)
+        whole = whole * 10 + (seconds[i] - '0');
     if (i == 0 || whole > most) return false;
     if (i < seconds.size() && seconds[i] == '.')
-        for (++i; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9'; ++i) part += (place /= 10) * (seconds[i] - '0');
+        for (++i; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9'; ++i)
+            part += (place /= 10) * (seconds[i] - '0');
     ps = whole * a_second + part;
     if (i == seconds.size()) return true;
     const double value = number_of(seconds);  // "1e-05"
@@ -28,7 +30,8 @@ namespace {
 
 class CsvChanges final : public ChangeSource {
   public:
-    CsvChanges(CsvRows rows, std::string path, SignalNames& names) : rows_(std::move(rows)), path_(std::move(path)), names_(names) {}
+    CsvChanges(CsvRows rows, std::string path, SignalNames& names)
+        : rows_(std::move(rows)), path_(std::move(path)), names_(names) {}
 
     Result<bool> next(Change& change) override {
         MOTIONRACK_TRY(const bool any, rows_.next(fields_));
@@ -57,7 +60,8 @@ class CsvChanges final : public ChangeSource {
 Result<std::unique_ptr<ChangeSource>> open_csv_changes(const std::string& path, SignalNames& names) {
     MOTIONRACK_TRY(CsvRows rows, CsvRows::open(path));
     if (rows.head() != std::vector<std::string>{"time_s", "signal", "value"})
-        return fail(Trouble::bad_input, "The file is no table of changes: its head is not time_s,signal,value.", {1, 0}, path);
+        return fail(Trouble::bad_input, "The file is no table of changes: its head is not time_s,signal,value.", {1, 0},
+                    path);
     return std::make_unique<CsvChanges>(std::move(rows), path, names);
 }
 

@@ -29,7 +29,9 @@ class VcdChanges final : public ChangeSource {
     Result<void> variable(const std::string& scope);
     Result<void> time();
     Result<bool> changed(std::string code, std::string value, Change& change);
-    tl::unexpected<Error> refuse(const std::string& message) const { return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path()); }
+    tl::unexpected<Error> refuse(const std::string& message) const {
+        return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path());
+    }
 
     FileBytes bytes_;
     SignalNames& names_;
@@ -68,19 +70,24 @@ Result<void> VcdChanges::timescale() {
         std::string_view name;
         std::int64_t ps;
     };
-    for (const Unit unit : {Unit{"ps", 1}, Unit{"ns", 1'000}, Unit{"us", 1'000'000}, Unit{"ms", 1'000'000'000}, Unit{"s", 1'000'000'000'000}}) {
+    for (const Unit unit : {Unit{"ps", 1}, Unit{"ns", 1'000}, Unit{"us", 1'000'000}, Unit{"ms", 1'000'000'000},
+                            Unit{"s", 1'000'000'000'000}}) {
         if (text == fmt::format("1{}", unit.name)) scale_ps_ = unit.ps;
         if (text == fmt::format("10{}", unit.name)) scale_ps_ = 10 * unit.ps;
         if (text == fmt::format("100{}", unit.name)) scale_ps_ = 100 * unit.ps;
     }
-    return scale_ps_ > 0 ? Result<void>() : Result<void>(refuse(fmt::format("'{}' is no timescale that is read: 1, 10 or 100 of ps, ns, us, ms or s.", text.substr(0, 40))));
+    return scale_ps_ > 0
+               ? Result<void>()
+               : Result<void>(refuse(fmt::format(
+                     "'{}' is no timescale that is read: 1, 10 or 100 of ps, ns, us, ms or s.", text.substr(0, 40))));
 }
 
 /// $var wire 1 ! x_step $end
 Result<void> VcdChanges::variable(const std::string& scope) {
     std::vector<std::string> words;
     while (word() && word_ != "$end" && words.size() < 8) words.push_back(word_);
-    if (words.size() < 4 || codes_.size() >= most_signals) return refuse("A variable is declared by its type, width, code and name.");
+    if (words.size() < 4 || codes_.size() >= most_signals)
+        return refuse("A variable is declared by its type, width, code and name.");
     const std::size_t number = names_.number(scope + words[3]);
     codes_[words[2]] = number;
     declared_.push_back(number);
@@ -119,7 +126,8 @@ Result<void> VcdChanges::read_head() {
 Result<void> VcdChanges::time() {
     std::int64_t units = 0;
     const auto [end, bad] = std::from_chars(word_.data() + 1, word_.data() + word_.size(), units);
-    if (bad != std::errc() || end != word_.data() + word_.size() || units < 0 || units > std::numeric_limits<std::int64_t>::max() / scale_ps_)
+    if (bad != std::errc() || end != word_.data() + word_.size() || units < 0 ||
+        units > std::numeric_limits<std::int64_t>::max() / scale_ps_)
         return refuse(fmt::format("'{}' is no time.", word_.substr(0, 40)));
     if (units * scale_ps_ < at_ps_) return refuse("The time lies before the one above it.");
     at_ps_ = units * scale_ps_;
@@ -146,7 +154,8 @@ Result<bool> VcdChanges::next(Change& change) {
             MOTIONRACK_CHECK(time());
         } else if (first == 'b' || first == 'B' || first == 'r' || first == 'R' || first == 's') {
             std::string value = word_.substr(1);
-            if (first == 'b' || first == 'B') value.erase(0, std::min(value.find_first_not_of('0'), value.size() - (value.empty() ? 0 : 1)));
+            if (first == 'b' || first == 'B')
+                value.erase(0, std::min(value.find_first_not_of('0'), value.size() - (value.empty() ? 0 : 1)));
             if (!word()) return false;  // cut off between the two
             return changed(word_, std::move(value), change);
         } else if (first == '$') {

@@ -22,7 +22,9 @@ Result<CsvRows> CsvRows::open(const std::string& path) {
     return out;
 }
 
-tl::unexpected<Error> CsvRows::refuse(const std::string& message) const { return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path()); }
+tl::unexpected<Error> CsvRows::refuse(const std::string& message) const {
+    return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path());
+}
 
 Result<bool> CsvRows::next(std::vector<std::string>& fields) {
     bool any = false;
@@ -37,7 +39,9 @@ Result<bool> CsvRows::next(std::vector<std::string>& fields) {
 }
 
 /// An empty line in a table of several columns; editors leave one at the end.
-bool CsvRows::is_blank(const std::vector<std::string>& fields) const { return head_.size() > 1 && fields.size() == 1 && fields[0].empty(); }
+bool CsvRows::is_blank(const std::vector<std::string>& fields) const {
+    return head_.size() > 1 && fields.size() == 1 && fields[0].empty();
+}
 
 Result<bool> CsvRows::read(std::vector<std::string>& fields) {
     line_ = next_line_;
@@ -73,7 +77,8 @@ Result<bool> CsvRows::read(std::vector<std::string>& fields) {
         } else {
             fields.back() += static_cast<char>(c);
         }
-        if (fields.back().size() > most_field || fields.size() > most_fields) return refuse("The row is longer than a row of a recording can be; is this a CSV file?");
+        if (fields.back().size() > most_field || fields.size() > most_fields)
+            return refuse("The row is longer than a row of a recording can be; is this a CSV file?");
     }
 }
 

@@ -16,8 +16,8 @@ class CsvRows {
     static Result<CsvRows> open(const std::string& path);
 
     const std::vector<std::string>& head() const { return head_; }
-    /// The next row into `fields`, as many as the head has; false at the end. Errors: io, bad_input with its line: another number of fields,
-    /// a field of more than 1 MB.
+    /// The next row into `fields`, as many as the head has; false at the end. Errors: io, bad_input with its line:
+    /// another number of fields, a field of more than 1 MB.
     Result<bool> next(std::vector<std::string>& fields);
     /// The line on which the last row began, from 1.
     int line() const { return line_; }

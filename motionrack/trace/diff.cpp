@@ -15,14 +15,19 @@ constexpr std::size_t differences_shown = 10, names_shown = 10;
 
 const char* name_of(FileKind kind) {
     switch (kind) {
-        case FileKind::hdf5: return "a recording (HDF5)";
-        case FileKind::vcd: return "a VCD file";
-        case FileKind::csv: break;
+        case FileKind::hdf5:
+            return "a recording (HDF5)";
+        case FileKind::vcd:
+            return "a VCD file";
+        case FileKind::csv:
+            break;
     }
     return "a CSV file";
 }
 
-bool is_table_of_changes(const CsvRows& rows) { return rows.head() == std::vector<std::string>{"time_s", "signal", "value"}; }
+bool is_table_of_changes(const CsvRows& rows) {
+    return rows.head() == std::vector<std::string>{"time_s", "signal", "value"};
+}
 
 }  // namespace
 
@@ -38,13 +43,16 @@ Result<FileKind> kind_of_file(const std::string& path) {
 }
 
 void sort_differences(Diff& diff) {
-    std::stable_sort(diff.differences.begin(), diff.differences.end(), [](const Difference& a, const Difference& b) { return a.at < b.at; });
+    std::stable_sort(diff.differences.begin(), diff.differences.end(),
+                     [](const Difference& a, const Difference& b) { return a.at < b.at; });
 }
 
 Result<Diff> diff_files(const std::string& a, const std::string& b, const DiffSettings& settings) {
     MOTIONRACK_TRY(const FileKind kind, kind_of_file(a));
     MOTIONRACK_TRY(const FileKind other, kind_of_file(b));
-    if (kind != other) return fail(Trouble::bad_input, fmt::format("{} is {}, {} is {}; only two of the same kind can be compared.", a, name_of(kind), b, name_of(other)));
+    if (kind != other)
+        return fail(Trouble::bad_input, fmt::format("{} is {}, {} is {}; only two of the same kind can be compared.", a,
+                                                    name_of(kind), b, name_of(other)));
     if (kind == FileKind::hdf5) {
         MOTIONRACK_TRY(const RecordingReader of_a, RecordingReader::open(a));
         MOTIONRACK_TRY(const RecordingReader of_b, RecordingReader::open(b));
@@ -61,7 +69,8 @@ namespace {
 
 std::string time_text(const Difference& one) {
     if (!one.at) return "at no instant";
-    return fmt::format("at {:.10f} s ({} ns, tick {})", to_seconds(*one.at), fmt::format("{}.{}", one.at->count() / 10, one.at->count() % 10), one.at->count());
+    return fmt::format("at {:.10f} s ({} ns, tick {})", to_seconds(*one.at),
+                       fmt::format("{}.{}", one.at->count() / 10, one.at->count() % 10), one.at->count());
 }
 
 std::string list_text(const std::vector<std::string>& names) {
@@ -75,26 +84,36 @@ std::string list_text(const std::vector<std::string>& names) {
 std::string diff_text(const Diff& diff, const std::string& a, const std::string& b) {
     std::string out = fmt::format("A  {}\nB  {}\n", a, b);
     const std::string how_far = diff.until ? fmt::format(" up to {:.6f} s", to_seconds(*diff.until)) : "";
-    if (diff.same() && !diff.stopped) return out + fmt::format("The two {} are the same{}: {} signals, {} values.\n", diff.kind, how_far, diff.signals, diff.compared);
+    if (diff.same() && !diff.stopped)
+        return out + fmt::format("The two {} are the same{}: {} signals, {} values.\n", diff.kind, how_far,
+                                 diff.signals, diff.compared);
     for (const std::string& sentence : diff.made_of) out += fmt::format("  {}\n", sentence);
     if (!diff.only_a.empty()) out += fmt::format("  only A has {}: {}\n", diff.only_a.size(), list_text(diff.only_a));
     if (!diff.only_b.empty()) out += fmt::format("  only B has {}: {}\n", diff.only_b.size(), list_text(diff.only_b));
     if (diff.differences.empty())
-        out += fmt::format("The {} signals of the two {} are the same{}: {} values.\n", diff.signals, diff.kind, how_far, diff.compared);
+        out += fmt::format("The {} signals of the two {} are the same{}: {} values.\n", diff.signals, diff.kind,
+                           how_far, diff.compared);
     else
-        out += fmt::format("{} of {} signals differ{}. The first difference:\n", diff.differences.size(), diff.signals, how_far);
+        out += fmt::format("{} of {} signals differ{}. The first difference:\n", diff.differences.size(), diff.signals,
+                           how_far);
     for (std::size_t i = 0; i < diff.differences.size() && i < differences_shown; ++i) {
         const Difference& one = diff.differences[i];
         if (i == 1) out += "The other signals, where each differs first:\n";
         const std::string unit = one.unit.empty() ? "" : ", " + one.unit;
         out += fmt::format("  {}{}, {}\n    A: {}\n    B: {}\n", one.signal, unit, time_text(one), one.a, one.b);
     }
-    if (diff.differences.size() > differences_shown) out += fmt::format("  and {} more signals\n", diff.differences.size() - differences_shown);
+    if (diff.differences.size() > differences_shown)
+        out += fmt::format("  and {} more signals\n", diff.differences.size() - differences_shown);
     return out;
 }
 
 std::string diff_json(const Diff& diff, const std::string& a, const std::string& b) {
-    nlohmann::ordered_json json = {{"a", a}, {"b", b}, {"kind", diff.kind}, {"same", diff.same()}, {"signals", diff.signals}, {"values", diff.compared}};
+    nlohmann::ordered_json json = {{"a", a},
+                                   {"b", b},
+                                   {"kind", diff.kind},
+                                   {"same", diff.same()},
+                                   {"signals", diff.signals},
+                                   {"values", diff.compared}};
     if (diff.until) json["until_s"] = to_seconds(*diff.until);
     json["differing"] = diff.differences.size();
     json["only_a"] = diff.only_a;

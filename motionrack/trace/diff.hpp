@@ -25,14 +25,14 @@ struct Difference {
 };
 
 struct Diff {
-    const char* kind = "";                 ///< "recordings", "VCD files", "tables of samples"
-    std::uint64_t signals = 0;             ///< that both have
-    std::uint64_t compared = 0;            ///< events, changes or fields of the first one
-    std::vector<Difference> differences;   ///< one a signal that differs, the earliest first
+    const char* kind = "";                ///< "recordings", "VCD files", "tables of samples"
+    std::uint64_t signals = 0;            ///< that both have
+    std::uint64_t compared = 0;           ///< events, changes or fields of the first one
+    std::vector<Difference> differences;  ///< one a signal that differs, the earliest first
     std::vector<std::string> only_a, only_b;
-    std::vector<std::string> made_of;      ///< sentences: the programs differ in line 3
-    std::vector<std::string> notes;        ///< sentences that are no difference: another version wrote it
-    std::optional<Instant> until;          ///< only so far, for one was cut off
+    std::vector<std::string> made_of;  ///< sentences: the programs differ in line 3
+    std::vector<std::string> notes;    ///< sentences that are no difference: another version wrote it
+    std::optional<Instant> until;      ///< only so far, for one was cut off
     bool stopped = false;
 
     bool same() const { return differences.empty() && only_a.empty() && only_b.empty() && made_of.empty(); }

@@ -27,7 +27,8 @@ struct Side {
         known.resize(size);
     }
     /// Takes what changes at this instant.
-    Result<void> take(std::int64_t at_ps, const SignalNames& names, std::vector<std::size_t>& touched, std::uint64_t& taken) {
+    Result<void> take(std::int64_t at_ps, const SignalNames& names, std::vector<std::size_t>& touched,
+                      std::uint64_t& taken) {
         while (more && next.at_ps == at_ps) {
             grow(names.size());
             values[next.signal] = next.value;
@@ -40,7 +41,9 @@ struct Side {
     }
 };
 
-std::string shown(const std::string& value) { return value.empty() ? "no value yet" : value; }
+std::string shown(const std::string& value) {
+    return value.empty() ? "no value yet" : value;
+}
 
 class Comparison {
   public:
@@ -51,7 +54,8 @@ class Comparison {
         MOTIONRACK_CHECK(b_.step());
         std::uint64_t rounds = 0, taken_by_b = 0;
         while (a_.more || b_.more) {
-            const std::int64_t at = a_.more && (!b_.more || a_.next.at_ps <= b_.next.at_ps) ? a_.next.at_ps : b_.next.at_ps;
+            const std::int64_t at =
+                a_.more && (!b_.more || a_.next.at_ps <= b_.next.at_ps) ? a_.next.at_ps : b_.next.at_ps;
             touched_.clear();
             MOTIONRACK_CHECK(a_.take(at, names_, touched_, diff.compared));
             MOTIONRACK_CHECK(b_.take(at, names_, touched_, taken_by_b));
@@ -74,7 +78,8 @@ class Comparison {
     void compare(std::size_t signal, std::int64_t at_ps, Diff& diff) {
         if (differs_[signal] || a_.values[signal] == b_.values[signal]) return;
         differs_[signal] = true;
-        diff.differences.push_back({names_.name(signal), Instant{at_ps / 100}, shown(a_.values[signal]), shown(b_.values[signal]), ""});
+        diff.differences.push_back(
+            {names_.name(signal), Instant{at_ps / 100}, shown(a_.values[signal]), shown(b_.values[signal]), ""});
     }
 
     /// Signals that only one of them has are no differences of a signal.
@@ -91,7 +96,11 @@ class Comparison {
             missing.push_back(names_.name(i));
         }
         auto& all = diff.differences;
-        all.erase(std::remove_if(all.begin(), all.end(), [&](const Difference& one) { return std::find(missing.begin(), missing.end(), one.signal) != missing.end(); }), all.end());
+        all.erase(std::remove_if(all.begin(), all.end(),
+                                 [&](const Difference& one) {
+                                     return std::find(missing.begin(), missing.end(), one.signal) != missing.end();
+                                 }),
+                  all.end());
     }
 
     Side& a_;

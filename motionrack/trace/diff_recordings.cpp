@@ -22,22 +22,36 @@ std::size_t first_line_that_differs(std::string_view a, std::string_view b) {
 /// What the two were made of.
 void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& diff) {
     const RecordingHead &x = a.head(), &y = b.head();
-    if (x.program != y.program) diff.made_of.push_back(fmt::format("the programs differ, first in line {}", first_line_that_differs(x.program, y.program)));
-    if (x.rack != y.rack) diff.made_of.push_back(fmt::format("the rack files differ, first in line {}", first_line_that_differs(x.rack, y.rack)));
+    if (x.program != y.program)
+        diff.made_of.push_back(
+            fmt::format("the programs differ, first in line {}", first_line_that_differs(x.program, y.program)));
+    if (x.rack != y.rack)
+        diff.made_of.push_back(
+            fmt::format("the rack files differ, first in line {}", first_line_that_differs(x.rack, y.rack)));
     if (x.tools != y.tools) diff.made_of.emplace_back("the tool tables differ");
     if (x.subprograms != y.subprograms) diff.made_of.emplace_back("the subprograms differ");
-    if (x.block_delete != y.block_delete) diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
-    if (x.live != y.live) diff.made_of.push_back(fmt::format("only {} was driven so that orders could come, which plans long moves in pieces", x.live ? "A" : "B"));
-    if (x.sample_period != y.sample_period) diff.made_of.push_back(fmt::format("samples are {} s apart in A, {} s in B", to_seconds(x.sample_period), to_seconds(y.sample_period)));
+    if (x.block_delete != y.block_delete)
+        diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
+    if (x.live != y.live)
+        diff.made_of.push_back(fmt::format(
+            "only {} was driven so that orders could come, which plans long moves in pieces", x.live ? "A" : "B"));
+    if (x.sample_period != y.sample_period)
+        diff.made_of.push_back(fmt::format("samples are {} s apart in A, {} s in B", to_seconds(x.sample_period),
+                                           to_seconds(y.sample_period)));
     const auto& in_a = a.inputs();
     const auto& in_b = b.inputs();
     for (std::size_t i = 0; i < std::max(in_a.size(), in_b.size()); ++i) {
         if (i < in_a.size() && i < in_b.size() && in_a[i] == in_b[i]) continue;
-        const auto told = [i](const std::vector<RecordedInput>& all) { return i < all.size() ? fmt::format("{} at {:.7f} s", all[i].text, to_seconds(all[i].at)) : std::string("none"); };
+        const auto told = [i](const std::vector<RecordedInput>& all) {
+            return i < all.size() ? fmt::format("{} at {:.7f} s", all[i].text, to_seconds(all[i].at))
+                                  : std::string("none");
+        };
         diff.made_of.push_back(fmt::format("input {} from outside differs: {} | {}", i + 1, told(in_a), told(in_b)));
         break;
     }
-    if (x.version != y.version) diff.notes.push_back(fmt::format("{} was written by version {}, {} by version {}.", a.path(), x.version, b.path(), y.version));
+    if (x.version != y.version)
+        diff.notes.push_back(
+            fmt::format("{} was written by version {}, {} by version {}.", a.path(), x.version, b.path(), y.version));
     if (!a.whole()) diff.notes.push_back(a.cut_sentence());
     if (!b.whole()) diff.notes.push_back(b.cut_sentence());
 }
@@ -54,11 +68,15 @@ void compare_outcomes(const RecordingReader& a, const RecordingReader& b, Diff& 
         for (const Fact& fact : one->outcome())
             if (std::find(names.begin(), names.end(), fact.name) == names.end()) names.push_back(fact.name);
     for (const std::string& name : names)
-        if (value(a, name) != value(b, name)) diff.made_of.push_back(fmt::format("the outcomes differ in {}: {} | {}", name, value(a, name), value(b, name)));
+        if (value(a, name) != value(b, name))
+            diff.made_of.push_back(
+                fmt::format("the outcomes differ in {}: {} | {}", name, value(a, name), value(b, name)));
 }
 
 /// The same bits, so that two NaN are equal.
-bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same(double a, double b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 /// Times and values of a signal, a block at a time.
 struct Window {
@@ -76,7 +94,9 @@ struct Window {
     }
 };
 
-std::string at_time(const std::string& value, std::int64_t ticks) { return fmt::format("{} at {:.10f} s", value, static_cast<double>(ticks) * 1e-10); }
+std::string at_time(const std::string& value, std::int64_t ticks) {
+    return fmt::format("{} at {:.10f} s", value, static_cast<double>(ticks) * 1e-10);
+}
 
 class SignalComparison {
   public:
@@ -96,12 +116,15 @@ class SignalComparison {
         MOTIONRACK_CHECK(longer.read(size, 1, series_.number));
         const std::string more = at_time(longer.value(0, series_.number, step()), longer.times[0]);
         const bool of_a = &longer == &a_;
-        return std::optional(Difference{series_.name, Instant{longer.times[0]}, of_a ? more : "nothing more", of_a ? "nothing more" : more, series_.unit});
+        return std::optional(Difference{series_.name, Instant{longer.times[0]}, of_a ? more : "nothing more",
+                                        of_a ? "nothing more" : more, series_.unit});
     }
 
   private:
     bool step() const { return series_.unit == "step" && series_.number; }
-    bool differ(std::size_t i) const { return series_.number ? a_.numbers[i] != b_.numbers[i] : !same(a_.reals[i], b_.reals[i]); }
+    bool differ(std::size_t i) const {
+        return series_.number ? a_.numbers[i] != b_.numbers[i] : !same(a_.reals[i], b_.reals[i]);
+    }
     Difference difference(std::size_t i) const {
         const std::int64_t at_a = a_.times[i], at_b = b_.times[i];
         std::string a = a_.value(i, series_.number, step()), b = b_.value(i, series_.number, step());
@@ -120,9 +143,11 @@ std::optional<std::int64_t> initial_of(const RecordingReader& recording, const s
     return std::nullopt;
 }
 
-Result<void> compare_signal(const RecordingReader& a, const RecordingReader& b, const RecordedSeries& in_a, const RecordedSeries& in_b, Diff& diff) {
+Result<void> compare_signal(const RecordingReader& a, const RecordingReader& b, const RecordedSeries& in_a,
+                            const RecordedSeries& in_b, Diff& diff) {
     if (const auto x = initial_of(a, in_a.name), y = initial_of(b, in_b.name); x != y && x && y) {
-        diff.differences.push_back({in_a.name, a.began(), fmt::format("{} at first", *x), fmt::format("{} at first", *y), in_a.unit});
+        diff.differences.push_back(
+            {in_a.name, a.began(), fmt::format("{} at first", *x), fmt::format("{} at first", *y), in_a.unit});
         return {};
     }
     Window of_a, of_b;

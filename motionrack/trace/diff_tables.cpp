@@ -54,9 +54,12 @@ std::optional<Instant> time_of(const std::vector<Column>& columns, const std::ve
     return std::nullopt;
 }
 
-std::string shown(const std::string& value) { return value.empty() ? "nothing" : value; }
+std::string shown(const std::string& value) {
+    return value.empty() ? "nothing" : value;
+}
 
-void compare_rows(std::vector<Column>& columns, const std::vector<std::string>& a, const std::vector<std::string>& b, Diff& diff) {
+void compare_rows(std::vector<Column>& columns, const std::vector<std::string>& a, const std::vector<std::string>& b,
+                  Diff& diff) {
     for (Column& column : columns) {
         ++diff.compared;
         if (column.differs || equal(a[column.a], b[column.b])) continue;
@@ -66,7 +69,8 @@ void compare_rows(std::vector<Column>& columns, const std::vector<std::string>& 
 }
 
 /// The longer one goes on with this row.
-void tell_rest(const std::vector<Column>& columns, const std::vector<std::string>& row, bool of_a, std::uint64_t rows, Diff& diff) {
+void tell_rest(const std::vector<Column>& columns, const std::vector<std::string>& row, bool of_a, std::uint64_t rows,
+               Diff& diff) {
     std::vector<Column> own = columns;
     if (!of_a)
         for (Column& column : own) column.a = column.b;

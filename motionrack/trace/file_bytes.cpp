@@ -11,7 +11,10 @@ namespace motionrack::trace {
 namespace {
 
 tl::unexpected<Error> not_readable(const std::string& path, int why) {
-    return fail(Trouble::io, fmt::format("The file cannot be read: {}. Check the name and the rights.", std::generic_category().message(why)), {}, path);
+    return fail(Trouble::io,
+                fmt::format("The file cannot be read: {}. Check the name and the rights.",
+                            std::generic_category().message(why)),
+                {}, path);
 }
 
 }  // namespace
@@ -39,6 +42,8 @@ bool FileBytes::fill() {
     return end_ > 0;
 }
 
-Result<void> FileBytes::check() const { return trouble_ == 0 ? Result<void>() : Result<void>(not_readable(path_, trouble_)); }
+Result<void> FileBytes::check() const {
+    return trouble_ == 0 ? Result<void>() : Result<void>(not_readable(path_, trouble_));
+}
 
 }  // namespace motionrack::trace

@@ -16,10 +16,12 @@ namespace {
 
 constexpr unsigned deflate_level = 2;  // of 9; higher ones take twice the time for a tenth less
 
-/// The library prints its errors by itself unless it is told not to, for each thread. And when the program ends it closes once more what a
-/// full disk did not let it close, which ends in a crash: every file here is closed by its handle instead.
+/// The library prints its errors by itself unless it is told not to, for each thread. And when the program ends it
+/// closes once more what a full disk did not let it close, which ends in a crash: every file here is closed by its
+/// handle instead.
 void be_quiet() {
-    static const herr_t once = H5dont_atexit();  // in time only if nobody else in the program has begun to use the library
+    static const herr_t once =
+        H5dont_atexit();  // in time only if nobody else in the program has begun to use the library
     static_cast<void>(once);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -29,7 +31,8 @@ herr_t keep_deepest(unsigned n, const H5E_error2_t* error, void* out) {
     return 0;
 }
 
-/// What the library says of the last failure; where it was the system's, only what the system says: "errno = 28, error message = '...'".
+/// What the library says of the last failure; where it was the system's, only what the system says: "errno = 28, error
+/// message = '...'".
 std::string why() {
     std::string text;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_deepest, &text);
@@ -79,17 +82,23 @@ Handle text_type(std::size_t bytes) {
 
 std::int64_t number_type(Type type) {
     switch (type) {
-        case Type::int8: return H5T_NATIVE_INT8;
-        case Type::int32: return H5T_NATIVE_INT32;
-        case Type::int64: return H5T_NATIVE_INT64;
-        case Type::float32: return H5T_NATIVE_FLOAT;
-        case Type::float64: return H5T_NATIVE_DOUBLE;
-        case Type::text: break;
+        case Type::int8:
+            return H5T_NATIVE_INT8;
+        case Type::int32:
+            return H5T_NATIVE_INT32;
+        case Type::int64:
+            return H5T_NATIVE_INT64;
+        case Type::float32:
+            return H5T_NATIVE_FLOAT;
+        case Type::float64:
+            return H5T_NATIVE_DOUBLE;
+        case Type::text:
+            break;
     }
     return H5T_C_S1;
 }
 
-// ---- columns that grow ------------------------------------------------------------------------------------------------
+// ---- columns that grow
 
 bool Writer::append(const void* data, std::size_t count) {
     if (!set_) return false;
@@ -97,7 +106,8 @@ bool Writer::append(const void* data, std::size_t count) {
     const hsize_t from = size_, added = count, size = size_ + count;
     if (H5Dset_extent(set_.get(), &size) < 0) return false;
     const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &added, nullptr), H5Sclose);
-    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &from, nullptr, &added, nullptr) < 0) return false;
+    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &from, nullptr, &added, nullptr) < 0)
+        return false;
     Handle text;
     if (type_ == Type::text) text = text_type(text_bytes_);
     const hid_t type = type_ == Type::text ? text.get() : number_type(type_);
@@ -114,10 +124,12 @@ Writer File::make_column(const std::string& path, const ColumnSettings& settings
     if (settings.type == Type::text) text = text_type(settings.text_bytes);
     const hid_t type = settings.type == Type::text ? text.get() : number_type(settings.type);
     const hsize_t none = 0, endless = H5S_UNLIMITED;
-    const Handle space(H5Screate_simple(1, &none, &endless), H5Sclose), links = link_settings(), create = column_settings(settings.chunk);
+    const Handle space(H5Screate_simple(1, &none, &endless), H5Sclose), links = link_settings(),
+                                                                        create = column_settings(settings.chunk);
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     H5Pset_chunk_cache(access.get(), 3, 2 * settings.chunk * std::max<std::size_t>(H5Tget_size(type), 1), 1.0);
-    out.set_ = Handle(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), links.get(), create.get(), access.get()), H5Dclose);
+    out.set_ = Handle(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), links.get(), create.get(), access.get()),
+                      H5Dclose);
     if (!good(out.set_.get(), "make a column")) return out;
     if (settings.unit.empty()) return out;
     set(path, "unit", settings.unit);
@@ -125,7 +137,7 @@ Writer File::make_column(const std::string& path, const ColumnSettings& settings
     return out;
 }
 
-// ---- the file ---------------------------------------------------------------------------------------------------------
+// ---- the file
 
 bool File::good(std::int64_t code, const char* what) {
     if (code >= 0) return true;
@@ -138,7 +150,10 @@ Result<File> File::create(const std::string& path) {
     // The library says less than the system about a place where nothing can be made.
     std::FILE* made = std::fopen(path.c_str(), "wb");
     if (made == nullptr)
-        return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", std::generic_category().message(errno)), {}, path);
+        return fail(Trouble::io,
+                    fmt::format("The recording could not be made: {}. Choose another place.",
+                                std::generic_category().message(errno)),
+                    {}, path);
     std::fclose(made);
     File out;
     out.path_ = path;
@@ -146,7 +161,9 @@ Result<File> File::create(const std::string& path) {
     const Handle settings(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_obj_track_times(settings.get(), false);
     out.file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, settings.get(), access.get()), H5Fclose);
-    if (!out.file_) return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", why()), {}, path);
+    if (!out.file_)
+        return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", why()), {},
+                    path);
     return out;
 }
 
@@ -156,7 +173,9 @@ Result<File> File::reopen(const std::string& path) {
     out.path_ = path;
     const Handle access = access_settings();
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
-    if (!out.file_) return fail(Trouble::io, fmt::format("The recording could not be ended: {}. What was written is kept.", why()), {}, path);
+    if (!out.file_)
+        return fail(Trouble::io, fmt::format("The recording could not be ended: {}. What was written is kept.", why()),
+                    {}, path);
     return out;
 }
 
@@ -169,15 +188,21 @@ void File::make_group(const std::string& path) {
 void File::write_text(const std::string& path, std::string_view text) {
     const Handle type = text_type(text.size());
     const hsize_t one = 1;
-    const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose), links = link_settings(), create = column_settings(1);
-    const Handle set(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links.get(), create.get(), H5P_DEFAULT), H5Dclose);
+    const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose), links = link_settings(),
+                                                                      create = column_settings(1);
+    const Handle set(
+        H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links.get(), create.get(), H5P_DEFAULT),
+        H5Dclose);
     if (!good(set.get(), "make a text")) return;
-    good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()), "write a text");
+    good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()),
+         "write a text");
 }
 
 void File::put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle made(H5Acreate_by_name(file_.get(), object.c_str(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Handle made(
+        H5Acreate_by_name(file_.get(), object.c_str(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
     if (good(made.get(), "make an attribute")) good(H5Awrite(made.get(), type, value), "write an attribute");
 }
 
@@ -186,21 +211,31 @@ void File::set(const std::string& object, const char* name, std::string_view tex
     put_attribute(object, name, type.get(), text.empty() ? "" : text.data());
 }
 
-void File::set(const std::string& object, const char* name, double value) { put_attribute(object, name, H5T_NATIVE_DOUBLE, &value); }
-void File::set(const std::string& object, const char* name, std::int64_t value) { put_attribute(object, name, H5T_NATIVE_INT64, &value); }
+void File::set(const std::string& object, const char* name, double value) {
+    put_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+void File::set(const std::string& object, const char* name, std::int64_t value) {
+    put_attribute(object, name, H5T_NATIVE_INT64, &value);
+}
 
-void File::begin_streaming() { good(H5Fstart_swmr_write(file_.get()), "begin"); }
-void File::flush() { good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "be written"); }
+void File::begin_streaming() {
+    good(H5Fstart_swmr_write(file_.get()), "begin");
+}
+void File::flush() {
+    good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "be written");
+}
 
 Result<void> File::close() {
     if (!file_.close() && trouble_.empty()) trouble_ = "could not be closed: " + why();
     if (trouble_.empty()) return {};
     return fail(Trouble::io,
-                fmt::format("The recording {}. It is not whole, and perhaps nothing of it can be read; make room or choose another place, and run again.", trouble_),
+                fmt::format("The recording {}. It is not whole, and perhaps nothing of it can be read; make room or "
+                            "choose another place, and run again.",
+                            trouble_),
                 {}, path_);
 }
 
-// ---- opening to read --------------------------------------------------------------------------------------------------
+// ---- opening to read
 
 namespace {
 
@@ -210,15 +245,22 @@ constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '
 Result<void> check_signature(const std::string& path) {
     std::FILE* file = std::fopen(path.c_str(), "rb");
     if (file == nullptr)
-        return fail(Trouble::io, fmt::format("The file cannot be read: {}. Check the name and the rights.", std::generic_category().message(errno)), {}, path);
+        return fail(Trouble::io,
+                    fmt::format("The file cannot be read: {}. Check the name and the rights.",
+                                std::generic_category().message(errno)),
+                    {}, path);
     unsigned char begin[sizeof signature];
     errno = 0;
     const std::size_t got = std::fread(begin, 1, sizeof begin, file);
     const int trouble = std::ferror(file) ? errno : 0;
     std::fclose(file);
-    if (trouble != 0) return fail(Trouble::io, fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)), {}, path);
+    if (trouble != 0)
+        return fail(Trouble::io, fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)),
+                    {}, path);
     if (got == sizeof begin && std::memcmp(begin, signature, sizeof begin) == 0) return {};
-    return fail(Trouble::bad_input, got == 0 ? "The file is empty." : "The file is no recording: it does not begin as an HDF5 file does.", {}, path);
+    return fail(Trouble::bad_input,
+                got == 0 ? "The file is empty." : "The file is no recording: it does not begin as an HDF5 file does.",
+                {}, path);
 }
 
 }  // namespace
@@ -232,12 +274,15 @@ Result<File> File::open(const std::string& path) {
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
     if (out.file_) return out;
     const std::string first = why();
-    // Beside a writer the library looks again at what does not fit together, waiting twice as long each time: 20 looks take a ms.
+    // Beside a writer the library looks again at what does not fit together, waiting twice as long each time: 20 looks
+    // take a ms.
     H5Pset_metadata_read_attempts(access.get(), 20);
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()), H5Fclose);
     out.unfinished_ = true;
     if (out.file_) return out;
-    return fail(Trouble::bad_input, fmt::format("The recording is damaged, or was cut off before anything was in it: {}.", first), {}, path);
+    return fail(Trouble::bad_input,
+                fmt::format("The recording is damaged, or was cut off before anything was in it: {}.", first), {},
+                path);
 }
 
 bool File::has(const std::string& path) const {

@@ -1,4 +1,5 @@
-// Files of HDF5 (1.10 or later), as recordings need them: groups, attributes, texts, and columns that grow at their end.
+// Files of HDF5 (1.10 or later), as recordings need them: groups, attributes, texts, and columns that grow at their
+// end.
 //
 //   create ──► groups, texts, columns ──► begin_streaming ──► append, flush, append, flush ...  ──► close
 //                                              │ from here on nothing else may be made (SWMR: one writes, many read);
@@ -119,7 +120,7 @@ class File {
     bool unfinished() const { return unfinished_; }
     const std::string& path() const { return path_; }
 
-    // ---- writing; what goes wrong is remembered: see trouble() --------------------------------------------------------
+    // ---- writing; what goes wrong is remembered: see trouble()
     /// With all groups above it: "axes/x/steps".
     void make_group(const std::string& path);
     Writer make_column(const std::string& path, const ColumnSettings& settings);
@@ -140,7 +141,7 @@ class File {
         if (trouble_.empty()) trouble_ = text;
     }
 
-    // ---- reading ------------------------------------------------------------------------------------------------------
+    // ---- reading
     bool has(const std::string& path) const;
     /// Errors: bad_input, there is no such column or its size cannot be true.
     Result<Reader> column(const std::string& path) const;

@@ -27,7 +27,8 @@ Result<void> Reader::read(Type type, std::uint64_t from, std::size_t count, void
     if (count == 0) return {};
     const hsize_t begin = from, size = count;
     const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0) return damaged();
+    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0)
+        return damaged();
     if (H5Dread(set_.get(), number_type(type), memory.get(), space.get(), H5P_DEFAULT, out) < 0) return damaged();
     return {};
 }
@@ -35,20 +36,24 @@ Result<void> Reader::read(Type type, std::uint64_t from, std::size_t count, void
 Result<std::string> Reader::text(std::uint64_t at) const {
     const Handle type(H5Dget_type(set_.get()), H5Tclose);
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
-    if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 || bytes > most_text || at >= size_)
+    if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
+        bytes > most_text || at >= size_)
         return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} is no text.", path_), {}, file_);
     const hsize_t begin = at, one = 1;
     const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
     std::string out(bytes, '\0');
     const Handle wanted = text_type(bytes);
-    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &begin, nullptr, &one, nullptr) < 0) return damaged();
+    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &begin, nullptr, &one, nullptr) < 0)
+        return damaged();
     if (H5Dread(set_.get(), wanted.get(), memory.get(), space.get(), H5P_DEFAULT, out.data()) < 0) return damaged();
     out.resize(out.find_last_not_of('\0') + 1);
     return out;
 }
 
 Result<Reader> File::column(const std::string& path) const {
-    const auto refuse = [&](const std::string& what) { return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_); };
+    const auto refuse = [&](const std::string& what) {
+        return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
+    };
     if (!has(path)) return refuse("is not there");
     Reader out;
     out.file_ = path_;
@@ -56,14 +61,19 @@ Result<Reader> File::column(const std::string& path) const {
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     H5Pset_chunk_cache(access.get(), 3, std::size_t{1} << 18, 1.0);
     out.set_ = Handle(H5Dopen2(file_.get(), path.c_str(), access.get()), H5Dclose);
-    const Handle space(out.set_ ? H5Dget_space(out.set_.get()) : -1, H5Sclose), type(out.set_ ? H5Dget_type(out.set_.get()) : -1, H5Tclose);
+    const Handle space(out.set_ ? H5Dget_space(out.set_.get()) : -1, H5Sclose),
+        type(out.set_ ? H5Dget_type(out.set_.get()) : -1, H5Tclose);
     hsize_t size = 0;
-    if (!space || !type || H5Sget_simple_extent_ndims(space.get()) != 1 || H5Sget_simple_extent_dims(space.get(), &size, nullptr) != 1)
+    if (!space || !type || H5Sget_simple_extent_ndims(space.get()) != 1 ||
+        H5Sget_simple_extent_dims(space.get(), &size, nullptr) != 1)
         return refuse("is no column");
     const H5T_class_t kind = H5Tget_class(type.get());
     const std::uint64_t element = H5Tget_size(type.get());
-    if ((kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING) || element == 0 || (kind != H5T_STRING && element > 8)) return refuse("is no column of numbers or texts");
-    if (kind == H5T_STRING && element > most_text) return refuse(fmt::format("says that its texts have {} bytes", element));
+    if ((kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING) || element == 0 ||
+        (kind != H5T_STRING && element > 8))
+        return refuse("is no column of numbers or texts");
+    if (kind == H5T_STRING && element > most_text)
+        return refuse(fmt::format("says that its texts have {} bytes", element));
     const std::uint64_t stored = H5Dget_storage_size(out.set_.get());
     if (size > (std::uint64_t{1} << 62) / element || size * element / most_growth > stored)
         return refuse(fmt::format("says that it has {} elements, in {} bytes", size, stored));
@@ -77,11 +87,14 @@ Result<std::string> File::text(const std::string& path) const {
 }
 
 std::string File::attribute_text(const char* name, const std::string& group) const {
-    if ((group != "/" && !has(group)) || H5Aexists_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT) <= 0) return {};
+    if ((group != "/" && !has(group)) || H5Aexists_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT) <= 0)
+        return {};
     const Handle attribute(H5Aopen_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     const Handle type(attribute ? H5Aget_type(attribute.get()) : -1, H5Tclose);
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
-    if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 || bytes > most_attribute) return {};
+    if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
+        bytes > most_attribute)
+        return {};
     const Handle space(H5Aget_space(attribute.get()), H5Sclose);
     if (!space || H5Sget_simple_extent_npoints(space.get()) != 1) return {};
     std::string out(bytes, '\0');

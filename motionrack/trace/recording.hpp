@@ -1,5 +1,5 @@
-// A recording of a run in one file of HDF5: what was run, what came from outside, every event with its tick, where the machine was, and what
-// came of it. The layout is told in docs/reference/recording.md.
+// A recording of a run in one file of HDF5: what was run, what came from outside, every event with its tick, where the
+// machine was, and what came of it. The layout is told in docs/reference/recording.md.
 //
 //   RecordingWriter:  create(head) ──► event, sample, input, flush ... ──► close(outcome)       bounded memory, whatever the length
 //   RecordingReader:  open ──► head, columns of each signal, report data                      whole or cut off
@@ -40,8 +40,8 @@ struct RecordedSignal {
     std::string name;  ///< for people: "X.steps", "X.limit_plus", "motion.lp_x"
     std::string path;  ///< its group in the file: "axes/x/steps"
     SignalKind kind = SignalKind::levels;
-    std::string unit;         ///< of the values: "step", "count"; empty: a level
-    std::int64_t initial = 0; ///< value when the recording begins
+    std::string unit;          ///< of the values: "step", "count"; empty: a level
+    std::int64_t initial = 0;  ///< value when the recording begins
     friend bool operator==(const RecordedSignal&, const RecordedSignal&) = default;
 };
 
@@ -57,14 +57,14 @@ struct RecordedAxis {
 
 /// What is known before the run begins.
 struct RecordingHead {
-    std::string version;       ///< of the program that records
+    std::string version;  ///< of the program that records
     std::string program_name, program;
     std::string rack_name, rack_file, rack;  ///< what the rack calls itself, its file's name and text
     bool block_delete = false, stream = false;
-    std::string tools;                                ///< the tool table, as text
-    std::map<std::string, std::string> subprograms;   ///< texts by name, of those that are not in the program
-    bool live = false;  ///< driven so that orders can come (holds, overrides)
-    std::vector<RecordedInput> inputs;       ///< planned ones; later ones are added as they come
+    std::string tools;                               ///< the tool table, as text
+    std::map<std::string, std::string> subprograms;  ///< texts by name, of those that are not in the program
+    bool live = false;                               ///< driven so that orders can come (holds, overrides)
+    std::vector<RecordedInput> inputs;               ///< planned ones; later ones are added as they come
     Duration sample_period{};
     std::vector<RecordedAxis> axes;
     std::vector<RecordedSignal> signals;
@@ -90,7 +90,7 @@ struct Fact {
 struct RecordingEnd {
     Instant at{};
     std::vector<Fact> outcome;
-    ReportData report;  ///< its series are left out: they are made of the samples again
+    ReportData report;                   ///< its series are left out: they are made of the samples again
     std::size_t most_samples = 200'000;  ///< of the report, see SampleKeeper
 };
 
@@ -104,7 +104,8 @@ class RecordingWriter {
     RecordingWriter& operator=(RecordingWriter&&) noexcept;
     ~RecordingWriter();
 
-    /// Event of signal number `signal` of the head; of one signal in the order of time. Of levels what does not change is left out.
+    /// Event of signal number `signal` of the head; of one signal in the order of time. Of levels what does not change
+    /// is left out.
     void event(std::size_t signal, Instant at, std::int64_t value);
     /// `axes` as many as the head has.
     void sample(Instant at, double deviation_mm, std::span<const AxisSample> axes);
@@ -158,7 +159,8 @@ class RecordingReader {
     const std::vector<RecordedSeries>& series() const { return series_; }
     /// nullptr: there is none of that name.
     const RecordedSeries* find(std::string_view name) const;
-    /// How many of a series' elements can be used: both columns have them, and of a recording that was cut off those before known_to().
+    /// How many of a series' elements can be used: both columns have them, and of a recording that was cut off those
+    /// before known_to().
     struct Columns {
         hdf5::Reader time, value;
         std::uint64_t size = 0;
@@ -169,7 +171,8 @@ class RecordingReader {
     /// Errors: bad_input, io.
     Result<Columns> columns(const RecordedSeries& series) const;
 
-    /// The data of the page, the same as the run itself had; of a recording that was cut off what is there. Errors: bad_input, io.
+    /// The data of the page, the same as the run itself had; of a recording that was cut off what is there. Errors:
+    /// bad_input, io.
     Result<ReportData> report() const;
 
   private:

@@ -14,9 +14,12 @@ using Json = nlohmann::ordered_json;
 
 const char* name_of(SignalKind kind) {
     switch (kind) {
-        case SignalKind::steps: return "steps";
-        case SignalKind::counts: return "counts";
-        case SignalKind::levels: break;
+        case SignalKind::steps:
+            return "steps";
+        case SignalKind::counts:
+            return "counts";
+        case SignalKind::levels:
+            break;
     }
     return "levels";
 }
@@ -31,12 +34,14 @@ SignalKind kind_of(const std::string& name) {
 /// A path that cannot lead out of its group.
 std::string path_of(const Json& json) {
     const std::string path = json.at("path");
-    if (path.empty() || path.front() == '/' || path.find("..") != std::string::npos || path.find('\0') != std::string::npos)
+    if (path.empty() || path.front() == '/' || path.find("..") != std::string::npos ||
+        path.find('\0') != std::string::npos)
         throw std::runtime_error("no path");
     return path;
 }
 
-/// Calls `field(name, member)` for what is written as it is, in the order of the file; `head` to be read or to be written.
+/// Calls `field(name, member)` for what is written as it is, in the order of the file; `head` to be read or to be
+/// written.
 template <class Head, class Field>
 void each_field_of_head(Head& head, Field field) {
     field("version", head.version);
@@ -69,9 +74,12 @@ auto out_of(const Json& json) {
 
 const char* value_column(SignalKind kind) {
     switch (kind) {
-        case SignalKind::steps: return "direction";
-        case SignalKind::counts: return "count";
-        case SignalKind::levels: break;
+        case SignalKind::steps:
+            return "direction";
+        case SignalKind::counts:
+            return "count";
+        case SignalKind::levels:
+            break;
     }
     return "value";
 }
@@ -87,12 +95,18 @@ std::string head_json(const RecordingHead& head) {
     each_field_of_head(head, into(json));
     json["sample_period_ticks"] = head.sample_period.count();
     json["inputs"] = Json::array();
-    for (const RecordedInput& input : head.inputs) json["inputs"].push_back({{"at_ticks", input.at.count()}, {"text", input.text}});
+    for (const RecordedInput& input : head.inputs)
+        json["inputs"].push_back({{"at_ticks", input.at.count()}, {"text", input.text}});
     json["axes"] = Json::array();
-    for (const RecordedAxis& axis : head.axes) each_field_of_axis(axis, into(json["axes"].emplace_back(Json::object())));
+    for (const RecordedAxis& axis : head.axes)
+        each_field_of_axis(axis, into(json["axes"].emplace_back(Json::object())));
     json["signals"] = Json::array();
     for (const RecordedSignal& signal : head.signals)
-        json["signals"].push_back({{"name", signal.name}, {"path", signal.path}, {"kind", name_of(signal.kind)}, {"unit", signal.unit}, {"initial", signal.initial}});
+        json["signals"].push_back({{"name", signal.name},
+                                   {"path", signal.path},
+                                   {"kind", name_of(signal.kind)},
+                                   {"unit", signal.unit},
+                                   {"initial", signal.initial}});
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -102,13 +116,15 @@ Result<RecordingHead> head_from_json(std::string_view text) {
         const Json json = Json::parse(text);
         each_field_of_head(head, out_of(json));
         head.sample_period = Duration{json.at("sample_period_ticks").get<std::int64_t>()};
-        for (const Json& input : json.at("inputs")) head.inputs.push_back({Instant{input.at("at_ticks").get<std::int64_t>()}, input.at("text")});
+        for (const Json& input : json.at("inputs"))
+            head.inputs.push_back({Instant{input.at("at_ticks").get<std::int64_t>()}, input.at("text")});
         for (const Json& axis : json.at("axes")) {
             each_field_of_axis(head.axes.emplace_back(), out_of(axis));
             if (head.axes.back().name.size() != 1) throw std::runtime_error("no axis");
         }
         for (const Json& signal : json.at("signals"))
-            head.signals.push_back({signal.at("name"), path_of(signal), kind_of(signal.at("kind")), signal.at("unit"), signal.at("initial")});
+            head.signals.push_back({signal.at("name"), path_of(signal), kind_of(signal.at("kind")), signal.at("unit"),
+                                    signal.at("initial")});
         if (head.axes.size() > 6 || head.sample_period <= Duration{0}) throw std::runtime_error("no head");
     } catch (const std::exception&) {
         return fail(Trouble::bad_input, "The recording is damaged: what it says of its run cannot be read.");

@@ -15,8 +15,20 @@ namespace {
 constexpr std::size_t block = 1 << 14;
 constexpr std::uint64_t most_inputs = 1'000'000;
 /// The outcome's facts, in the order in which they are told.
-constexpr const char* fact_names[] = {"ended", "message", "line", "seconds", "path_mm", "moves", "lines", "chip_segments", "trace_hash", "position_trusted",
-                                      "worst_deviation_mm", "pulse_positions", "counts_read", "real_ends"};
+constexpr const char* fact_names[] = {"ended",
+                                      "message",
+                                      "line",
+                                      "seconds",
+                                      "path_mm",
+                                      "moves",
+                                      "lines",
+                                      "chip_segments",
+                                      "trace_hash",
+                                      "position_trusted",
+                                      "worst_deviation_mm",
+                                      "pulse_positions",
+                                      "counts_read",
+                                      "real_ends"};
 
 }  // namespace
 
@@ -28,7 +40,11 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
         return fail(Trouble::bad_input, "The file is an HDF5 file, but no recording of motionrack.", {}, path);
     const std::int64_t version = file.attribute_number("format_version");
     if (version < 1 || version > recording_format)
-        return fail(Trouble::bad_input, fmt::format("The recording has format {}, this program reads up to {}; take the program that wrote it, or a later one.", version, recording_format), {}, path);
+        return fail(Trouble::bad_input,
+                    fmt::format("The recording has format {}, this program reads up to {}; take the program that wrote "
+                                "it, or a later one.",
+                                version, recording_format),
+                    {}, path);
     const auto named = [&](Result<void> done) -> Result<void> {
         if (!done && done.error().file.empty()) done.error().file = path;
         return done;
@@ -46,7 +62,8 @@ Result<void> RecordingReader::read_head() {
     MOTIONRACK_TRY(head_.rack, file_.text("run/rack"));
     began_ = Instant{file_.attribute_number("began_ticks")};
     for (const RecordedSignal& signal : head_.signals)
-        series_.push_back({signal.name, signal.unit, true, signal.path + "/time", signal.path + "/" + value_column(signal.kind)});
+        series_.push_back(
+            {signal.name, signal.unit, true, signal.path + "/time", signal.path + "/" + value_column(signal.kind)});
     const auto sampled = [&](const std::string& name, const std::string& unit, const std::string& path) {
         series_.push_back({name, unit, false, "samples/time", "samples/" + path});
     };
@@ -67,10 +84,12 @@ Result<void> RecordingReader::read_end() {
     whole_ = !file_.unfinished() && ended > 0 && file_.has("run/report");
     if (whole_) {
         known_to_ = Instant{ended};
-        most_samples_ = static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("most_samples"), 16, 10'000'000));
+        most_samples_ =
+            static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("most_samples"), 16, 10'000'000));
         MOTIONRACK_TRY(report_, file_.text("run/report"));
         for (const char* name : fact_names)
-            if (const std::string text = file_.attribute_text(name, "outcome"); !text.empty()) outcome_.push_back({name, text});
+            if (const std::string text = file_.attribute_text(name, "outcome"); !text.empty())
+                outcome_.push_back({name, text});
         return {};
     }
     MOTIONRACK_TRY(const hdf5::Reader flushed, file_.column("run/flushed"));
@@ -94,12 +113,15 @@ Result<void> RecordingReader::read_inputs() {
 }
 
 std::string RecordingReader::cut_sentence() const {
-    return fmt::format("{} was cut off, or is still being written: all before {:.6f} s is there, what came after it and how the run ended is not.", path(),
-                       to_seconds(known_to_ - began_));
+    return fmt::format(
+        "{} was cut off, or is still being written: all before {:.6f} s is there, what came after it and how the run "
+        "ended is not.",
+        path(), to_seconds(known_to_ - began_));
 }
 
 const RecordedSeries* RecordingReader::find(std::string_view name) const {
-    const auto found = std::find_if(series_.begin(), series_.end(), [&](const RecordedSeries& one) { return one.name == name; });
+    const auto found =
+        std::find_if(series_.begin(), series_.end(), [&](const RecordedSeries& one) { return one.name == name; });
     return found == series_.end() ? nullptr : &*found;
 }
 
@@ -109,7 +131,10 @@ Result<RecordingReader::Columns> RecordingReader::columns(const RecordedSeries& 
     MOTIONRACK_TRY(out.value, file_.column(series.value));
     out.size = std::min(out.time.size(), out.value.size());
     if (whole_ && out.time.size() != out.value.size())
-        return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} has {} times, but {} values.", series.name, out.time.size(), out.value.size()), {}, path());
+        return fail(Trouble::bad_input,
+                    fmt::format("The recording is damaged: {} has {} times, but {} values.", series.name,
+                                out.time.size(), out.value.size()),
+                    {}, path());
     if (!whole_) MOTIONRACK_CHECK(out.end_before(known_to_));
     return out;
 }
@@ -130,7 +155,7 @@ Result<void> RecordingReader::Columns::end_before(Instant until) {
     return {};
 }
 
-// ---- the report -------------------------------------------------------------------------------------------------------
+// ---- the report
 
 namespace {
 
@@ -155,7 +180,9 @@ struct AxisBlock {
 };
 
 /// The path goes along X, Y, Z; -1: no such axis.
-int path_axis(const std::string& name) { return name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z' ? name[0] - 'X' : -1; }
+int path_axis(const std::string& name) {
+    return name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z' ? name[0] - 'X' : -1;
+}
 
 /// What the kept samples are in a report.
 void put(ReportData& data, const SampleKeeper<Kept>& keeper, const std::vector<RecordedAxis>& axes) {
@@ -169,7 +196,8 @@ void put(ReportData& data, const SampleKeeper<Kept>& keeper, const std::vector<R
             axis.speed.push_back(static_cast<float>(sample.axes[i].speed));
             axis.accel.push_back(sample.axes[i].accel);
             if (axes[i].servo) axis.volts.push_back(sample.axes[i].volts);
-            if (const int along = path_axis(axes[i].name); along >= 0) place[static_cast<std::size_t>(along)] = sample.axes[i].position;
+            if (const int along = path_axis(axes[i].name); along >= 0)
+                place[static_cast<std::size_t>(along)] = sample.axes[i].position;
         }
         data.driven.push_back(place);
     }
@@ -207,7 +235,8 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         for (std::size_t i = 0; i < count; ++i) {
             Kept one{times[i], {}};
             for (std::size_t k = 0; k < axes.size(); ++k)
-                one.axes[k] = {axes[k]->positions[i], 0, axes[k]->speeds[i], axes[k]->accels[i], axes[k]->servo ? axes[k]->voltages[i] : 0};
+                one.axes[k] = {axes[k]->positions[i], 0, axes[k]->speeds[i], axes[k]->accels[i],
+                               axes[k]->servo ? axes[k]->voltages[i] : 0};
             keeper.add(one, deviations[i]);
         }
     }
@@ -231,7 +260,9 @@ ReportData RecordingReader::report_of_cut() const {
         one.max_accel = axis.max_accel;
         data.axes.push_back(std::move(one));
     }
-    data.notes = {"Pulses, counts, blocks and the greatest values are counted when a run ends, so a recording that was cut off has none of them."};
+    data.notes = {
+        "Pulses, counts, blocks and the greatest values are counted when a run ends, so a recording that was cut off "
+        "has none of them."};
     return data;
 }
 
@@ -239,7 +270,9 @@ Result<ReportData> RecordingReader::report() const {
     ReportData data = report_of_cut();
     if (whole_) {
         MOTIONRACK_TRY(data, report_from_json(report_));
-        if (data.axes.size() != head_.axes.size()) return fail(Trouble::bad_input, "The recording is damaged: its report has other axes than its run.", {}, path());
+        if (data.axes.size() != head_.axes.size())
+            return fail(Trouble::bad_input, "The recording is damaged: its report has other axes than its run.", {},
+                        path());
     }
     MOTIONRACK_CHECK(read_samples(data));
     return data;

@@ -20,7 +20,8 @@ template <class T>
 class Buffered {
   public:
     Buffered() = default;
-    Buffered(hdf5::File& file, const std::string& path, std::size_t chunk, std::size_t most, const std::string& unit, double scale = 1)
+    Buffered(hdf5::File& file, const std::string& path, std::size_t chunk, std::size_t most, const std::string& unit,
+             double scale = 1)
         : writer_(file.make_column(path, {hdf5::type_of<T>, 0, chunk, unit, scale})), most_(most) {}
 
     bool add(T value) {
@@ -64,7 +65,8 @@ struct RecordingWriter::Samples {
     bool write() {
         bool good = times.write() && deviation.write();
         for (Axis& axis : axes)
-            good = good && axis.position.write() && axis.commanded.write() && axis.speed.write() && axis.accel.write() && (!axis.servo || axis.volts.write());
+            good = good && axis.position.write() && axis.commanded.write() && axis.speed.write() &&
+                   axis.accel.write() && (!axis.servo || axis.volts.write());
         return good;
     }
 };
@@ -100,7 +102,9 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path, const R
     for (const RecordedInput& input : head.inputs) out.input(input);
     out.flush(began);
     if (file.trouble().empty()) return out;
-    return tl::unexpected<Error>(Error{Trouble::io, fmt::format("The recording {}. Choose another place or make room; nothing was moved.", file.trouble()), path});
+    return tl::unexpected<Error>(Error{
+        Trouble::io,
+        fmt::format("The recording {}. Choose another place or make room; nothing was moved.", file.trouble()), path});
 }
 
 void RecordingWriter::tell_axes(const RecordingHead& head) {
@@ -157,7 +161,8 @@ void RecordingWriter::event(std::size_t signal, Instant at, std::int64_t value) 
     one.last = value;
     ++events_;
     const bool times = one.times.add(at.count());
-    const bool values = one.kind == SignalKind::steps ? one.directions.add(static_cast<std::int8_t>(value)) : one.values.add(value);
+    const bool values =
+        one.kind == SignalKind::steps ? one.directions.add(static_cast<std::int8_t>(value)) : one.values.add(value);
     good_ = good_ && times && values;
 }
 
@@ -166,7 +171,8 @@ void RecordingWriter::sample(Instant at, double deviation_mm, std::span<const Ax
     bool good = samples_->times.add(at.count()) & samples_->deviation.add(deviation_mm);
     for (std::size_t i = 0; i < axes.size(); ++i) {
         Samples::Axis& axis = samples_->axes[i];
-        good &= axis.position.add(axes[i].position) & axis.commanded.add(axes[i].commanded) & axis.speed.add(axes[i].speed) & axis.accel.add(axes[i].accel);
+        good &= axis.position.add(axes[i].position) & axis.commanded.add(axes[i].commanded) &
+                axis.speed.add(axes[i].speed) & axis.accel.add(axes[i].accel);
         if (axis.servo) good &= axis.volts.add(axes[i].volts);
     }
     good_ = good_ && good;

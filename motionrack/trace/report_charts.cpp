@@ -157,7 +157,8 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
         if (axis.max_accel > 0) out.limits = {{axis.max_accel, ""}, {-axis.max_accel, ""}};
         charts.push_back({number_of, std::move(out)});
     }
-    if (!axis.volts.empty()) charts.push_back({number_of, chart("Voltage at the amplifier, V", look, data, axis.volts)});
+    if (!axis.volts.empty())
+        charts.push_back({number_of, chart("Voltage at the amplifier, V", look, data, axis.volts)});
 }
 
 std::string limits_as_text(const std::vector<SvgLimit>& limits) {
@@ -234,7 +235,8 @@ std::string charts_html(const ReportData& data, const std::vector<PageChart>& ch
 std::string series_html(const std::vector<PageChart>& charts) {
     std::string out;
     for (std::size_t i = 0; i < charts.size(); ++i)
-        if (charts[i].axis < 0) out += "<article class=\"card\">" + chart_html(charts[i], i, 1440, 170) + "</article>\n";
+        if (charts[i].axis < 0)
+            out += "<article class=\"card\">" + chart_html(charts[i], i, 1440, 170) + "</article>\n";
     return out.empty() ? out : "<div class=\"series\">" + out + "</div>\n";
 }
 

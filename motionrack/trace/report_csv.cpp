@@ -28,11 +28,16 @@ ReportAxis& axis_of(ReportData& data, char letter, const std::string& unit) {
 
 /// "x_speed_mm_s": what is done with its values; empty: nothing.
 Put reader_of(ReportData& data, const std::string& column) {
-    if (column == "deviation_mm") return [](ReportData& to, double value) { to.deviation_mm.push_back(static_cast<float>(value)); };
-    if (column.size() == 11 && column.compare(0, 7, "driven_") == 0 && column.compare(8, 3, "_mm") == 0 && column[7] >= 'x' && column[7] <= 'z')
-        return [place = static_cast<std::size_t>(column[7] - 'x')](ReportData& to, double value) { to.driven.back()[place] = value; };
+    if (column == "deviation_mm")
+        return [](ReportData& to, double value) { to.deviation_mm.push_back(static_cast<float>(value)); };
+    if (column.size() == 11 && column.compare(0, 7, "driven_") == 0 && column.compare(8, 3, "_mm") == 0 &&
+        column[7] >= 'x' && column[7] <= 'z')
+        return [place = static_cast<std::size_t>(column[7] - 'x')](ReportData& to, double value) {
+            to.driven.back()[place] = value;
+        };
     const char letter = column.empty() ? '\0' : column[0];
-    if (std::string_view("xyzabc").find(letter) == std::string_view::npos || column.size() < 3 || column[1] != '_') return {};
+    if (std::string_view("xyzabc").find(letter) == std::string_view::npos || column.size() < 3 || column[1] != '_')
+        return {};
     const std::string unit = letter >= 'x' ? "mm" : "deg", what = column.substr(2);
     std::vector<float> ReportAxis::*series = nullptr;
     if (what == "position_" + unit) series = &ReportAxis::position;
@@ -42,7 +47,9 @@ Put reader_of(ReportData& data, const std::string& column) {
     if (series == nullptr) return {};
     if (series == &ReportAxis::volts) axis_of(data, letter, unit).servo = true;
     axis_of(data, letter, unit);
-    return [letter, unit, series](ReportData& to, double value) { (axis_of(to, letter, unit).*series).push_back(static_cast<float>(value)); };
+    return [letter, unit, series](ReportData& to, double value) {
+        (axis_of(to, letter, unit).*series).push_back(static_cast<float>(value));
+    };
 }
 
 struct Columns {
@@ -65,7 +72,10 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
         }
     }
     if (timed && !out.others.empty()) return out;
-    return fail(Trouble::bad_input, "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_speed_mm_s or deviation_mm.", {1, 0}, path);
+    return fail(Trouble::bad_input,
+                "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_speed_mm_s "
+                "or deviation_mm.",
+                {1, 0}, path);
 }
 
 /// What the samples themselves tell of an axis.
@@ -88,21 +98,26 @@ Result<ReportData> report_from_csv(const std::string& path) {
         MOTIONRACK_TRY(const bool more, rows.next(row));
         if (!more) break;
         if (data.seconds.size() == most_rows) {
-            data.notes.push_back(fmt::format("The file has more than {} rows; those from line {} on are not shown.", most_rows, rows.line()));
+            data.notes.push_back(fmt::format("The file has more than {} rows; those from line {} on are not shown.",
+                                             most_rows, rows.line()));
             break;
         }
         const double seconds = number_of(row[columns.time]);
         if (!std::isfinite(seconds) || (!data.seconds.empty() && seconds < data.seconds.back()))
-            return fail(Trouble::bad_input, "The time is no number, or lies before that of the row above.", {rows.line(), 0}, path);
+            return fail(Trouble::bad_input, "The time is no number, or lies before that of the row above.",
+                        {rows.line(), 0}, path);
         data.seconds.push_back(seconds);
         if (columns.driven) data.driven.push_back({});
         for (const auto& [column, put] : columns.others) put(data, number_of(row[column]));
     }
     data.title = data.program_name = path;
     data.program_kind = "Samples";
-    data.verdict = {true, fmt::format("{} samples; how the run ended does not stand in a CSV file.", data.seconds.size())};
+    data.verdict = {true,
+                    fmt::format("{} samples; how the run ended does not stand in a CSV file.", data.seconds.size())};
     for (ReportAxis& axis : data.axes) add_tops(axis);
-    data.notes.push_back("The page was made of samples alone: limits, pulses, counts, blocks and the programmed path are not in the file, and the greatest values are those of the samples.");
+    data.notes.push_back(
+        "The page was made of samples alone: limits, pulses, counts, blocks and the programmed path are not in the "
+        "file, and the greatest values are those of the samples.");
     if (rows.cut()) data.notes.push_back("The file does not end with a whole row: it was cut off.");
     return data;
 }

@@ -59,8 +59,12 @@ class Fields {
         return out;
     }
 
-    void from(Json& json, double& value) const { value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
-    void from(Json& json, float& value) const { value = json.is_null() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(json.get<double>()); }
+    void from(Json& json, double& value) const {
+        value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+    }
+    void from(Json& json, float& value) const {
+        value = json.is_null() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(json.get<double>());
+    }
     void from(Json& json, std::string& value) const { value = json.get<std::string>(); }
     void from(Json& json, bool& value) const { value = json.get<bool>(); }
     void from(Json& json, int& value) const { value = json.get<int>(); }
@@ -91,30 +95,57 @@ class Fields {
     bool reading_;
 };
 
-void fields_of(ReportVerdict& v, Fields& f) { f("ok", v.ok)("text", v.text); }
-void fields_of(ReportNumber& v, Fields& f) { f("label", v.label)("value", v.value)("unit", v.unit); }
+void fields_of(ReportVerdict& v, Fields& f) {
+    f("ok", v.ok)("text", v.text);
+}
+void fields_of(ReportNumber& v, Fields& f) {
+    f("label", v.label)("value", v.value)("unit", v.unit);
+}
 void fields_of(ReportAxis& v, Fields& f) {
     f("name", v.name)("unit", v.unit)("servo", v.servo)("min_position", v.min_position)("max_position", v.max_position);
     f("max_speed", v.max_speed)("max_accel", v.max_accel)("pulses_sent", v.pulses_sent)("pulses_net", v.pulses_net);
-    f("pulse_counter", v.pulse_counter)("counts_read", v.counts_read)("counts_expected", v.counts_expected)("lost_steps", v.lost_steps);
-    f("top_speed", v.top_speed)("top_accel", v.top_accel)("top_jump", v.top_jump)("planned_end", v.planned_end)("real_end", v.real_end);
+    f("pulse_counter", v.pulse_counter)("counts_read", v.counts_read)("counts_expected", v.counts_expected)(
+        "lost_steps", v.lost_steps);
+    f("top_speed", v.top_speed)("top_accel", v.top_accel)("top_jump", v.top_jump)("planned_end", v.planned_end)(
+        "real_end", v.real_end);
 }
-void fields_of(ReportSegment& v, Fields& f) { f("points", v.points)("traverse", v.traverse)("line", v.line); }
-void fields_of(ReportWorst& v, Fields& f) { f("mm", v.mm)("seconds", v.seconds)("line", v.line)("at", v.at); }
-void fields_of(ReportStop& v, Fields& f) { f("seconds", v.seconds)("line", v.line)("at", v.at)("text", v.text); }
+void fields_of(ReportSegment& v, Fields& f) {
+    f("points", v.points)("traverse", v.traverse)("line", v.line);
+}
+void fields_of(ReportWorst& v, Fields& f) {
+    f("mm", v.mm)("seconds", v.seconds)("line", v.line)("at", v.at);
+}
+void fields_of(ReportStop& v, Fields& f) {
+    f("seconds", v.seconds)("line", v.line)("at", v.at)("text", v.text);
+}
 void fields_of(ReportBlock& v, Fields& f) {
-    f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration", v.duration);
-    f("entry_speed", v.entry_speed)("top_speed", v.top_speed)("exit_speed", v.exit_speed)("deviation_mm", v.deviation_mm);
+    f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration",
+                                                                                                            v.duration);
+    f("entry_speed", v.entry_speed)("top_speed", v.top_speed)("exit_speed", v.exit_speed)("deviation_mm",
+                                                                                          v.deviation_mm);
 }
-void fields_of(ReportWarning& v, Fields& f) { f("seconds", v.seconds)("line", v.line)("text", v.text); }
-void fields_of(ReportPicture& v, Fields& f) { f("title", v.title)("words", v.words)("svg", v.svg)("wide", v.wide); }
-void fields_of(ReportTable& v, Fields& f) { f("title", v.title)("caption", v.caption)("heads", v.heads)("rows", v.rows); }
-void fields_of(ReportSeries& v, Fields& f) { f("title", v.title)("look", v.look)("values", v.values)("limits_name", v.limits_name)("limits", v.limits); }
-void fields_of(ReportSource& v, Fields& f) { f("title", v.title)("text", v.text); }
+void fields_of(ReportWarning& v, Fields& f) {
+    f("seconds", v.seconds)("line", v.line)("text", v.text);
+}
+void fields_of(ReportPicture& v, Fields& f) {
+    f("title", v.title)("words", v.words)("svg", v.svg)("wide", v.wide);
+}
+void fields_of(ReportTable& v, Fields& f) {
+    f("title", v.title)("caption", v.caption)("heads", v.heads)("rows", v.rows);
+}
+void fields_of(ReportSeries& v, Fields& f) {
+    f("title", v.title)("look", v.look)("values", v.values)("limits_name", v.limits_name)("limits", v.limits);
+}
+void fields_of(ReportSource& v, Fields& f) {
+    f("title", v.title)("text", v.text);
+}
 void fields_of(ReportData& v, Fields& f) {
-    f("title", v.title)("program_kind", v.program_kind)("program_name", v.program_name)("rack_name", v.rack_name)("verdict", v.verdict);
-    f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned)("worst", v.worst)("stop", v.stop);
-    f("blocks", v.blocks)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables", v.tables);
+    f("title", v.title)("program_kind", v.program_kind)("program_name", v.program_name)("rack_name", v.rack_name)(
+        "verdict", v.verdict);
+    f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned)("worst", v.worst)(
+        "stop", v.stop);
+    f("blocks", v.blocks)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables",
+                                                                                                            v.tables);
     f("series", v.series)("source", v.source)("notes", v.notes);
 }
 

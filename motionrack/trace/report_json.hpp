@@ -8,7 +8,8 @@
 
 namespace motionrack::trace {
 
-/// All of it but what lies over ReportData::seconds (that, the axes' series, deviation, the driven path). Numbers keep every bit.
+/// All of it but what lies over ReportData::seconds (that, the axes' series, deviation, the driven path). Numbers keep
+/// every bit.
 std::string report_json(const ReportData& data);
 
 /// Errors: bad_input.

@@ -19,7 +19,8 @@ inline constexpr std::size_t longest_source = 200'000;
 /// `text` cut to `most` bytes with "..." and escaped.
 std::string shown(const std::string& text, std::size_t most = longest_text);
 
-/// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation and other series.
+/// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation and other
+/// series.
 struct PageChart {
     int axis = -1;  ///< in ReportData::axes; -1: of none
     SvgChart chart;

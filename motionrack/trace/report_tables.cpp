@@ -46,10 +46,13 @@ std::string axis_row(const ReportAxis& axis) {
     const std::string lost =
         axis.lost_steps == 0 ? "none" : "<b class=\"bad\">" + grouped(axis.lost_steps) + " lost</b>";
     std::string out = "<tr><th scope=\"row\">" + shown(axis.name, 40) + "</th>";
-    if (axis.servo) out += cell("servo<br><small>no pulses</small>");
-    else out += cell(grouped(axis.pulses_sent) + (same ? "<br><small>card counts the same</small>"
-                                                  : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) +
-                                                        ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
+    if (axis.servo)
+        out += cell("servo<br><small>no pulses</small>");
+    else
+        out +=
+            cell(grouped(axis.pulses_sent) + (same ? "<br><small>card counts the same</small>"
+                                                   : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) +
+                                                         ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
     out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(axis.servo ? "-" : lost);
     out += cell(against(axis.top_speed, axis.max_speed, unit + "/s")) +
            cell(against(axis.top_accel, axis.max_accel, unit + "/s\xC2\xB2"));
@@ -183,10 +186,12 @@ std::string warnings_html(const ReportData& data) {
 
 std::string pictures_html(const ReportData& data) {
     if (data.pictures.empty()) return {};
-    std::string inside = data.pictures_hint.empty() ? std::string() : "<p class=\"hint\">" + shown(data.pictures_hint) + "</p>\n";
+    std::string inside =
+        data.pictures_hint.empty() ? std::string() : "<p class=\"hint\">" + shown(data.pictures_hint) + "</p>\n";
     inside += "<div class=\"pictures\">\n";
     for (const ReportPicture& p : data.pictures) {
-        inside += fmt::format("<figure class=\"card{}\"><figcaption><span class=\"name\">{}</span>", p.wide ? " wide" : "", shown(p.title));
+        inside += fmt::format("<figure class=\"card{}\"><figcaption><span class=\"name\">{}</span>",
+                              p.wide ? " wide" : "", shown(p.title));
         for (const std::string& line : p.words) inside += "<span>" + shown(line) + "</span>";
         inside += "</figcaption>\n<div class=\"picture\">" + p.svg + "</div></figure>\n";
     }
@@ -206,9 +211,11 @@ std::string tables_html(const ReportData& data) {
             rows += "</tr>\n";
         }
         if (t.rows.size() > most_rows)
-            rows += fmt::format("<tr><td colspan=\"{}\">and {} more</td></tr>\n", heads.size(), grouped(static_cast<long long>(t.rows.size() - most_rows)));
+            rows += fmt::format("<tr><td colspan=\"{}\">and {} more</td></tr>\n", heads.size(),
+                                grouped(static_cast<long long>(t.rows.size() - most_rows)));
         const std::string id = fmt::format("table-{}", i);
-        out += section(id.c_str(), shown(t.title).c_str(), table((id + "-rows").c_str(), shown(t.caption).c_str(), heads, rows));
+        out += section(id.c_str(), shown(t.title).c_str(),
+                       table((id + "-rows").c_str(), shown(t.caption).c_str(), heads, rows));
     }
     return out;
 }

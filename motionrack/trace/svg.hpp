@@ -82,9 +82,10 @@ struct SvgSpan {
     double to_s = 0;
 };
 
-/// Charts of the same stretch of time one below the other, and below them a band that names parts of it. `look.height` is that of
-/// everything; the charts' series must begin and end at the same seconds.
-std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans, const SvgLook& look = {});
+/// Charts of the same stretch of time one below the other, and below them a band that names parts of it. `look.height`
+/// is that of everything; the charts' series must begin and end at the same seconds.
+std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans,
+                         const SvgLook& look = {});
 
 /// A picture that was made without `standalone`, of a column's width.
 struct SvgPart {
@@ -95,8 +96,8 @@ struct SvgPart {
 /// Pictures one below the other, under a title, in a file of their own.
 std::string svg_column(const std::string& title, std::span<const SvgPart> parts, int width);
 
-/// Pictures beside each other, each of this width, as one without `standalone`; their height is that of the first. Above them is room of
-/// `heading` px for the title.
+/// Pictures beside each other, each of this width, as one without `standalone`; their height is that of the first.
+/// Above them is room of `heading` px for the title.
 std::string svg_row(const std::string& title, std::span<const SvgPart> parts, int width, int heading);
 
 /// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`; 1 if there is no such step.

@@ -97,8 +97,8 @@ std::string line_of(const SvgSeries& series, const Frame& frame) {
 
 /// Title, names of the series with the look of their lines, and what the axis of time is.
 std::string heading(const SvgChart& chart, const SvgLook& look) {
-    return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title)) + series_names(chart, look.width - right - 64, 15) +
-           svg_text(look.width - right, 15, "end", "time in s");
+    return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title)) +
+           series_names(chart, look.width - right - 64, 15) + svg_text(look.width - right, 15, "end", "time in s");
 }
 
 }  // namespace

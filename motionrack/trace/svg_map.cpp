@@ -33,17 +33,22 @@ class Map {
         xs_.assign(xs.begin(), xs.end());
         ys_.assign(ys.begin(), ys.end());
         cells_ = !places.empty() && places.size() == xs_.size() * ys_.size();
-        for (digits_ = 4; digits_ > 1 && !all_fit(); --digits_) {}
+        for (digits_ = 4; digits_ > 1 && !all_fit(); --digits_) {
+        }
     }
 
     std::string draw() const {
         std::string out = svg_head(look_, map_.title + " over " + map_.x_name + " and " + map_.y_name);
-        out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", coordinate(left), escaped(map_.title)) + scale();
+        out +=
+            fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", coordinate(left), escaped(map_.title)) +
+            scale();
         const std::size_t every = cells_ ? 1 : 1 + map_.spots.size() / (most_dots + 1);
         if (!map_.spots.empty()) out += ticks();
-        for (std::size_t i = 0; i < map_.spots.size(); i += every) out += cells_ ? cell(map_.spots[i]) : dot(map_.spots[i]);
+        for (std::size_t i = 0; i < map_.spots.size(); i += every)
+            out += cells_ ? cell(map_.spots[i]) : dot(map_.spots[i]);
         out += svg_text((left + look_.width - right) / 2, look_.height - 5, "middle", map_.x_name);
-        out += fmt::format("<text transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", coordinate((top + look_.height - bottom) / 2), escaped(map_.y_name));
+        out += fmt::format("<text transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                           coordinate((top + look_.height - bottom) / 2), escaped(map_.y_name));
         return out + "</svg>\n";
     }
 
@@ -52,7 +57,9 @@ class Map {
     double tall() const { return look_.height - top - bottom; }
     double cell_width() const { return wide() / static_cast<double>(xs_.size()); }
     double cell_height() const { return tall() / static_cast<double>(ys_.size()); }
-    static std::size_t index(const std::vector<double>& all, double one) { return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), one) - all.begin()); }
+    static std::size_t index(const std::vector<double>& all, double one) {
+        return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), one) - all.begin());
+    }
     /// Of a cell its middle.
     double x(double value) const {
         if (cells_) return left + (static_cast<double>(index(xs_, value)) + 0.5) * cell_width();
@@ -62,13 +69,17 @@ class Map {
         if (cells_) return top + tall() - (static_cast<double>(index(ys_, value)) + 0.5) * cell_height();
         return top + tall() - (0.03 + 0.94 * part_of(value, ys_.front(), ys_.back())) * tall();
     }
-    static double part_of(double value, double low, double high) { return high > low ? (value - low) / (high - low) : 0.5; }
+    static double part_of(double value, double low, double high) {
+        return high > low ? (value - low) / (high - low) : 0.5;
+    }
 
     std::string cell_text(double value) const { return fmt::format("{:.{}g}", value, digits_); }
     /// All cells have room for their numbers.
     bool all_fit() const {
-        return cells_ && cell_height() >= 14 && std::all_of(map_.spots.begin(), map_.spots.end(), [this](const SvgSpot& spot) {
-                   return spot.bad || !std::isfinite(spot.value) || letter * static_cast<double>(cell_text(spot.value).size()) + 4 <= cell_width();
+        return cells_ && cell_height() >= 14 &&
+               std::all_of(map_.spots.begin(), map_.spots.end(), [this](const SvgSpot& spot) {
+                   return spot.bad || !std::isfinite(spot.value) ||
+                          letter * static_cast<double>(cell_text(spot.value).size()) + 4 <= cell_width();
                });
     }
 
@@ -81,33 +92,42 @@ class Map {
                 for (std::size_t i = 0; i < all.size(); i += every) at.push_back(all[i]);
             } else {
                 const double step = nice_step(all.back() - all.front(), 5);
-                for (double k = std::ceil(all.front() / step - 1e-9); k * step <= all.back() + step * 1e-9 && at.size() < 20; k += 1) at.push_back(k * step);
+                for (double k = std::ceil(all.front() / step - 1e-9);
+                     k * step <= all.back() + step * 1e-9 && at.size() < 20; k += 1)
+                    at.push_back(k * step);
             }
             return at;
         };
-        for (const double value : along(xs_, cell_width(), 44, cells_)) out += svg_text(x(value), look_.height - bottom + 15, "middle", number(value));
-        for (const double value : along(ys_, cell_height(), 14, cells_)) out += svg_text(left - 6, y(value) + 4, "end", number(value));
+        for (const double value : along(xs_, cell_width(), 44, cells_))
+            out += svg_text(x(value), look_.height - bottom + 15, "middle", number(value));
+        for (const double value : along(ys_, cell_height(), 14, cells_))
+            out += svg_text(left - 6, y(value) + 4, "end", number(value));
         return out;
     }
 
     std::string cell(const SvgSpot& spot) const {
-        const double w = cell_width(), h = cell_height(), cx = x(spot.x), cy = y(spot.y), part = part_of(spot.value, low_, high_);
+        const double w = cell_width(), h = cell_height(), cx = x(spot.x), cy = y(spot.y),
+                     part = part_of(spot.value, low_, high_);
         const bool bad = spot.bad || !std::isfinite(spot.value);
-        std::string out = fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", coordinate(cx - w / 2), coordinate(cy - h / 2), coordinate(w - 0.6),
+        std::string out = fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                                      coordinate(cx - w / 2), coordinate(cy - h / 2), coordinate(w - 0.6),
                                       coordinate(h - 0.6), bad ? "#dde3e8" : svg_shade(part));
         if (bad) return out + cross(cx, cy);
         if (digits_ < 2) return out;
         const std::string text = cell_text(spot.value);
-        return out + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" style=\"fill:{}\">{}</text>\n", coordinate(cx), coordinate(cy + 4), svg_ink(part), text);
+        return out + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" style=\"fill:{}\">{}</text>\n",
+                                 coordinate(cx), coordinate(cy + 4), svg_ink(part), text);
     }
 
     std::string dot(const SvgSpot& spot) const {
         if (spot.bad || !std::isfinite(spot.value)) return cross(x(spot.x), y(spot.y));
-        return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"{}\"/>\n", coordinate(x(spot.x)), coordinate(y(spot.y)), svg_shade(part_of(spot.value, low_, high_)));
+        return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"{}\"/>\n", coordinate(x(spot.x)),
+                           coordinate(y(spot.y)), svg_shade(part_of(spot.value, low_, high_)));
     }
 
     static std::string cross(double x, double y) {
-        return fmt::format("<path style=\"stroke:#b3261e;stroke-width:2\" d=\"M{} {}m-4-4l8 8m-8 0l8-8\"/>\n", coordinate(x), coordinate(y));
+        return fmt::format("<path style=\"stroke:#b3261e;stroke-width:2\" d=\"M{} {}m-4-4l8 8m-8 0l8-8\"/>\n",
+                           coordinate(x), coordinate(y));
     }
 
     /// From least to greatest, between their numbers, below the title.
@@ -115,7 +135,8 @@ class Map {
         const double from = left + letter * static_cast<double>(number(low_).size()) + 6, step = 6, at = 25;
         std::string out = svg_text(left, at + 9, "start", number(low_));
         for (int i = 0; i < scale_steps; ++i)
-            out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"10\" fill=\"{}\"/>\n", coordinate(from + step * i), coordinate(at), coordinate(step + 0.3),
+            out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"10\" fill=\"{}\"/>\n",
+                               coordinate(from + step * i), coordinate(at), coordinate(step + 0.3),
                                svg_shade(static_cast<double>(i) / (scale_steps - 1)));
         return out + svg_text(from + step * scale_steps + 5, at + 9, "start", number(high_));
     }
@@ -130,6 +151,8 @@ class Map {
 
 }  // namespace
 
-std::string svg_map(const SvgMap& map, const SvgLook& look) { return Map(map, look).draw(); }
+std::string svg_map(const SvgMap& map, const SvgLook& look) {
+    return Map(map, look).draw();
+}
 
 }  // namespace motionrack::trace

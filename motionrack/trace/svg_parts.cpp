@@ -26,7 +26,8 @@ constexpr const char* style =
     ".line.a{stroke:#7a3fb0}.line.b{stroke:#8a5a00}.line.c{stroke:#00707a}.title{font-weight:600;font-size:13px}"
     "</style>";
 
-constexpr std::array<std::array<double, 3>, 5> shades = {{{246, 151, 33}, {222, 90, 96}, {177, 42, 144}, {106, 0, 168}, {13, 8, 135}}};
+constexpr std::array<std::array<double, 3>, 5> shades = {
+    {{246, 151, 33}, {222, 90, 96}, {177, 42, 144}, {106, 0, 168}, {13, 8, 135}}};
 
 bool same(const Xyz& a, const Xyz& b) {
     return a == b;
@@ -49,11 +50,15 @@ std::string svg_shade(double part) {
     const double at = std::clamp(part, 0.0, 1.0) * (shades.size() - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(at), shades.size() - 2);
     const double rest = at - static_cast<double>(i);
-    const auto mixed = [&](std::size_t k) { return static_cast<int>(shades[i][k] + rest * (shades[i + 1][k] - shades[i][k]) + 0.5); };
+    const auto mixed = [&](std::size_t k) {
+        return static_cast<int>(shades[i][k] + rest * (shades[i + 1][k] - shades[i][k]) + 0.5);
+    };
     return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
 }
 
-const char* svg_ink(double part) { return part < 0.3 ? "#1f2933" : "#ffffff"; }
+const char* svg_ink(double part) {
+    return part < 0.3 ? "#1f2933" : "#ffffff";
+}
 
 void Extent::add(const Xyz& point) {
     for (const double v : point) {

@@ -21,8 +21,8 @@ std::string svg_shade(double part);
 /// What is written upon such a colour.
 const char* svg_ink(double part);
 
-/// The names of a chart's series with the looks of their lines, leftwards from `right`; `baseline` is that of the text. Series without a name
-/// are left out.
+/// The names of a chart's series with the looks of their lines, leftwards from `right`; `baseline` is that of the text.
+/// Series without a name are left out.
 std::string series_names(const SvgChart& chart, double right, double baseline);
 
 /// The planned segments as one row of points; the edge that ends in points[i] has line[i] and traverse[i].

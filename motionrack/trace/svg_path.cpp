@@ -173,7 +173,9 @@ std::string driven_line(const ReportData& data, const Projection& at) {
 
 constexpr int shade_steps = 20;
 
-std::string shade_colour(int step) { return svg_shade(static_cast<double>(step) / (shade_steps - 1)); }
+std::string shade_colour(int step) {
+    return svg_shade(static_cast<double>(step) / (shade_steps - 1));
+}
 
 /// One line for each run of steps that have the same colour.
 std::string shaded_line(const ReportData& data, const Projection& at, const SvgShade& shade) {
@@ -192,7 +194,8 @@ std::string shaded_line(const ReportData& data, const Projection& at, const SvgS
     for (std::size_t i = 1; i < kept.size();) {
         const int step = step_at(kept[i - 1], kept[i]);
         const Flat first = at(data.driven[kept[i - 1]]);
-        out += fmt::format("<polyline stroke=\"{}\" points=\"{},{}", shade_colour(step), coordinate(first.x), coordinate(first.y));
+        out += fmt::format("<polyline stroke=\"{}\" points=\"{},{}", shade_colour(step), coordinate(first.x),
+                           coordinate(first.y));
         for (; i < kept.size() && step_at(kept[i - 1], kept[i]) == step; ++i) {
             const Flat p = at(data.driven[kept[i]]);
             out += ' ' + coordinate(p.x) + ',' + coordinate(p.y);
@@ -207,8 +210,10 @@ std::string shade_scale(const SvgShade& shade, const SvgLook& look) {
     const double left = look.width - 12 - step * shade_steps;
     std::string out;
     for (int i = 0; i < shade_steps; ++i)
-        out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", coordinate(left + step * i), y, step + 0.3, high, shade_colour(i));
-    return out + svg_text(left - 5, y + high, "end", "0") + svg_text(look.width - 12.0, y + high + 13, "end", number(shade.most) + " " + shade.unit);
+        out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                           coordinate(left + step * i), y, step + 0.3, high, shade_colour(i));
+    return out + svg_text(left - 5, y + high, "end", "0") +
+           svg_text(look.width - 12.0, y + high + 13, "end", number(shade.most) + " " + shade.unit);
 }
 
 std::string planned_lines(const ReportData& data, const Projection& at) {
@@ -259,7 +264,8 @@ std::string svg_path(const ReportData& data, PathView view, const SvgLook& look,
     out += grid(frame, extent_of_path(data).low[2], at, view, look);
     out += travel_box(extent_of_travel(data), at, view);
     const bool shaded = !shade.values.empty() && shade.values.size() == data.driven.size() && shade.most > 0;
-    out += planned_lines(data, at) + (shaded ? shaded_line(data, at, shade) + shade_scale(shade, look) : driven_line(data, at)) + marks(data, at);
+    out += planned_lines(data, at) +
+           (shaded ? shaded_line(data, at, shade) + shade_scale(shade, look) : driven_line(data, at)) + marks(data, at);
     if (plan) {
         out += svg_text(look.width - 8.0, look.height - 6.0, "end", "X, mm") + svg_text(6, 14, "start", "Y, mm");
     }

@@ -35,8 +35,10 @@ class Scatter {
     Scatter(const SvgScatter& scatter, const SvgLook& look) : scatter_(scatter), look_(look) {
         for (const SvgDots& series : scatter.series)
             for (const SvgDot& dot : series.dots) x_.add(dot.x), y_.add(dot.y);
-        if (named()) x_.add(-0.5), x_.add(static_cast<double>(scatter.x_names.size()) - 0.5);
-        else x_.widen(0.03);
+        if (named())
+            x_.add(-0.5), x_.add(static_cast<double>(scatter.x_names.size()) - 0.5);
+        else
+            x_.widen(0.03);
         const bool from_zero = y_.low >= 0 && y_.low < 0.4 * y_.high;
         y_.widen(0.07);
         if (from_zero) y_.low = 0;
@@ -47,30 +49,42 @@ class Scatter {
         for (const SvgDots& series : scatter_.series) out += line(series);
         for (const SvgDots& series : scatter_.series) out += dots(series);
         out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", left, escaped(scatter_.title));
-        return out + names() + svg_text((left + look_.width - right) / 2, look_.height - 5, "middle", scatter_.x_name) + "</svg>\n";
+        return out + names() + svg_text((left + look_.width - right) / 2, look_.height - 5, "middle", scatter_.x_name) +
+               "</svg>\n";
     }
 
   private:
     bool named() const { return !scatter_.x_names.empty(); }
     double x(double value) const { return left + (value - x_.low) / (x_.high - x_.low) * (look_.width - left - right); }
-    double y(double value) const { return !std::isfinite(value) ? look_.height - bottom - 6 : look_.height - bottom - (value - y_.low) / (y_.high - y_.low) * (look_.height - top - bottom); }
+    double y(double value) const {
+        return !std::isfinite(value)
+                   ? look_.height - bottom - 6
+                   : look_.height - bottom - (value - y_.low) / (y_.high - y_.low) * (look_.height - top - bottom);
+    }
 
     static std::string straight(double x1, double y1, double x2, double y2) {
-        return fmt::format("<polyline class=\"grid\" points=\"{},{} {},{}\"/>\n", coordinate(x1), coordinate(y1), coordinate(x2), coordinate(y2));
+        return fmt::format("<polyline class=\"grid\" points=\"{},{} {},{}\"/>\n", coordinate(x1), coordinate(y1),
+                           coordinate(x2), coordinate(y2));
     }
 
     std::string grid() const {
         std::string out;
-        const double step = nice_step(y_.high - y_.low, std::max(2, static_cast<int>((look_.height - top - bottom) / 26)));
-        for (const double value : marks(y_, step)) out += straight(left, y(value), look_.width - right, y(value)) + svg_text(left - 6, y(value) + 4, "end", number(value));
+        const double step =
+            nice_step(y_.high - y_.low, std::max(2, static_cast<int>((look_.height - top - bottom) / 26)));
+        for (const double value : marks(y_, step))
+            out += straight(left, y(value), look_.width - right, y(value)) +
+                   svg_text(left - 6, y(value) + 4, "end", number(value));
         const double below = look_.height - bottom + 15;
         if (named()) {
             const double each = (look_.width - left - right) / static_cast<double>(scatter_.x_names.size());
-            for (std::size_t i = 0; i < scatter_.x_names.size(); ++i) out += svg_text(x(static_cast<double>(i)), below, "middle", fitted(scatter_.x_names[i], each));
+            for (std::size_t i = 0; i < scatter_.x_names.size(); ++i)
+                out += svg_text(x(static_cast<double>(i)), below, "middle", fitted(scatter_.x_names[i], each));
             return out;
         }
         const double across = nice_step(x_.high - x_.low, std::max(2, static_cast<int>(look_.width / 80)));
-        for (const double value : marks(x_, across)) out += straight(x(value), top, x(value), look_.height - bottom) + svg_text(x(value), below, "middle", number(value));
+        for (const double value : marks(x_, across))
+            out += straight(x(value), top, x(value), look_.height - bottom) +
+                   svg_text(x(value), below, "middle", number(value));
         return out;
     }
 
@@ -97,12 +111,16 @@ class Scatter {
         std::stable_sort(sorted.begin(), sorted.end(), [](const SvgDot& a, const SvgDot& b) { return a.x < b.x; });
         std::string out, points;
         const auto end_piece = [&] {
-            if (points.find(' ') != points.rfind(' ')) out += fmt::format("<polyline class=\"line {}\" points=\"{}\"/>\n", escaped(series.look), points.substr(0, points.size() - 1));
+            if (points.find(' ') != points.rfind(' '))
+                out += fmt::format("<polyline class=\"line {}\" points=\"{}\"/>\n", escaped(series.look),
+                                   points.substr(0, points.size() - 1));
             points.clear();
         };
         for (const SvgDot& dot : sorted) {
-            if (dot.bad || !std::isfinite(dot.y)) end_piece();
-            else points += coordinate(x(dot.x)) + ',' + coordinate(y(dot.y)) + ' ';
+            if (dot.bad || !std::isfinite(dot.y))
+                end_piece();
+            else
+                points += coordinate(x(dot.x)) + ',' + coordinate(y(dot.y)) + ' ';
         }
         end_piece();
         return out;
@@ -114,8 +132,11 @@ class Scatter {
         for (std::size_t i = 0; i < series.dots.size(); i += every) {
             const SvgDot& dot = series.dots[i];
             const std::string at = coordinate(x(dot.x)), up = coordinate(y(dot.y));
-            out += dot.bad ? fmt::format("<path class=\"line {}\" style=\"stroke-width:2\" d=\"M{} {}m-4-4l8 8m-8 0l8-8\"/>\n", escaped(series.look), at, up)
-                           : fmt::format("<circle class=\"line {}\" fill=\"#fff\" cx=\"{}\" cy=\"{}\" r=\"3\"/>\n", escaped(series.look), at, up);
+            out += dot.bad ? fmt::format(
+                                 "<path class=\"line {}\" style=\"stroke-width:2\" d=\"M{} {}m-4-4l8 8m-8 0l8-8\"/>\n",
+                                 escaped(series.look), at, up)
+                           : fmt::format("<circle class=\"line {}\" fill=\"#fff\" cx=\"{}\" cy=\"{}\" r=\"3\"/>\n",
+                                         escaped(series.look), at, up);
         }
         return out;
     }
@@ -133,6 +154,8 @@ class Scatter {
 
 }  // namespace
 
-std::string svg_scatter(const SvgScatter& scatter, const SvgLook& look) { return Scatter(scatter, look).draw(); }
+std::string svg_scatter(const SvgScatter& scatter, const SvgLook& look) {
+    return Scatter(scatter, look).draw();
+}
 
 }  // namespace motionrack::trace

@@ -34,7 +34,8 @@ Stretch stretch_of(std::span<const SvgChart> charts) {
             }
         }
     }
-    if (!(out.end > out.begin)) out = {std::isfinite(out.begin) ? out.begin : 0, (std::isfinite(out.begin) ? out.begin : 0) + 1};
+    if (!(out.end > out.begin))
+        out = {std::isfinite(out.begin) ? out.begin : 0, (std::isfinite(out.begin) ? out.begin : 0) + 1};
     return out;
 }
 
@@ -48,7 +49,8 @@ std::vector<double> spread(std::vector<double> at, double left, double right) {
 
 }  // namespace
 
-std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans, const SvgLook& look) {
+std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans,
+                         const SvgLook& look) {
     const Stretch stretch = stretch_of(charts);
     std::size_t longest = 0;
     for (const SvgSpan& span : spans) longest = std::max(longest, span.name.size());
@@ -59,23 +61,30 @@ std::string svg_timeline(const std::string& title, std::span<const SvgChart> cha
     out += svg_text(look.width - chart_right, 15, "end", "time in s");
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const double y = heading + each * static_cast<double>(i);
-        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", coordinate(y), look.width, coordinate(each));
-        out += svg_text(chart_left, 16, "start", charts[i].title) + series_names(charts[i], look.width - chart_right, 16);
+        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", coordinate(y), look.width,
+                           coordinate(each));
+        out +=
+            svg_text(chart_left, 16, "start", charts[i].title) + series_names(charts[i], look.width - chart_right, 16);
         out += svg_chart(charts[i], {look.width, static_cast<int>(each), false}) + "</svg>\n";
     }
     const double left = chart_left, right = look.width - chart_right, top = look.height - names;
-    const auto x = [&](double t) { return left + (std::clamp(t, stretch.begin, stretch.end) - stretch.begin) / (stretch.end - stretch.begin) * (right - left); };
+    const auto x = [&](double t) {
+        return left + (std::clamp(t, stretch.begin, stretch.end) - stretch.begin) / (stretch.end - stretch.begin) *
+                          (right - left);
+    };
     std::vector<double> middles;
     for (const SvgSpan& span : spans) middles.push_back((x(span.from_s) + x(span.to_s)) / 2);
     const std::vector<double> at = spread(middles, left + 4, right - 4);
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const double from = x(spans[i].from_s), to = x(spans[i].to_s), below = top + band + leader;
-        out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", coordinate(from), coordinate(top),
-                           coordinate(std::max(0.5, to - from)), coordinate(band), i % 2 == 0 ? "#9dbbdc" : "#d9a441");
-        out += fmt::format("<polyline class=\"line\" style=\"stroke:#8a97a3;stroke-width:.7\" points=\"{},{} {},{}\"/>\n", coordinate(middles[i]),
-                           coordinate(top + band), coordinate(at[i]), coordinate(below));
-        out += fmt::format("<text transform=\"translate({} {}) rotate(90)\">{}</text>\n", coordinate(at[i] - 4), coordinate(below + 3),
-                           escaped(spans[i].name));
+        out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", coordinate(from),
+                           coordinate(top), coordinate(std::max(0.5, to - from)), coordinate(band),
+                           i % 2 == 0 ? "#9dbbdc" : "#d9a441");
+        out +=
+            fmt::format("<polyline class=\"line\" style=\"stroke:#8a97a3;stroke-width:.7\" points=\"{},{} {},{}\"/>\n",
+                        coordinate(middles[i]), coordinate(top + band), coordinate(at[i]), coordinate(below));
+        out += fmt::format("<text transform=\"translate({} {}) rotate(90)\">{}</text>\n", coordinate(at[i] - 4),
+                           coordinate(below + 3), escaped(spans[i].name));
     }
     return out + "</svg>\n";
 }
@@ -88,7 +97,8 @@ std::string svg_column(const std::string& title, std::span<const SvgPart> parts,
     out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", chart_left, escaped(title));
     int y = heading_height;
     for (const SvgPart& part : parts) {
-        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", y, width, part.height) + part.svg + "</svg>\n";
+        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", y, width, part.height) + part.svg +
+               "</svg>\n";
         y += part.height;
     }
     return out + "</svg>\n";
@@ -100,7 +110,9 @@ std::string svg_row(const std::string& title, std::span<const SvgPart> parts, in
     if (heading_height > 0) out += svg_text(chart_left, heading_height - 8, "start", title);
     int x = 0;
     for (const SvgPart& part : parts) {
-        out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", x, heading_height, width, part.height) + part.svg + "</svg>\n";
+        out +=
+            fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", x, heading_height, width, part.height) +
+            part.svg + "</svg>\n";
         x += width;
     }
     return out + "</svg>\n";

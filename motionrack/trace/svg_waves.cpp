@@ -42,12 +42,14 @@ std::string bands_of(const SvgWave& wave, const Scale& scale, double low) {
         const double a = scale.x(at), b = scale.x(end), middle = low - swing / 2, slope = std::min(3.0, (b - a) / 2);
         if (b - a < 0.3) continue;
         const bool pale = value == wave.rest;
-        out += fmt::format("<path d=\"M{} {}L{} {}L{} {}L{} {}L{} {}L{} {}Z\" style=\"stroke:{};stroke-width:1.2;fill:{}\"/>\n", coordinate(a), coordinate(middle),
-                           coordinate(a + slope), coordinate(low - swing), coordinate(b - slope), coordinate(low - swing), coordinate(b), coordinate(middle),
-                           coordinate(b - slope), coordinate(low), coordinate(a + slope), coordinate(low), pale ? "#c3ccd5" : "#0b5cab",
-                           pale ? "none" : "#e8f0f9");
+        out += fmt::format(
+            "<path d=\"M{} {}L{} {}L{} {}L{} {}L{} {}L{} {}Z\" style=\"stroke:{};stroke-width:1.2;fill:{}\"/>\n",
+            coordinate(a), coordinate(middle), coordinate(a + slope), coordinate(low - swing), coordinate(b - slope),
+            coordinate(low - swing), coordinate(b), coordinate(middle), coordinate(b - slope), coordinate(low),
+            coordinate(a + slope), coordinate(low), pale ? "#c3ccd5" : "#0b5cab", pale ? "none" : "#e8f0f9");
         const std::string text = wave.text ? wave.text(value) : fmt::format("{:X}h", value);
-        if (!pale && static_cast<double>(text.size()) * letter < b - a - 2) out += svg_text((a + b) / 2, low - 3, "middle", text);
+        if (!pale && static_cast<double>(text.size()) * letter < b - a - 2)
+            out += svg_text((a + b) / 2, low - 3, "middle", text);
     }
     return out;
 }
@@ -61,8 +63,8 @@ std::string unit_of(double span, double& factor) {
 
 }  // namespace
 
-std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks, double from_s, double to_s,
-                      const SvgLook& look) {
+std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks,
+                      double from_s, double to_s, const SvgLook& look) {
     const double bottom = heading + each * static_cast<double>(waves.size());
     SvgLook own = look;
     own.height = static_cast<int>(bottom + foot);
@@ -74,13 +76,15 @@ std::string svg_waves(const std::string& title, const std::vector<SvgWave>& wave
     const double step = nice_step((to_s - from_s) * factor, 10);
     for (double t = std::ceil(from_s * factor / step) * step; t <= to_s * factor + step * 1e-6; t += step) {
         const double x = scale.x(t / factor);
-        out += fmt::format("<path class=\"grid\" d=\"M{} {}V{}\"/>\n", coordinate(x), coordinate(heading), coordinate(bottom));
+        out += fmt::format("<path class=\"grid\" d=\"M{} {}V{}\"/>\n", coordinate(x), coordinate(heading),
+                           coordinate(bottom));
         out += svg_text(x, bottom + 16, "middle", fmt::format("{:g}", t == 0 ? 0 : t));
     }
     out += svg_text(left - 8, bottom + 16, "end", "time, " + unit);
     for (const SvgMark& mark : marks) {
         const double x = scale.x(mark.at_s);
-        out += fmt::format("<path class=\"limit\" d=\"M{} {}V{}\"/>\n", coordinate(x), coordinate(heading - 8), coordinate(bottom));
+        out += fmt::format("<path class=\"limit\" d=\"M{} {}V{}\"/>\n", coordinate(x), coordinate(heading - 8),
+                           coordinate(bottom));
         out += svg_text(x, heading - 12, "middle", mark.name);
     }
     for (std::size_t i = 0; i < waves.size(); ++i) {

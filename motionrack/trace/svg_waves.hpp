@@ -16,9 +16,10 @@ namespace motionrack::trace {
 struct SvgWave {
     std::string name;
     bool band = false;  ///< several bits: bands with values
-    std::vector<std::pair<double, std::uint32_t>> changes;  ///< seconds, in order, and the value from then on; the first at or before the begin
-    std::string (*text)(std::uint32_t value) = nullptr;      ///< of a band; nullptr: hexadecimal
-    std::uint32_t rest = 0;                                  ///< the value of a band that is drawn pale: nobody drives it
+    std::vector<std::pair<double, std::uint32_t>>
+        changes;  ///< seconds, in order, and the value from then on; the first at or before the begin
+    std::string (*text)(std::uint32_t value) = nullptr;  ///< of a band; nullptr: hexadecimal
+    std::uint32_t rest = 0;                              ///< the value of a band that is drawn pale: nobody drives it
 };
 
 struct SvgMark {
@@ -27,7 +28,7 @@ struct SvgMark {
 };
 
 /// `from_s` < `to_s`. The height of the picture follows from the number of waves; look.height is not used.
-std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks, double from_s, double to_s,
-                      const SvgLook& look = {});
+std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks,
+                      double from_s, double to_s, const SvgLook& look = {});
 
 }  // namespace motionrack::trace

@@ -1,6 +1,5 @@
 // When the bell rings.
 #include <python/src/bell.hpp>
-
 #include <utility>
 
 namespace motionrack::python {
@@ -27,7 +26,9 @@ void Bell::ring_no_more() {
     kernel_.schedule(id_, never);
 }
 
-Instant Bell::take_ring() { return std::exchange(rung_, never); }
+Instant Bell::take_ring() {
+    return std::exchange(rung_, never);
+}
 
 void Bell::listen_for(sim::WireId wire, int level) {
     wire_ = wire;

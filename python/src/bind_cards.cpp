@@ -12,7 +12,9 @@ namespace motionrack::python {
 
 namespace {
 
-py::str text(std::string_view view) { return py::str(view.data(), view.size()); }
+py::str text(std::string_view view) {
+    return py::str(view.data(), view.size());
+}
 
 py::dict dict_of(const RegisterInfo& reg) {
     static constexpr const char* access[] = {"read", "write", "read_clears"};
@@ -25,7 +27,8 @@ py::dict dict_of(const RegisterInfo& reg) {
     out["bank"] = text(reg.bank);
     out["meaning"] = text(reg.meaning);
     py::list fields;
-    for (const FieldInfo& field : reg.fields) fields.append(py::make_tuple(text(field.name), field.mask, text(field.meaning)));
+    for (const FieldInfo& field : reg.fields)
+        fields.append(py::make_tuple(text(field.name), field.mask, text(field.meaning)));
     out["fields"] = fields;
     return out;
 }
@@ -51,7 +54,8 @@ py::dict dict_of(const MachineInfo& machine) {
     out["meaning"] = text(machine.meaning);
     py::list states, transitions;
     for (const StateInfo& state : machine.states) states.append(py::make_tuple(text(state.name), text(state.meaning)));
-    for (const TransitionInfo& each : machine.transitions) transitions.append(py::make_tuple(text(each.from), text(each.to), text(each.when)));
+    for (const TransitionInfo& each : machine.transitions)
+        transitions.append(py::make_tuple(text(each.from), text(each.to), text(each.when)));
     out["states"] = states;
     out["transitions"] = transitions;
     return out;
@@ -67,7 +71,8 @@ py::dict dict_of(const CardMap& map) {
     for (const CommandInfo& command : map.commands) commands.append(dict_of(command));
     for (const MachineInfo& machine : map.machines) machines.append(dict_of(machine));
     for (const PinInfo& pin : map.pins)
-        pins.append(py::make_tuple(text(pin.name), pin.direction == PinDirection::input ? "input" : "output", pin.active_low, text(pin.meaning)));
+        pins.append(py::make_tuple(text(pin.name), pin.direction == PinDirection::input ? "input" : "output",
+                                   pin.active_low, text(pin.meaning)));
     out["registers"] = registers;
     out["commands"] = commands;
     out["machines"] = machines;
@@ -116,7 +121,8 @@ void write(World& world, const std::string& card, int bits, std::uint32_t addres
     alone(world, [&]() -> Result<void> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_for_access(world.running(), card, bits, address, true));
         if (value < 0 || value >> bits != 0)
-            return fail(Trouble::refused, fmt::format("{} does not fit into {} bits: 0 to {}; nothing was written.", value, bits, (std::int64_t{1} << bits) - 1));
+            return fail(Trouble::refused, fmt::format("{} does not fit into {} bits: 0 to {}; nothing was written.",
+                                                      value, bits, (std::int64_t{1} << bits) - 1));
         on->bus_write(bits, address, static_cast<std::uint32_t>(value));
         return {};
     });
@@ -128,7 +134,11 @@ std::string view(World& world, const std::string& card, bool clearing) {
         MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
         const rack::CardKind* kind = rack::find_card_kind(config_of(world, card).type);
         if (kind->view == nullptr || on->port() == nullptr)
-            return fail(Trouble::refused, fmt::format("The registers of a {} cannot be read as a list; nothing was done. Look at them one by one.", kind->type));
+            return fail(
+                Trouble::refused,
+                fmt::format(
+                    "The registers of a {} cannot be read as a list; nothing was done. Look at them one by one.",
+                    kind->type));
         return rack::view_text(kind->view(*on->port(), clearing), false);
     });
 }
@@ -136,19 +146,28 @@ std::string view(World& world, const std::string& card, bool clearing) {
 }  // namespace
 
 void bind_cards(py::module_& m) {
-    m.def("describe_card", [](World& world, const std::string& card) { return looking(world, [&] { return describe(world, card); }); },
-          py::arg("world"), py::arg("card"));
-    m.def("peek", [](World& world, const std::string& card, const std::string& name) {
-        return looking(world, [&] { return value_of(value_of(rack::card_named(world.running(), card))->inspect(name)); });
-    }, py::arg("world"), py::arg("card"), py::arg("name"));
+    m.def(
+        "describe_card",
+        [](World& world, const std::string& card) { return looking(world, [&] { return describe(world, card); }); },
+        py::arg("world"), py::arg("card"));
+    m.def(
+        "peek",
+        [](World& world, const std::string& card, const std::string& name) {
+            return looking(world,
+                           [&] { return value_of(value_of(rack::card_named(world.running(), card))->inspect(name)); });
+        },
+        py::arg("world"), py::arg("card"), py::arg("name"));
     m.def("read", &read, py::arg("world"), py::arg("card"), py::arg("bits"), py::arg("address"));
     m.def("write", &write, py::arg("world"), py::arg("card"), py::arg("bits"), py::arg("address"), py::arg("value"));
-    m.def("wait_interrupt", [](World& world, const std::string& card, std::int64_t timeout) {
-        return alone(world, [&]() -> Result<bool> {
-            MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
-            return on->host().wait(ticks(timeout));
-        });
-    }, py::arg("world"), py::arg("card"), py::arg("ticks"));
+    m.def(
+        "wait_interrupt",
+        [](World& world, const std::string& card, std::int64_t timeout) {
+            return alone(world, [&]() -> Result<bool> {
+                MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
+                return on->host().wait(ticks(timeout));
+            });
+        },
+        py::arg("world"), py::arg("card"), py::arg("ticks"));
     m.def("view", &view, py::arg("world"), py::arg("card"), py::arg("clearing"));
 }
 

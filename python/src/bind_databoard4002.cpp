@@ -17,16 +17,26 @@ using Board = Driven<Driver>;
 using BoardClass = py::class_<Board>;
 using Wide = std::int64_t;
 
-db::Waiting waiting(bool interrupt) { return interrupt ? db::Waiting::interrupt : db::Waiting::polling; }
+db::Waiting waiting(bool interrupt) {
+    return interrupt ? db::Waiting::interrupt : db::Waiting::polling;
+}
 
 void bind_commands(BoardClass& c) {
-    c.def("connect", call<Driver>(&Driver::connect), "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
+    c.def("connect", call<Driver>(&Driver::connect),
+          "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
     c.def("reset", call<Driver>(&Driver::reset), "C3: hardware reset; position, rate and table are gone.");
-    c.def("status", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().word; }); }, "STAT as a word; its bits: card.STAT.");
-    c.def("stops", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().stops(); }); }, "\"the right end stop is active\"; \"\" if no stop is.");
-    c.def("emergency", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().emergency(); }); }, "Whether the emergency stop is active.");
+    c.def(
+        "status", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().word; }); },
+        "STAT as a word; its bits: card.STAT.");
+    c.def(
+        "stops", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().stops(); }); },
+        "\"the right end stop is active\"; \"\" if no stop is.");
+    c.def(
+        "emergency", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().emergency(); }); },
+        "Whether the emergency stop is active.");
     c.def("athome", call<Driver>(&Driver::athome), "A: the position becomes 0.");
-    c.def("set_deviation", call<Driver>(&Driver::set_deviation), py::arg("counts"), "D: what lock may let it deviate by, 0 to 8,388,607 counts.");
+    c.def("set_deviation", call<Driver>(&Driver::set_deviation), py::arg("counts"),
+          "D: what lock may let it deviate by, 0 to 8,388,607 counts.");
     c.def("deviation", call<Driver>(&Driver::deviation), "D: present minus requested, counts.");
     c.def("go", call<Driver>(&Driver::go), "G: begins a positioning.");
     c.def("initialise", call<Driver>(&Driver::initialise), "I.");
@@ -39,54 +49,85 @@ void bind_commands(BoardClass& c) {
     c.def("quit", call<Driver>(&Driver::quit), "Q: ends a positioning.");
     c.def("set_rate", call<Driver>(&Driver::set_rate), py::arg("rate"), "R, 0 to 16383; 0 switches the relay off.");
     c.def("rate", call<Driver>(&Driver::rate), "R: negative backwards, 0 while standing.");
-    c.def("set_slope", call<Driver>(&Driver::set_slope), py::arg("table"), "S: the 48 intervals of acceleration and deceleration.");
+    c.def("set_slope", call<Driver>(&Driver::set_slope), py::arg("table"),
+          "S: the 48 intervals of acceleration and deceleration.");
     c.def("version", call<Driver>(&Driver::version), "V.");
     c.def("clear_watch_out", call<Driver>(&Driver::clear_watch_out), "W.");
 }
 
 void bind_events(BoardClass& c) {
-    c.def("enable_events", [](Board& self, std::uint8_t enables) {
-        return alone(*self.world, [&]() -> Result<int> {
-            MOTIONRACK_TRY(const db::Events events, self.driver->enable_events(enables));
-            return events.word;
-        });
-    }, py::arg("enables"), "C4: enables events and gives the EVENT word that was freed by it.");
-    c.def("wait_event", [](Board& self, std::uint8_t wanted, double timeout, bool interrupt) {
-        const Duration time = duration(timeout);
-        return alone(*self.world, [&]() -> Result<int> {
-            MOTIONRACK_TRY(const db::Events events, self.driver->wait_event(wanted, time, waiting(interrupt)));
-            return events.word;
-        }, time);
-    }, py::arg("wanted"), py::arg("timeout"), py::arg("interrupt") = false,
-          "Waits until one of the events 01h position, 02h zero, 04h reference, 20h stop has happened; the word. Timeout after timeout s.");
-    const auto move = [&](const char* name, Result<void> (Driver::*function)(Wide, Duration, db::Waiting), const char* doc) {
-        c.def(name, [function](Board& self, Wide counts, double timeout, bool interrupt) {
+    c.def(
+        "enable_events",
+        [](Board& self, std::uint8_t enables) {
+            return alone(*self.world, [&]() -> Result<int> {
+                MOTIONRACK_TRY(const db::Events events, self.driver->enable_events(enables));
+                return events.word;
+            });
+        },
+        py::arg("enables"), "C4: enables events and gives the EVENT word that was freed by it.");
+    c.def(
+        "wait_event",
+        [](Board& self, std::uint8_t wanted, double timeout, bool interrupt) {
             const Duration time = duration(timeout);
-            alone(*self.world, [&] { return (self.driver.get()->*function)(counts, time, waiting(interrupt)); }, time);
-        }, py::arg("counts"), py::arg("timeout") = 60.0, py::arg("interrupt") = false, doc);
+            return alone(
+                *self.world,
+                [&]() -> Result<int> {
+                    MOTIONRACK_TRY(const db::Events events, self.driver->wait_event(wanted, time, waiting(interrupt)));
+                    return events.word;
+                },
+                time);
+        },
+        py::arg("wanted"), py::arg("timeout"), py::arg("interrupt") = false,
+        "Waits until one of the events 01h position, 02h zero, 04h reference, 20h stop has happened; the word. Timeout "
+        "after timeout s.");
+    const auto move = [&](const char* name, Result<void> (Driver::*function)(Wide, Duration, db::Waiting),
+                          const char* doc) {
+        c.def(
+            name,
+            [function](Board& self, Wide counts, double timeout, bool interrupt) {
+                const Duration time = duration(timeout);
+                alone(
+                    *self.world, [&] { return (self.driver.get()->*function)(counts, time, waiting(interrupt)); },
+                    time);
+            },
+            py::arg("counts"), py::arg("timeout") = 60.0, py::arg("interrupt") = false, doc);
     };
-    move("move_to", &Driver::move_to, "Goes there, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout after timeout s.");
+    move("move_to", &Driver::move_to,
+         "Goes there, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout "
+         "after timeout s.");
     move("move_by", &Driver::move_by, "Goes so many counts further; see move_to.");
-    c.def("move_to_mm", [](Board& self, double mm, double timeout, bool interrupt) {
-        const Duration time = duration(timeout);
-        alone(*self.world, [&] { return self.driver->move_to_mm(mm, time, waiting(interrupt)); }, time);
-    }, py::arg("mm"), py::arg("timeout") = 60.0, py::arg("interrupt") = false, "Goes there, mm by counts_per_mm; see move_to.");
+    c.def(
+        "move_to_mm",
+        [](Board& self, double mm, double timeout, bool interrupt) {
+            const Duration time = duration(timeout);
+            alone(
+                *self.world, [&] { return self.driver->move_to_mm(mm, time, waiting(interrupt)); }, time);
+        },
+        py::arg("mm"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
+        "Goes there, mm by counts_per_mm; see move_to.");
     c.def("position_mm", call<Driver>(&Driver::position_mm), "Where it is, mm by counts_per_mm.");
-    c.def("find_zero", [](Board& self, std::uint8_t marks, Wide far, int rate, double timeout, bool interrupt) {
-        const Duration time = duration(timeout);
-        alone(*self.world, [&] { return self.driver->find_zero(marks, far, rate, time, waiting(interrupt)); }, time);
-    }, py::arg("marks"), py::arg("far"), py::arg("rate"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
-          "Slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) make the counter 0.");
+    c.def(
+        "find_zero",
+        [](Board& self, std::uint8_t marks, Wide far, int rate, double timeout, bool interrupt) {
+            const Duration time = duration(timeout);
+            alone(
+                *self.world, [&] { return self.driver->find_zero(marks, far, rate, time, waiting(interrupt)); }, time);
+        },
+        py::arg("marks"), py::arg("far"), py::arg("rate"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
+        "Slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) make the counter 0.");
 }
 
 db::SlopeTable table_of(const std::vector<std::pair<int, Wide>>& entries) {
     if (entries.size() != db::SlopeTable::entries)
-        refuse(fmt::format("A slope table has {} intervals, not {}; nothing was made.", db::SlopeTable::entries, entries.size()));
+        refuse(fmt::format("A slope table has {} intervals, not {}; nothing was made.", db::SlopeTable::entries,
+                           entries.size()));
     db::SlopeTable out;
     for (int i = 0; i < db::SlopeTable::entries; ++i) {
         const auto [rate, position] = entries[static_cast<std::size_t>(i)];
         if (rate < 0 || rate > db::most_rate || position < 0 || position > 16'777'215)
-            refuse(fmt::format("Interval {} is ({}, {}); rates are 0 to {}, positions 0 to 16777215 counts. Nothing was made.", i, rate, position, db::most_rate));
+            refuse(fmt::format(
+                "Interval {} is ({}, {}); rates are 0 to {}, positions 0 to 16777215 counts. Nothing was made.", i,
+                rate, position, db::most_rate));
         out.set(i, {rate, position});
     }
     return out;
@@ -95,7 +136,8 @@ db::SlopeTable table_of(const std::vector<std::pair<int, Wide>>& entries) {
 py::dict motion_of(const db::SlopeTable& table, Wide distance, int rate, const db::SpeedScale& scale) {
     const db::SlopeMotion motion = value_of(db::motion_of(table, distance, rate, scale));
     py::list legs;
-    for (const db::SlopeLeg& leg : motion.legs) legs.append(py::make_tuple(leg.rate, leg.speed, leg.from, leg.to, leg.start_s, leg.duration_s));
+    for (const db::SlopeLeg& leg : motion.legs)
+        legs.append(py::make_tuple(leg.rate, leg.speed, leg.from, leg.to, leg.start_s, leg.duration_s));
     py::dict out;
     out["legs"] = legs;
     out["seconds"] = motion.duration_s;
@@ -107,52 +149,79 @@ py::dict motion_of(const db::SlopeTable& table, Wide distance, int rate, const d
 }
 
 void bind_slopes(py::module_& m) {
-    py::class_<db::SpeedScale>(m, "SpeedScale", "How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt.")
+    py::class_<db::SpeedScale>(
+        m, "SpeedScale", "How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt.")
         .def(py::init([](std::optional<double> counts_per_pulse, std::optional<double> counts_per_volt) {
-            if (counts_per_pulse.has_value() == counts_per_volt.has_value()) refuse("A speed scale is counts_per_pulse or counts_per_volt, one of the two.");
-            const double value = counts_per_pulse ? *counts_per_pulse : *counts_per_volt;
-            if (!(value > 0 && value < 1e12)) refuse(fmt::format("A speed scale is {}; it is more than 0. Nothing was made.", value));
-            db::SpeedScale out;
-            out.analog = counts_per_volt.has_value();
-            (out.analog ? out.counts_per_volt : out.counts_per_pulse) = value;
-            return out;
-        }), py::arg("counts_per_pulse") = py::none(), py::arg("counts_per_volt") = py::none())
-        .def("speed", [](const db::SpeedScale& scale, int rate) {
-            if (rate < 0 || rate > db::most_rate) refuse(fmt::format("The rate is {}; it is 0 to {}.", rate, db::most_rate));
-            return scale.speed(rate);
-        }, py::arg("rate"), "Counts/s at a rate, 0 to 16383.")
-        .def("rate_for", &db::SpeedScale::rate_for, py::arg("counts_s"), "The greatest rate that is not faster than so many counts/s.");
-    py::class_<db::SlopeTable>(m, "SlopeTable", "48 intervals (rate 0 to 16383, counts 0 to 16,777,215): deceleration 0 to 23, acceleration 24 to 47.")
+                 if (counts_per_pulse.has_value() == counts_per_volt.has_value())
+                     refuse("A speed scale is counts_per_pulse or counts_per_volt, one of the two.");
+                 const double value = counts_per_pulse ? *counts_per_pulse : *counts_per_volt;
+                 if (!(value > 0 && value < 1e12))
+                     refuse(fmt::format("A speed scale is {}; it is more than 0. Nothing was made.", value));
+                 db::SpeedScale out;
+                 out.analog = counts_per_volt.has_value();
+                 (out.analog ? out.counts_per_volt : out.counts_per_pulse) = value;
+                 return out;
+             }),
+             py::arg("counts_per_pulse") = py::none(), py::arg("counts_per_volt") = py::none())
+        .def(
+            "speed",
+            [](const db::SpeedScale& scale, int rate) {
+                if (rate < 0 || rate > db::most_rate)
+                    refuse(fmt::format("The rate is {}; it is 0 to {}.", rate, db::most_rate));
+                return scale.speed(rate);
+            },
+            py::arg("rate"), "Counts/s at a rate, 0 to 16383.")
+        .def("rate_for", &db::SpeedScale::rate_for, py::arg("counts_s"),
+             "The greatest rate that is not faster than so many counts/s.");
+    py::class_<db::SlopeTable>(
+        m, "SlopeTable",
+        "48 intervals (rate 0 to 16383, counts 0 to 16,777,215): deceleration 0 to 23, acceleration 24 to 47.")
         .def(py::init(&table_of), py::arg("entries"))
-        .def_static("design", [](double top_speed, double acceleration, double deceleration, const db::SpeedScale& scale, double load, double creep_speed, double lag_s) {
-            return value_of(db::design_slope({top_speed, acceleration, deceleration, load, creep_speed, lag_s}, scale));
-        }, py::arg("top_speed"), py::arg("acceleration"), py::arg("deceleration"), py::arg("scale"), py::arg("load") = 0.0, py::arg("creep_speed") = 0.0,
-                    py::arg("lag_s") = 0.0,
-                    "A table for what a machine may do: counts/s, counts/s2; load in inertias of the empty machine; creep_speed 0: a 24th of the top speed.")
-        .def("entries", [](const db::SlopeTable& table) {
-            std::vector<std::pair<int, Wide>> out;
-            for (int i = 0; i < db::SlopeTable::entries; ++i) out.emplace_back(table.entry(i).rate, table.entry(i).position);
-            return out;
-        }, "The 48 intervals: (rate, counts).")
+        .def_static(
+            "design",
+            [](double top_speed, double acceleration, double deceleration, const db::SpeedScale& scale, double load,
+               double creep_speed, double lag_s) {
+                return value_of(
+                    db::design_slope({top_speed, acceleration, deceleration, load, creep_speed, lag_s}, scale));
+            },
+            py::arg("top_speed"), py::arg("acceleration"), py::arg("deceleration"), py::arg("scale"),
+            py::arg("load") = 0.0, py::arg("creep_speed") = 0.0, py::arg("lag_s") = 0.0,
+            "A table for what a machine may do: counts/s, counts/s2; load in inertias of the empty machine; "
+            "creep_speed 0: a 24th of the top speed.")
+        .def(
+            "entries",
+            [](const db::SlopeTable& table) {
+                std::vector<std::pair<int, Wide>> out;
+                for (int i = 0; i < db::SlopeTable::entries; ++i)
+                    out.emplace_back(table.entry(i).rate, table.entry(i).position);
+                return out;
+            },
+            "The 48 intervals: (rate, counts).")
         .def("motion", &motion_of, py::arg("distance"), py::arg("rate"), py::arg("scale"),
-             "What the card does with it for a move of so many counts with that rate, before anything moves: seconds, top_speed (counts/s), legs.");
+             "What the card does with it for a move of so many counts with that rate, before anything moves: seconds, "
+             "top_speed (counts/s), legs.");
 }
 
 }  // namespace
 
 void bind_databoard4002(py::module_& m) {
     bind_slopes(m);
-    BoardClass c(m, "Databoard4002", "The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault.");
+    BoardClass c(
+        m, "Databoard4002",
+        "The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault.");
     c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card, double counts_per_mm, int select) {
-        const Turn turn(*world, Turn::For::moving);
-        sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
-        if (!(counts_per_mm > 0 && counts_per_mm < 1e9)) refuse(fmt::format("There are {} counts a mm; it is more than 0. Nothing was made.", counts_per_mm));
-        if (select < 0 || select > 255) refuse(fmt::format("The card's number is {}; it is 0 to 255. Nothing was made.", select));
-        db::DriverSettings settings;
-        settings.counts_per_mm = counts_per_mm;
-        settings.select = static_cast<std::uint8_t>(select);
-        return Board{world, std::make_unique<Driver>(port, port, settings)};
-    }), py::arg("world"), py::arg("card"), py::arg("counts_per_mm") = 1000.0, py::arg("select") = 13);
+              const Turn turn(*world, Turn::For::moving);
+              sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
+              if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
+                  refuse(fmt::format("There are {} counts a mm; it is more than 0. Nothing was made.", counts_per_mm));
+              if (select < 0 || select > 255)
+                  refuse(fmt::format("The card's number is {}; it is 0 to 255. Nothing was made.", select));
+              db::DriverSettings settings;
+              settings.counts_per_mm = counts_per_mm;
+              settings.select = static_cast<std::uint8_t>(select);
+              return Board{world, std::make_unique<Driver>(port, port, settings)};
+          }),
+          py::arg("world"), py::arg("card"), py::arg("counts_per_mm") = 1000.0, py::arg("select") = 13);
     bind_commands(c);
     bind_events(c);
 }

@@ -9,11 +9,16 @@ namespace {
 const char* class_of(const Raised& raised) {
     if (raised.timeout) return "Timeout";
     switch (raised.error.trouble) {
-        case Trouble::bad_input: return "BadInput";
-        case Trouble::refused: return "Refused";
-        case Trouble::machine: return "MachineFault";
-        case Trouble::io: return "FileTrouble";
-        case Trouble::stopped: return "Stopped";
+        case Trouble::bad_input:
+            return "BadInput";
+        case Trouble::refused:
+            return "Refused";
+        case Trouble::machine:
+            return "MachineFault";
+        case Trouble::io:
+            return "FileTrouble";
+        case Trouble::stopped:
+            return "Stopped";
     }
     return "Error";
 }

@@ -18,7 +18,8 @@ using Grating = Driven<gb::GratingCard>;
 /// (sequence, ticks of the rack, counts)
 std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> told(const gb::Reading& reading) {
     const auto counts = reading.counts();
-    return {reading.frame.sequence, reading.frame.time, py::array_t<std::int64_t>(static_cast<py::ssize_t>(counts.size()), counts.data())};
+    return {reading.frame.sequence, reading.frame.time,
+            py::array_t<std::int64_t>(static_cast<py::ssize_t>(counts.size()), counts.data())};
 }
 
 py::dict told(const gb::CardInfo& info) {
@@ -52,45 +53,72 @@ gb::Card& model(World& world, const std::string& card) {
 }  // namespace
 
 void bind_grating_bus(py::module_& m) {
-    py::class_<Grating>(m, "GratingCard", "The function library of a motion card on a grating bus: the positions of one instant.")
+    py::class_<Grating>(m, "GratingCard",
+                        "The function library of a motion card on a grating bus: the positions of one instant.")
         .def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-            const Turn turn(*world, Turn::For::moving);
-            sim::VirtualPort& port = *card_of_type(*world, card, "grating_bus").port();
-            return Grating{world, std::make_unique<gb::GratingCard>(port, port)};
-        }), py::arg("world"), py::arg("card"))
-        .def("open", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->open(); })); }, "Looks whether such a card answers: how it is set; period in s.")
-        .def("read", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->read(); })); },
-             "The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it is stale, or its CRC is wrong.")
-        .def("wait", [](Grating& self, double timeout) {
-            const Duration time = duration(timeout);
-            const Instant began = self.world->now();
-            try {
-                return told(alone(*self.world, [&] { return self.driver->wait(time); }));
-            } catch (Raised& raised) {
-                raised.timeout = raised.error.trouble == Trouble::refused && self.world->now() - began >= time;
-                throw;
-            }
-        }, py::arg("timeout"), "Waits for a frame that was not read yet, and reads it; Timeout after timeout s.")
-        .def("stale", call<gb::GratingCard>(&gb::GratingCard::stale), "Whether the frame published last is two periods old.")
-        .def("errors", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->errors(); })); },
-             "What went wrong on the bus since the last clear_errors, each at most 65,535.")
+                 const Turn turn(*world, Turn::For::moving);
+                 sim::VirtualPort& port = *card_of_type(*world, card, "grating_bus").port();
+                 return Grating{world, std::make_unique<gb::GratingCard>(port, port)};
+             }),
+             py::arg("world"), py::arg("card"))
+        .def(
+            "open", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->open(); })); },
+            "Looks whether such a card answers: how it is set; period in s.")
+        .def(
+            "read", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->read(); })); },
+            "The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it "
+            "is stale, or its CRC is wrong.")
+        .def(
+            "wait",
+            [](Grating& self, double timeout) {
+                const Duration time = duration(timeout);
+                const Instant began = self.world->now();
+                try {
+                    return told(alone(*self.world, [&] { return self.driver->wait(time); }));
+                } catch (Raised& raised) {
+                    raised.timeout = raised.error.trouble == Trouble::refused && self.world->now() - began >= time;
+                    throw;
+                }
+            },
+            py::arg("timeout"), "Waits for a frame that was not read yet, and reads it; Timeout after timeout s.")
+        .def("stale", call<gb::GratingCard>(&gb::GratingCard::stale),
+             "Whether the frame published last is two periods old.")
+        .def(
+            "errors", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->errors(); })); },
+            "What went wrong on the bus since the last clear_errors, each at most 65,535.")
         .def("clear_errors", call<gb::GratingCard>(&gb::GratingCard::clear_errors), "Clears those counters.")
-        .def("set_position", [](Grating& self, int scale, std::int64_t count) {
-            if (scale < 0 || scale >= static_cast<int>(gb::most_scales)) refuse("There is no such scale; they are 0 to 254. Nothing was done.");
-            self.driver->set_position(scale, count);
-        }, py::arg("scale"), py::arg("count"), "From now on scale 0 to 254 of the frame counts from there on, where the next reading's low 32 bits allow it.");
-    m.def("bus_conflicts", [](World& world) {
-        return looking(world, [&] {
-            const gb::Bus* bus = rack::grating_bus_of(world.running());
-            if (bus == nullptr) refuse("The rack has no grating bus.");
-            return bus->lines().all_conflicts();
-        });
-    }, py::arg("world"), "Conflicts on all lines of the grating bus so far.");
-    m.def("refused_frames", [](World& world, const std::string& card) {
-        return looking(world, [&] { return model(world, card).counter(gb::Card::broken); });
-    }, py::arg("world"), py::arg("card"), "Frames that the card did not publish since the start.");
-    m.def("frame_picture", [](World& world, int frame) { return looking(world, [&] { return value_of(rack::frame_picture(world.config(), frame)); }); },
-          py::arg("world"), py::arg("frame"), "One frame of the rack as waves (SVG); a rack of its own is run for it.");
+        .def(
+            "set_position",
+            [](Grating& self, int scale, std::int64_t count) {
+                if (scale < 0 || scale >= static_cast<int>(gb::most_scales))
+                    refuse("There is no such scale; they are 0 to 254. Nothing was done.");
+                self.driver->set_position(scale, count);
+            },
+            py::arg("scale"), py::arg("count"),
+            "From now on scale 0 to 254 of the frame counts from there on, where the next reading's low 32 bits allow "
+            "it.");
+    m.def(
+        "bus_conflicts",
+        [](World& world) {
+            return looking(world, [&] {
+                const gb::Bus* bus = rack::grating_bus_of(world.running());
+                if (bus == nullptr) refuse("The rack has no grating bus.");
+                return bus->lines().all_conflicts();
+            });
+        },
+        py::arg("world"), "Conflicts on all lines of the grating bus so far.");
+    m.def(
+        "refused_frames",
+        [](World& world, const std::string& card) {
+            return looking(world, [&] { return model(world, card).counter(gb::Card::broken); });
+        },
+        py::arg("world"), py::arg("card"), "Frames that the card did not publish since the start.");
+    m.def(
+        "frame_picture",
+        [](World& world, int frame) {
+            return looking(world, [&] { return value_of(rack::frame_picture(world.config(), frame)); });
+        },
+        py::arg("world"), py::arg("frame"), "One frame of the rack as waves (SVG); a rack of its own is run for it.");
 }
 
 }  // namespace motionrack::python

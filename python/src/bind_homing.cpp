@@ -14,8 +14,11 @@ py::tuple told(const rack::HomingOutcome& outcome) {
     py::object error = py::none();
     if (!outcome.ended) {
         const Error& why = outcome.ended.error();
-        const char* name = why.trouble == Trouble::stopped ? "Stopped" : why.trouble == Trouble::machine ? "MachineFault" : "Refused";
-        error = py::module_::import("motionrack.errors").attr(name)(why.message, why.file, why.place.line, why.place.column);
+        const char* name = why.trouble == Trouble::stopped   ? "Stopped"
+                           : why.trouble == Trouble::machine ? "MachineFault"
+                                                             : "Refused";
+        error = py::module_::import("motionrack.errors")
+                    .attr(name)(why.message, why.file, why.place.line, why.place.column);
     }
     py::dict pictures;
     for (const rack::HomedAxis& axis : outcome.axes)
@@ -26,15 +29,18 @@ py::tuple told(const rack::HomingOutcome& outcome) {
 }  // namespace
 
 void bind_homing(py::module_& m) {
-    m.def("home", [](World& world, const std::string& axes, std::optional<int> type, std::int64_t timeout) {
-        if (type && (*type < 1 || *type > 4))
-            refuse("The type of homing is " + std::to_string(*type) + "; it is 1 to 4. Nothing was moved.");
-        rack::HomingSettings settings;
-        settings.axes = axes;
-        settings.type = type;
-        settings.timeout = ticks(timeout);
-        return told(alone(world, [&] { return world.home(settings); }));
-    }, py::arg("world"), py::arg("axes"), py::arg("type"), py::arg("ticks"));
+    m.def(
+        "home",
+        [](World& world, const std::string& axes, std::optional<int> type, std::int64_t timeout) {
+            if (type && (*type < 1 || *type > 4))
+                refuse("The type of homing is " + std::to_string(*type) + "; it is 1 to 4. Nothing was moved.");
+            rack::HomingSettings settings;
+            settings.axes = axes;
+            settings.type = type;
+            settings.timeout = ticks(timeout);
+            return told(alone(world, [&] { return world.home(settings); }));
+        },
+        py::arg("world"), py::arg("axes"), py::arg("type"), py::arg("ticks"));
 }
 
 }  // namespace motionrack::python

@@ -17,44 +17,69 @@ using Flex = Driven<Flex2Pos>;
 using FlexClass = py::class_<Flex>;
 
 int axis_in_range(int axis) {
-    if (axis < 0 || axis >= static_cast<int>(io::axis_count)) refuse(fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis));
+    if (axis < 0 || axis >= static_cast<int>(io::axis_count))
+        refuse(fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis));
     return axis;
 }
 
 io::tIOFlexCmd command_of(int number) {
-    if (number < io::cNop || number > io::cResNmSig) refuse(fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", number));
+    if (number < io::cNop || number > io::cResNmSig)
+        refuse(fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", number));
     return static_cast<io::tIOFlexCmd>(number);
 }
 
 void bind_source(FlexClass& c) {
-    c.def("Init", [](Flex& self, int address) {
-        if (address < 0 || address > 0xFFFF) refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", address));
-        return alone(*self.world, [&] { return self.driver->Init(static_cast<std::uint16_t>(address)), self.driver->Result; });
-    }, py::arg("Addr"), "Sets the base address, looks whether one card answers there, and loads the array; takes seconds of the rack's time. 0 if all is well, else see why.");
-    c.def_property_readonly("Result", [](const Flex& self) { return self.driver->Result; }, "0 ok, 1 configuration failed, 2 no card or two, 3 another project.");
-    c.def_property_readonly("why", [](const Flex& self) { return self.driver->why(); }, "The sentence to Result; \"\" if it is 0.");
+    c.def(
+        "Init",
+        [](Flex& self, int address) {
+            if (address < 0 || address > 0xFFFF)
+                refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", address));
+            return alone(*self.world,
+                         [&] { return self.driver->Init(static_cast<std::uint16_t>(address)), self.driver->Result; });
+        },
+        py::arg("Addr"),
+        "Sets the base address, looks whether one card answers there, and loads the array; takes seconds of the rack's "
+        "time. 0 if all is well, else see why.");
+    c.def_property_readonly(
+        "Result", [](const Flex& self) { return self.driver->Result; },
+        "0 ok, 1 configuration failed, 2 no card or two, 3 another project.");
+    c.def_property_readonly(
+        "why", [](const Flex& self) { return self.driver->why(); }, "The sentence to Result; \"\" if it is 0.");
     c.def("GetIdent", call<Flex2Pos>(&Flex2Pos::GetIdent), "Version of the project in the array.");
     c.def("ReadTime", call<Flex2Pos>(&Flex2Pos::ReadTime), "Time in ticks of 1.2 us, 0 to 16,777,215.");
-    c.def("ReadTimeClr", call<Flex2Pos>(&Flex2Pos::ReadTimeClr), "The same, and the counter is cleared in the same access.");
+    c.def("ReadTimeClr", call<Flex2Pos>(&Flex2Pos::ReadTimeClr),
+          "The same, and the counter is cleared in the same access.");
     using Read = std::int32_t (Flex2Pos::*)();
     int number = 0;
-    for (const Read read : {Read{&Flex2Pos::ReadPosition0}, Read{&Flex2Pos::ReadPosition1}, Read{&Flex2Pos::ReadPosition2}, Read{&Flex2Pos::ReadPosition3}})
-        c.def(fmt::format("ReadPosition{}", number++).c_str(), call<Flex2Pos>(read), "Position in counts since the calibration, -8,388,608 to 8,388,607.");
-    c.def("ReadTimeClrPosition", [](Flex& self) {
-        std::int32_t time = 0;
-        std::array<std::int32_t, 4> at{};
-        alone(*self.world, [&] { self.driver->ReadTimeClrPosition(time, at[0], at[1], at[2], at[3]); });
-        return std::tuple(time, at[0], at[1], at[2], at[3]);
-    }, "Time (1.2 us, cleared) and the four positions (counts) of one instant.");
-    c.def("WriteCmd", [](Flex& self, int a, int b, int d, int e) {
-        const std::array<io::tIOFlexCmd, 4> all = {command_of(a), command_of(b), command_of(d), command_of(e)};
-        alone(*self.world, [&] { self.driver->WriteCmd(all[0], all[1], all[2], all[3]); });
-    }, py::arg("Cmd0"), py::arg("Cmd1"), py::arg("Cmd2"), py::arg("Cmd3"), "A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig.");
-    c.def("ReadSts", [](Flex& self) {
-        const auto all = alone(*self.world, [&] { return self.driver->statuses(); });
-        const auto calibrated = [&](std::size_t axis) { return all[axis] == io::sCal; };
-        return std::tuple(calibrated(0), calibrated(1), calibrated(2), calibrated(3));
-    }, "Whether each axis is calibrated (sCal).");
+    for (const Read read : {Read{&Flex2Pos::ReadPosition0}, Read{&Flex2Pos::ReadPosition1},
+                            Read{&Flex2Pos::ReadPosition2}, Read{&Flex2Pos::ReadPosition3}})
+        c.def(fmt::format("ReadPosition{}", number++).c_str(), call<Flex2Pos>(read),
+              "Position in counts since the calibration, -8,388,608 to 8,388,607.");
+    c.def(
+        "ReadTimeClrPosition",
+        [](Flex& self) {
+            std::int32_t time = 0;
+            std::array<std::int32_t, 4> at{};
+            alone(*self.world, [&] { self.driver->ReadTimeClrPosition(time, at[0], at[1], at[2], at[3]); });
+            return std::tuple(time, at[0], at[1], at[2], at[3]);
+        },
+        "Time (1.2 us, cleared) and the four positions (counts) of one instant.");
+    c.def(
+        "WriteCmd",
+        [](Flex& self, int a, int b, int d, int e) {
+            const std::array<io::tIOFlexCmd, 4> all = {command_of(a), command_of(b), command_of(d), command_of(e)};
+            alone(*self.world, [&] { self.driver->WriteCmd(all[0], all[1], all[2], all[3]); });
+        },
+        py::arg("Cmd0"), py::arg("Cmd1"), py::arg("Cmd2"), py::arg("Cmd3"),
+        "A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig.");
+    c.def(
+        "ReadSts",
+        [](Flex& self) {
+            const auto all = alone(*self.world, [&] { return self.driver->statuses(); });
+            const auto calibrated = [&](std::size_t axis) { return all[axis] == io::sCal; };
+            return std::tuple(calibrated(0), calibrated(1), calibrated(2), calibrated(3));
+        },
+        "Whether each axis is calibrated (sCal).");
     c.def("WriteOutL", call<Flex2Pos>(&Flex2Pos::WriteOutL), py::arg("Data"), "Low 8 outputs of X5.");
     c.def("WriteOutH", call<Flex2Pos>(&Flex2Pos::WriteOutH), py::arg("Data"), "High 8 outputs of X5.");
     c.def("ReadInL", call<Flex2Pos>(&Flex2Pos::ReadInL), "Low 8 inputs.");
@@ -62,27 +87,42 @@ void bind_source(FlexClass& c) {
 }
 
 void bind_layer(FlexClass& c) {
-    c.def("read", [](Flex& self) {
-        const io::Reading reading = alone(*self.world, [&] { return self.driver->read(); });
-        std::vector<py::dict> axes;
-        for (const io::AxisReading& axis : reading.axes) {
-            py::dict one;
-            one["position"] = axis.position;
-            one["raw"] = axis.raw;
-            one["age"] = axis.age;
-            one["down"] = axis.down;
-            axes.push_back(one);
-        }
-        return std::pair(reading.ticks, axes);
-    }, "Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down.");
-    c.def("set_mode", [](Flex& self, int axis, bool reversed, int edges, bool index_low, int filter) {
-        alone(*self.world, [&] { return self.driver->set_mode(axis_in_range(axis), {reversed, edges, index_low, filter}); });
-    }, py::arg("axis"), py::arg("reversed") = false, py::arg("edges") = 4, py::arg("index_low") = false, py::arg("filter") = 0,
-          "How an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples of 100 ns.");
-    c.def("wait_calibrated", [](Flex& self, int axis, double timeout) {
-        const Duration time = duration(timeout);
-        alone(*self.world, [&] { return self.driver->wait_calibrated(axis_in_range(axis), time); }, time);
-    }, py::arg("axis"), py::arg("timeout") = 60.0, "Waits until the axis is calibrated; Timeout after timeout s.");
+    c.def(
+        "read",
+        [](Flex& self) {
+            const io::Reading reading = alone(*self.world, [&] { return self.driver->read(); });
+            std::vector<py::dict> axes;
+            for (const io::AxisReading& axis : reading.axes) {
+                py::dict one;
+                one["position"] = axis.position;
+                one["raw"] = axis.raw;
+                one["age"] = axis.age;
+                one["down"] = axis.down;
+                axes.push_back(one);
+            }
+            return std::pair(reading.ticks, axes);
+        },
+        "Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw "
+        "(counts), age of the last count (1.2 us), down.");
+    c.def(
+        "set_mode",
+        [](Flex& self, int axis, bool reversed, int edges, bool index_low, int filter) {
+            alone(*self.world, [&] {
+                return self.driver->set_mode(axis_in_range(axis), {reversed, edges, index_low, filter});
+            });
+        },
+        py::arg("axis"), py::arg("reversed") = false, py::arg("edges") = 4, py::arg("index_low") = false,
+        py::arg("filter") = 0,
+        "How an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples "
+        "of 100 ns.");
+    c.def(
+        "wait_calibrated",
+        [](Flex& self, int axis, double timeout) {
+            const Duration time = duration(timeout);
+            alone(
+                *self.world, [&] { return self.driver->wait_calibrated(axis_in_range(axis), time); }, time);
+        },
+        py::arg("axis"), py::arg("timeout") = 60.0, "Waits until the axis is calibrated; Timeout after timeout s.");
     c.def("clear_errors", call<Flex2Pos>(&Flex2Pos::clear_errors), "Clears the counters of errors.");
     c.def("reset", call<Flex2Pos>(&Flex2Pos::reset), "Positions and the card's time begin at 0.");
 }
@@ -93,14 +133,20 @@ std::optional<std::pair<double, double>> estimate(const io::SpeedEstimate& it) {
 }
 
 void bind_speed(py::module_& m) {
-    py::class_<io::SpeedMeter>(m, "SpeedMeter", "Speed of an axis from readings of an Ioflex02, with the error that it cannot exceed.")
-        .def(py::init<double>(), py::arg("edge_error") = 0.0, "edge_error: how far an edge of the encoder may be from its place, counts.")
-        .def("update", [](io::SpeedMeter& meter, std::int64_t raw, std::int64_t age, std::int64_t ticks) {
-            io::AxisReading axis;
-            axis.raw = raw;
-            axis.age = age;
-            return estimate(meter.update(axis, ticks).best());
-        }, py::arg("raw"), py::arg("age"), py::arg("ticks"), "A reading (counts, and 1.2 us ticks); (counts/s, error) or None before the second one.")
+    py::class_<io::SpeedMeter>(m, "SpeedMeter",
+                               "Speed of an axis from readings of an Ioflex02, with the error that it cannot exceed.")
+        .def(py::init<double>(), py::arg("edge_error") = 0.0,
+             "edge_error: how far an edge of the encoder may be from its place, counts.")
+        .def(
+            "update",
+            [](io::SpeedMeter& meter, std::int64_t raw, std::int64_t age, std::int64_t ticks) {
+                io::AxisReading axis;
+                axis.raw = raw;
+                axis.age = age;
+                return estimate(meter.update(axis, ticks).best());
+            },
+            py::arg("raw"), py::arg("age"), py::arg("ticks"),
+            "A reading (counts, and 1.2 us ticks); (counts/s, error) or None before the second one.")
         .def("restart", &io::SpeedMeter::restart, "Forgets what was.");
 }
 
@@ -108,12 +154,15 @@ void bind_speed(py::module_& m) {
 
 void bind_ioflex02(py::module_& m) {
     bind_speed(m);
-    FlexClass c(m, "Ioflex02", "The IOFLEX02's unit uFlex2Pos under its source's names, and one layer up. Before Init has succeeded every read gives 0.");
+    FlexClass c(m, "Ioflex02",
+                "The IOFLEX02's unit uFlex2Pos under its source's names, and one layer up. Before Init has succeeded "
+                "every read gives 0.");
     c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-        const Turn turn(*world, Turn::For::moving);
-        sim::VirtualPort& port = *card_of_type(*world, card, "ioflex02").port();
-        return Flex{world, std::make_unique<Flex2Pos>(port, port)};
-    }), py::arg("world"), py::arg("card"));
+              const Turn turn(*world, Turn::For::moving);
+              sim::VirtualPort& port = *card_of_type(*world, card, "ioflex02").port();
+              return Flex{world, std::make_unique<Flex2Pos>(port, port)};
+          }),
+          py::arg("world"), py::arg("card"));
     c.attr("cVer") = io::cVer;
     c.attr("cNop") = static_cast<int>(io::cNop);
     c.attr("cRes") = static_cast<int>(io::cRes);

@@ -33,14 +33,18 @@ py::array_t<T> series(const std::vector<rack::Sample>& samples, Get get) {
     return out;
 }
 
-std::string letter(int index) { return std::string(1, control::axis_letters[static_cast<std::size_t>(index)]); }
+std::string letter(int index) {
+    return std::string(1, control::axis_letters[static_cast<std::size_t>(index)]);
+}
 
 /// (ticks, {signal: values}) of what the monitor saw.
 py::tuple samples_of(const Ran& ran) {
     const rack::Monitor& monitor = ran.world->job()->monitor();
     const std::vector<rack::Sample>& samples = monitor.samples();
     py::dict signals;
-    const auto add = [&](int index, const char* what, auto get) { signals[py::str(letter(index) + "." + what)] = series<double>(samples, get); };
+    const auto add = [&](int index, const char* what, auto get) {
+        signals[py::str(letter(index) + "." + what)] = series<double>(samples, get);
+    };
     for (const rack::AxisOutcome& axis : ran.outcome.axes) {
         const auto i = static_cast<std::size_t>(axis.index);
         add(axis.index, "position", [i](const rack::Sample& sample) { return sample.position[i]; });
@@ -48,8 +52,10 @@ py::tuple samples_of(const Ran& ran) {
         add(axis.index, "accel", [i](const rack::Sample& sample) { return sample.accel[i]; });
         if (axis.servo) add(axis.index, "volts", [i](const rack::Sample& sample) { return sample.volts[i]; });
     }
-    signals["deviation"] = py::array_t<double>(static_cast<py::ssize_t>(monitor.deviations().size()), monitor.deviations().data());
-    return py::make_tuple(series<std::int64_t>(samples, [](const rack::Sample& sample) { return sample.at.count(); }), signals);
+    signals["deviation"] =
+        py::array_t<double>(static_cast<py::ssize_t>(monitor.deviations().size()), monitor.deviations().data());
+    return py::make_tuple(series<std::int64_t>(samples, [](const rack::Sample& sample) { return sample.at.count(); }),
+                          signals);
 }
 
 py::dict dict_of(const rack::AxisOutcome& axis) {
@@ -106,7 +112,8 @@ void add_plan(py::dict& out, const rack::JobOutcome& outcome) {
     out["moves_read"] = outcome.run.moves;
     out["program_ended"] = outcome.run.ended;
     py::list events;
-    for (const control::ProgramEvent& event : outcome.run.events) events.append(py::make_tuple(event.line, event.after_block, event.text));
+    for (const control::ProgramEvent& event : outcome.run.events)
+        events.append(py::make_tuple(event.line, event.after_block, event.text));
     out["program_events"] = events;
     out["program_events_left_out"] = outcome.run.events_left_out;
 }
@@ -126,7 +133,8 @@ py::dict dict_of(const Ran& ran) {
     out["worst_line"] = outcome.worst.line;
     out["worst_place"] = py::make_tuple(outcome.worst.place[0], outcome.worst.place[1], outcome.worst.place[2]);
     out["tolerance_mm"] = outcome.tolerance_mm;
-    for (const rack::JobWarning& warning : outcome.warnings) warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));
+    for (const rack::JobWarning& warning : outcome.warnings)
+        warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));
     out["warnings"] = warnings;
     out["chip_segments"] = outcome.chip_segments;
     out["events"] = outcome.events;
@@ -139,7 +147,8 @@ py::dict dict_of(const Ran& ran) {
     return out;
 }
 
-void write(const Ran& ran, const std::string& path, Result<void> (*writer)(const trace::ReportData&, const std::string&)) {
+void write(const Ran& ran, const std::string& path,
+           Result<void> (*writer)(const trace::ReportData&, const std::string&)) {
     looking(*ran.world, [&] { value_of(writer(ran.report(), path)); });
 }
 
@@ -161,7 +170,9 @@ control::gcode::Settings check(const World& world, const GivenProgram& program) 
     return world.check(program);
 }
 
-std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks, const std::optional<std::string>& profile, const std::vector<std::string>& faults, const py::object& progress) {
+std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks,
+                         const std::optional<std::string>& profile, const std::vector<std::string>& faults,
+                         const py::object& progress) {
     control::gcode::Settings reading;
     {
         const Turn turn(*world, Turn::For::moving);
@@ -183,29 +194,50 @@ std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram
 
 void bind_job(py::module_& m) {
     py::class_<Ran>(m, "Ran", "A program that was run; motionrack.Outcome is what people use.")
-        .def("error", [](const Ran& ran) -> py::object {
-            if (ran.outcome.ended) return py::none();
-            const Error& error = ran.outcome.ended.error();
-            static constexpr const char* names[] = {"BadInput", "Refused", "MachineFault", "FileTrouble", "Stopped"};
-            return py::module_::import("motionrack.errors").attr(names[static_cast<std::size_t>(error.trouble)])(error.message, error.file, error.place.line, error.place.column);
-        })
+        .def("error",
+             [](const Ran& ran) -> py::object {
+                 if (ran.outcome.ended) return py::none();
+                 const Error& error = ran.outcome.ended.error();
+                 static constexpr const char* names[] = {"BadInput", "Refused", "MachineFault", "FileTrouble",
+                                                         "Stopped"};
+                 return py::module_::import("motionrack.errors")
+                     .attr(names[static_cast<std::size_t>(error.trouble)])(error.message, error.file, error.place.line,
+                                                                           error.place.column);
+             })
         .def("data", [](const Ran& ran) { return looking(*ran.world, [&] { return dict_of(ran); }); })
         .def("samples", [](const Ran& ran) { return looking(*ran.world, [&] { return samples_of(ran); }); })
         .def("summary", [](const Ran& ran) { return rack::summary_of(ran.world->config(), ran.outcome); })
         .def("json", [](const Ran& ran) { return rack::summary_json(ran.world->config(), ran.outcome); })
-        .def("svg", [](const Ran& ran, bool perspective) {
-            return looking(*ran.world, [&] {
-                return trace::svg_path(ran.report(), perspective ? trace::PathView::perspective : trace::PathView::plan, {.standalone = true});
-            });
-        }, py::arg("perspective"))
-        .def("write_report", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_report); }, py::arg("path"))
-        .def("write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); }, py::arg("path"))
-        .def("write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); }, py::arg("path"));
+        .def(
+            "svg",
+            [](const Ran& ran, bool perspective) {
+                return looking(*ran.world, [&] {
+                    return trace::svg_path(ran.report(),
+                                           perspective ? trace::PathView::perspective : trace::PathView::plan,
+                                           {.standalone = true});
+                });
+            },
+            py::arg("perspective"))
+        .def(
+            "write_report", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_report); },
+            py::arg("path"))
+        .def(
+            "write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); },
+            py::arg("path"))
+        .def(
+            "write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); },
+            py::arg("path"));
     py::class_<GivenProgram>(m, "Program", "A part program's text and what goes with it.")
-        .def(py::init<std::string, std::string, std::string, std::string, std::string, bool>(), py::arg("text"), py::arg("name"), py::arg("folder"),
-             py::arg("tools"), py::arg("tools_name"), py::arg("block_delete"));
-    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("sample_ticks"), py::arg("profile"), py::arg("faults"), py::arg("progress"));
-    m.def("check", [](World& world, const GivenProgram& program) { looking(world, [&] { static_cast<void>(check(world, program)); }); }, py::arg("world"), py::arg("program"));
+        .def(py::init<std::string, std::string, std::string, std::string, std::string, bool>(), py::arg("text"),
+             py::arg("name"), py::arg("folder"), py::arg("tools"), py::arg("tools_name"), py::arg("block_delete"));
+    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("sample_ticks"), py::arg("profile"),
+          py::arg("faults"), py::arg("progress"));
+    m.def(
+        "check",
+        [](World& world, const GivenProgram& program) {
+            looking(world, [&] { static_cast<void>(check(world, program)); });
+        },
+        py::arg("world"), py::arg("program"));
 }
 
 }  // namespace motionrack::python

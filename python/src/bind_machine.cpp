@@ -28,7 +28,8 @@ auto ordered(Operated& self, Work work) {
 }
 
 char letter(const std::string& axis) {
-    if (axis.size() != 1) refuse(fmt::format("An axis is one letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
+    if (axis.size() != 1)
+        refuse(fmt::format("An axis is one letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
     return axis[0];
 }
 
@@ -65,7 +66,8 @@ py::dict dict_of(const operate::Status& status) {
     for (const operate::AxisStatus& axis : status.axes) axes[py::str(std::string(1, axis.letter))] = dict_of(axis);
     py::list alarms;
     for (const operate::Alarm& alarm : status.alarms)
-        alarms.append(py::make_tuple(alarm.number, to_seconds(alarm.at), alarm.source, alarm.text, alarm.active, alarm.acknowledged));
+        alarms.append(py::make_tuple(alarm.number, to_seconds(alarm.at), alarm.source, alarm.text, alarm.active,
+                                     alarm.acknowledged));
     out["seconds"] = to_seconds(status.at);
     out["ticks"] = status.at.count();
     out["state"] = std::string(operate::name_of(status.state));
@@ -84,34 +86,67 @@ py::dict dict_of(const operate::Status& status) {
 
 void bind_orders(Class& c) {
     const auto plain = [&](const char* name, auto order) {
-        c.def(name, [order](Operated& self) { ordered(self, [order](Machine& machine) -> Done { return order(machine); }); });
+        c.def(name,
+              [order](Operated& self) { ordered(self, [order](Machine& machine) -> Done { return order(machine); }); });
     };
     plain("hold", [](Machine& machine) { return machine.hold(); });
     plain("resume", [](Machine& machine) { return machine.resume(); });
     plain("stop", [](Machine& machine) { return machine.stop(), Done(); });
     plain("reset", [](Machine& machine) { return machine.reset(), Done(); });
-    c.def("enable", [](Operated& self, bool on, const std::string& axes) { ordered(self, [&](Machine& machine) { return machine.enable(on, axes); }); },
-          py::arg("on"), py::arg("axes"));
-    c.def("begin", [](Operated& self, const std::string& program, const std::string& name) {
-        ordered(self, [&](Machine& machine) { return machine.begin_program(program, name); });
-    }, py::arg("program"), py::arg("name"));
-    c.def("home", [](Operated& self, const std::string& axes) { ordered(self, [&](Machine& machine) { return machine.home(axes); }); }, py::arg("axes"));
-    c.def("jog", [](Operated& self, const std::string& axis, double speed) {
-        ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.jog(which, speed); });
-    }, py::arg("axis"), py::arg("speed"));
-    c.def("jog_by", [](Operated& self, const std::string& axis, double distance, double speed) {
-        ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.jog_by(which, distance, speed); });
-    }, py::arg("axis"), py::arg("distance"), py::arg("speed"));
-    c.def("declare_position", [](Operated& self, const std::string& axis, double position) {
-        ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.declare_position(which, position); });
-    }, py::arg("axis"), py::arg("position"));
-    c.def("set_overrides", [](Operated& self, double feed, double rapid) {
-        if (!(feed > 0 && feed <= 2 && rapid > 0 && rapid <= 1)) refuse(fmt::format("The overrides are {} and {}; feed is more than 0 up to 2, rapid up to 1. Nothing was changed.", feed, rapid));
-        ordered(self, [&](Machine& machine) { return machine.set_overrides(feed, rapid), Done(); });
-    }, py::arg("feed"), py::arg("rapid"));
-    c.def("acknowledge", [](Operated& self, std::int64_t alarm) {
-        return ordered(self, [&](Machine& machine) { return Result<bool>(machine.acknowledge(alarm)); });
-    }, py::arg("alarm"));
+    c.def(
+        "enable",
+        [](Operated& self, bool on, const std::string& axes) {
+            ordered(self, [&](Machine& machine) { return machine.enable(on, axes); });
+        },
+        py::arg("on"), py::arg("axes"));
+    c.def(
+        "begin",
+        [](Operated& self, const std::string& program, const std::string& name) {
+            ordered(self, [&](Machine& machine) { return machine.begin_program(program, name); });
+        },
+        py::arg("program"), py::arg("name"));
+    c.def(
+        "home",
+        [](Operated& self, const std::string& axes) {
+            ordered(self, [&](Machine& machine) { return machine.home(axes); });
+        },
+        py::arg("axes"));
+    c.def(
+        "jog",
+        [](Operated& self, const std::string& axis, double speed) {
+            ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.jog(which, speed); });
+        },
+        py::arg("axis"), py::arg("speed"));
+    c.def(
+        "jog_by",
+        [](Operated& self, const std::string& axis, double distance, double speed) {
+            ordered(self,
+                    [&, which = letter(axis)](Machine& machine) { return machine.jog_by(which, distance, speed); });
+        },
+        py::arg("axis"), py::arg("distance"), py::arg("speed"));
+    c.def(
+        "declare_position",
+        [](Operated& self, const std::string& axis, double position) {
+            ordered(self,
+                    [&, which = letter(axis)](Machine& machine) { return machine.declare_position(which, position); });
+        },
+        py::arg("axis"), py::arg("position"));
+    c.def(
+        "set_overrides",
+        [](Operated& self, double feed, double rapid) {
+            if (!(feed > 0 && feed <= 2 && rapid > 0 && rapid <= 1))
+                refuse(fmt::format(
+                    "The overrides are {} and {}; feed is more than 0 up to 2, rapid up to 1. Nothing was changed.",
+                    feed, rapid));
+            ordered(self, [&](Machine& machine) { return machine.set_overrides(feed, rapid), Done(); });
+        },
+        py::arg("feed"), py::arg("rapid"));
+    c.def(
+        "acknowledge",
+        [](Operated& self, std::int64_t alarm) {
+            return ordered(self, [&](Machine& machine) { return Result<bool>(machine.acknowledge(alarm)); });
+        },
+        py::arg("alarm"));
 }
 
 void bind_rest(Class& c) {
@@ -121,17 +156,36 @@ void bind_rest(Class& c) {
         return dict_of(ordered(self, [](Machine& machine) { return Result<operate::Status>(machine.status()); }));
     });
     c.def("trace_hash", [](Operated& self) {
-        return ordered(self, [](Machine& machine) { return Result<std::string>(fmt::format("{:016x}", machine.rack().kernel().trace_hash())); });
+        return ordered(self, [](Machine& machine) {
+            return Result<std::string>(fmt::format("{:016x}", machine.rack().kernel().trace_hash()));
+        });
     });
-    c.def("wire", [](Operated& self, const std::string& name) { return ordered(self, [&](Machine& machine) { return machine.wires().get(name); }); }, py::arg("name"));
-    c.def("set_wire", [](Operated& self, const std::string& name, std::optional<double> value) {
-        ordered(self, [&](Machine& machine) { return machine.wires().set(name, value.value_or(std::numeric_limits<double>::quiet_NaN())); });
-    }, py::arg("name"), py::arg("value"));
-    c.def("quantity", [](Operated& self, const std::string& name) { return ordered(self, [&](Machine& machine) { return rack::get_quantity(machine.rack(), name); }); },
-          py::arg("name"));
-    c.def("fault", [](Operated& self, const std::string& fault, const std::string& target) {
-        ordered(self, [&](Machine& machine) { return rack::inject_fault(machine.rack(), fault, target); });
-    }, py::arg("fault"), py::arg("target"));
+    c.def(
+        "wire",
+        [](Operated& self, const std::string& name) {
+            return ordered(self, [&](Machine& machine) { return machine.wires().get(name); });
+        },
+        py::arg("name"));
+    c.def(
+        "set_wire",
+        [](Operated& self, const std::string& name, std::optional<double> value) {
+            ordered(self, [&](Machine& machine) {
+                return machine.wires().set(name, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+            });
+        },
+        py::arg("name"), py::arg("value"));
+    c.def(
+        "quantity",
+        [](Operated& self, const std::string& name) {
+            return ordered(self, [&](Machine& machine) { return rack::get_quantity(machine.rack(), name); });
+        },
+        py::arg("name"));
+    c.def(
+        "fault",
+        [](Operated& self, const std::string& fault, const std::string& target) {
+            ordered(self, [&](Machine& machine) { return rack::inject_fault(machine.rack(), fault, target); });
+        },
+        py::arg("fault"), py::arg("target"));
 }
 
 }  // namespace
@@ -139,9 +193,10 @@ void bind_rest(Class& c) {
 void bind_machine(py::module_& m) {
     Class c(m, "Operated", "A machine; motionrack.Machine is what people use.");
     c.def(py::init([](World& world) {
-        const Turn turn(world, Turn::For::moving);
-        return value_of(Operated::make(world.config()));
-    }), py::arg("world"));
+              const Turn turn(world, Turn::For::moving);
+              return value_of(Operated::make(world.config()));
+          }),
+          py::arg("world"));
     bind_orders(c);
     bind_rest(c);
 }

@@ -24,7 +24,8 @@ std::string timeline(const std::string& title, const Doubles& seconds, const std
     for (const auto& [name, lines] : charts) {
         trace::SvgChart& chart = drawn.emplace_back(trace::SvgChart{name, {}, {}});
         for (const auto& [line, look, values] : lines) {
-            if (values.size() != seconds.size()) refuse("Every line of a picture has as many values as there are instants; nothing was drawn.");
+            if (values.size() != seconds.size())
+                refuse("Every line of a picture has as many values as there are instants; nothing was drawn.");
             chart.series.push_back({line, look, time, {values.data(), static_cast<std::size_t>(values.size())}});
         }
     }
@@ -38,7 +39,8 @@ std::string timeline(const std::string& title, const Doubles& seconds, const std
 }  // namespace
 
 void bind_pictures(py::module_& m) {
-    m.def("svg_timeline", &timeline, py::arg("title"), py::arg("seconds"), py::arg("charts"), py::arg("spans"), py::arg("width"), py::arg("height"));
+    m.def("svg_timeline", &timeline, py::arg("title"), py::arg("seconds"), py::arg("charts"), py::arg("spans"),
+          py::arg("width"), py::arg("height"));
 }
 
 }  // namespace motionrack::python

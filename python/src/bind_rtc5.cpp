@@ -15,7 +15,8 @@ namespace {
 
 using rtc5::Engine;
 
-/// The commands of one card. A question takes `question_time` of the rack's time first, as the answer over the bus does.
+/// The commands of one card. A question takes `question_time` of the rack's time first, as the answer over the bus
+/// does.
 struct Rtc5 {
     std::shared_ptr<World> world;
     rtc5::Card* card;
@@ -52,7 +53,8 @@ std::string doc_of(const rtc5::ListCommandInfo& command) {
     for (int i = 0; i < command.param_count(); ++i) {
         const rtc5::ParamInfo& param = command.params[static_cast<std::size_t>(i)];
         const rtc5::KindInfo kind = rtc5::kind_info(param.kind);
-        out += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, kind.least, kind.greatest, kind.unit.empty() ? "" : " ", kind.unit);
+        out += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, kind.least, kind.greatest,
+                           kind.unit.empty() ? "" : " ", kind.unit);
     }
     return out;
 }
@@ -60,31 +62,51 @@ std::string doc_of(const rtc5::ListCommandInfo& command) {
 void bind_lists(Rtc5Class& c) {
     for (const rtc5::ListCommandInfo& command : rtc5::map::list_commands) {
         if (command.op == rtc5::Op::none) continue;
-        c.def(std::string(command.name).c_str(), [op = command.op](Rtc5& self, const py::args& parameters) {
-            std::vector<double> values;
-            for (const py::handle each : parameters) values.push_back(each.cast<double>());
-            order(self, [&](Engine& engine) -> Result<void> {
-                MOTIONRACK_TRY(const rtc5::Command made, rtc5::list_command(op, values));
-                return engine.put(made);
-            });
-        }, doc_of(command).c_str());
+        c.def(
+            std::string(command.name).c_str(),
+            [op = command.op](Rtc5& self, const py::args& parameters) {
+                std::vector<double> values;
+                for (const py::handle each : parameters) values.push_back(each.cast<double>());
+                order(self, [&](Engine& engine) -> Result<void> {
+                    MOTIONRACK_TRY(const rtc5::Command made, rtc5::list_command(op, values));
+                    return engine.put(made);
+                });
+            },
+            doc_of(command).c_str());
     }
-    c.def("set_start_list", [](Rtc5& self, std::uint32_t list, std::int64_t position) {
-        order(self, [&](Engine& engine) { return engine.set_start_list(list, position); });
-    }, py::arg("ListNo"), py::arg("Pos") = 0, "List commands go to list 1 or 2 from here on, from that position.");
-    c.def("load_list", [](Rtc5& self, std::uint32_t list, std::int64_t position) {
-        return ask(self, [&](Engine& engine) { return engine.load_list(list, position); });
-    }, py::arg("ListNo"), py::arg("Pos") = 0, "The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list opened, or 0.");
-    c.def("load_sub", [](Rtc5& self, std::uint32_t index) { order(self, [&](Engine& engine) { return engine.load_sub(index); }); }, py::arg("index"),
-          "What is put up to list_return becomes subroutine 0 to 1023.");
-    c.def("config_list", [](Rtc5& self, std::int64_t list1, std::int64_t list2) {
-        order(self, [&](Engine& engine) { return engine.config_list(list1, list2); });
-    }, py::arg("list1"), py::arg("list2"), "Positions of list 1 and list 2; -1: the rest.");
-    c.def("execute_list", [](Rtc5& self, std::uint32_t list, std::int64_t position) {
-        order(self, [&](Engine& engine) { return engine.execute_list(list, position); });
-    }, py::arg("ListNo"), py::arg("Pos") = 0, "Starts list 1 or 2.");
+    c.def(
+        "set_start_list",
+        [](Rtc5& self, std::uint32_t list, std::int64_t position) {
+            order(self, [&](Engine& engine) { return engine.set_start_list(list, position); });
+        },
+        py::arg("ListNo"), py::arg("Pos") = 0, "List commands go to list 1 or 2 from here on, from that position.");
+    c.def(
+        "load_list",
+        [](Rtc5& self, std::uint32_t list, std::int64_t position) {
+            return ask(self, [&](Engine& engine) { return engine.load_list(list, position); });
+        },
+        py::arg("ListNo"), py::arg("Pos") = 0,
+        "The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list "
+        "opened, or 0.");
+    c.def(
+        "load_sub",
+        [](Rtc5& self, std::uint32_t index) { order(self, [&](Engine& engine) { return engine.load_sub(index); }); },
+        py::arg("index"), "What is put up to list_return becomes subroutine 0 to 1023.");
+    c.def(
+        "config_list",
+        [](Rtc5& self, std::int64_t list1, std::int64_t list2) {
+            order(self, [&](Engine& engine) { return engine.config_list(list1, list2); });
+        },
+        py::arg("list1"), py::arg("list2"), "Positions of list 1 and list 2; -1: the rest.");
+    c.def(
+        "execute_list",
+        [](Rtc5& self, std::uint32_t list, std::int64_t position) {
+            order(self, [&](Engine& engine) { return engine.execute_list(list, position); });
+        },
+        py::arg("ListNo"), py::arg("Pos") = 0, "Starts list 1 or 2.");
     const auto plain = [&](const char* name, void (Engine::*function)(), const char* doc) {
-        c.def(name, [function](Rtc5& self) { order(self, [&](Engine& engine) { (engine.*function)(); }); }, doc);
+        c.def(
+            name, [function](Rtc5& self) { order(self, [&](Engine& engine) { (engine.*function)(); }); }, doc);
     };
     plain("auto_change", &Engine::auto_change, "The other list starts when this one ends.");
     plain("start_loop", &Engine::start_loop, "Lists 1 and 2 run in turn.");
@@ -99,92 +121,166 @@ void bind_lists(Rtc5Class& c) {
 }
 
 void bind_settings(Rtc5Class& c) {
-    c.def("goto_xy", [](Rtc5& self, double x, double y) { order(self, [&](Engine& engine) { return engine.goto_xy(x, y); }); }, py::arg("x"), py::arg("y"),
-          "Jumps there, bits, while no list runs.");
+    c.def(
+        "goto_xy",
+        [](Rtc5& self, double x, double y) { order(self, [&](Engine& engine) { return engine.goto_xy(x, y); }); },
+        py::arg("x"), py::arg("y"), "Jumps there, bits, while no list runs.");
     const auto speed = [&](const char* name, rtc5::Op op, void (Engine::*function)(double), const char* doc) {
-        c.def(name, [op, function](Rtc5& self, double bits_ms) {
+        c.def(
+            name,
+            [op, function](Rtc5& self, double bits_ms) {
+                order(self, [&](Engine& engine) -> Result<void> {
+                    MOTIONRACK_CHECK(check(op, bits_ms));
+                    (engine.*function)(bits_ms);
+                    return {};
+                });
+            },
+            py::arg("bits_ms"), doc);
+    };
+    speed("set_jump_speed_ctrl", rtc5::Op::set_jump_speed, &Engine::set_jump_speed,
+          "Jump speed, 1.6 to 800,000 bits/ms.");
+    speed("set_mark_speed_ctrl", rtc5::Op::set_mark_speed, &Engine::set_mark_speed,
+          "Mark speed, 1.6 to 800,000 bits/ms.");
+    c.def(
+        "set_control_mode",
+        [](Rtc5& self, std::uint32_t mode) {
             order(self, [&](Engine& engine) -> Result<void> {
-                MOTIONRACK_CHECK(check(op, bits_ms));
-                (engine.*function)(bits_ms);
+                MOTIONRACK_CHECK(check(rtc5::Op::set_control_mode_list, mode));
+                engine.set_control_mode(mode);
                 return {};
             });
-        }, py::arg("bits_ms"), doc);
-    };
-    speed("set_jump_speed_ctrl", rtc5::Op::set_jump_speed, &Engine::set_jump_speed, "Jump speed, 1.6 to 800,000 bits/ms.");
-    speed("set_mark_speed_ctrl", rtc5::Op::set_mark_speed, &Engine::set_mark_speed, "Mark speed, 1.6 to 800,000 bits/ms.");
-    c.def("set_control_mode", [](Rtc5& self, std::uint32_t mode) {
-        order(self, [&](Engine& engine) -> Result<void> {
-            MOTIONRACK_CHECK(check(rtc5::Op::set_control_mode_list, mode));
-            engine.set_control_mode(mode);
-            return {};
-        });
-    }, py::arg("mode"), "Bit 0: the start line starts a list.");
-    c.def("set_matrix", [](Rtc5& self, int head, std::array<double, 4> matrix, int at_once) {
-        order(self, [&](Engine& engine) { return engine.set_matrix(head, matrix, at_once); });
-    }, py::arg("head"), py::arg("matrix"), py::arg("at_once") = 1, "Matrix m11, m12, m21, m22 of a head, 1 to 4.");
-    c.def("set_offset", [](Rtc5& self, int head, double x, double y, int at_once) {
-        order(self, [&](Engine& engine) { return engine.set_offset(head, {x, y}, at_once); });
-    }, py::arg("head"), py::arg("x"), py::arg("y"), py::arg("at_once") = 1, "Offset of a head, bits.");
-    c.def("set_angle", [](Rtc5& self, int head, double degrees, int at_once) {
-        order(self, [&](Engine& engine) { return engine.set_angle(head, degrees, at_once); });
-    }, py::arg("head"), py::arg("degrees"), py::arg("at_once") = 1, "Rotation of a head, degrees.");
-    c.def("set_scale", [](Rtc5& self, int head, double scale, int at_once) {
-        order(self, [&](Engine& engine) { return engine.set_scale(head, scale, at_once); });
-    }, py::arg("head"), py::arg("scale"), py::arg("at_once") = 1, "Scale of a head.");
+        },
+        py::arg("mode"), "Bit 0: the start line starts a list.");
+    c.def(
+        "set_matrix",
+        [](Rtc5& self, int head, std::array<double, 4> matrix, int at_once) {
+            order(self, [&](Engine& engine) { return engine.set_matrix(head, matrix, at_once); });
+        },
+        py::arg("head"), py::arg("matrix"), py::arg("at_once") = 1, "Matrix m11, m12, m21, m22 of a head, 1 to 4.");
+    c.def(
+        "set_offset",
+        [](Rtc5& self, int head, double x, double y, int at_once) {
+            order(self, [&](Engine& engine) { return engine.set_offset(head, {x, y}, at_once); });
+        },
+        py::arg("head"), py::arg("x"), py::arg("y"), py::arg("at_once") = 1, "Offset of a head, bits.");
+    c.def(
+        "set_angle",
+        [](Rtc5& self, int head, double degrees, int at_once) {
+            order(self, [&](Engine& engine) { return engine.set_angle(head, degrees, at_once); });
+        },
+        py::arg("head"), py::arg("degrees"), py::arg("at_once") = 1, "Rotation of a head, degrees.");
+    c.def(
+        "set_scale",
+        [](Rtc5& self, int head, double scale, int at_once) {
+            order(self, [&](Engine& engine) { return engine.set_scale(head, scale, at_once); });
+        },
+        py::arg("head"), py::arg("scale"), py::arg("at_once") = 1, "Scale of a head.");
 }
 
 void bind_answers(Rtc5Class& c) {
-    c.def("read_status", [](Rtc5& self) { return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.list_status(); }); }, "Status of the lists, as read_status.");
-    c.def("get_status", [](Rtc5& self) {
-        return ask(self, [](Engine& engine) -> Result<std::pair<std::uint32_t, std::int64_t>> {
-            return std::pair(engine.status(), engine.list_position());
-        });
-    }, "(status, position in the list).");
-    c.def("get_marking_info", [](Rtc5& self) { return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_marking_info(); }); },
-          "What went wrong in marking, bits; reading clears them. See marking_info_text.");
-    c.def_static("marking_info_text", [](std::uint32_t bits) { return rtc5::decoded(bits, rtc5::map::marking_info_bits); }, py::arg("bits"), "A sentence for each bit.");
-    c.def("get_startstop_info", [](Rtc5& self) { return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_startstop_info(); }); },
-          "What the start and stop lines did, bits.");
-    c.def("get_value", [](Rtc5& self, std::uint32_t signal) { return ask(self, [&](Engine& engine) { return engine.get_value(signal); }); }, py::arg("signal"),
-          "A signal by its number, 0 to 255.");
-    c.def("get_encoder", [](Rtc5& self) {
-        return ask(self, [](Engine& engine) -> Result<std::pair<int, int>> { return std::pair(engine.encoder(0), engine.encoder(1)); });
-    }, "(encoder 0, encoder 1), counts.");
-    c.def("list_space", [](Rtc5& self) {
-        return order(self, [](Engine& engine) { return engine.state().lists.input_end - engine.input_pointer(); });
-    }, "Free positions of the list that is being put into.");
-    c.def("busy", [](Rtc5& self) { return order(self, [](Engine& engine) { return engine.busy(); }); }, "Whether a list runs; takes no time.");
-    c.def("output", [](Rtc5& self) {
-        return order(self, [](Engine& engine) { return std::tuple(engine.output().a[0], engine.output().a[1], engine.state().laser.on != 0); });
-    }, "Where head A is (bits) and whether its laser is on; takes no time.");
-    c.def("wait", [](Rtc5& self, double timeout) {
-        const Duration time = duration(timeout);
-        alone(*self.world, [&]() -> Result<void> {
-            const Instant end = later(self.world->now(), time);
-            while (!self.engine().at_rest()) {
-                if (self.world->now() >= end)
-                    return fail(Trouble::machine, fmt::format("The card did not come to rest within {:.6g} s; its list goes on.", to_seconds(time)));
-                MOTIONRACK_CHECK(self.world->advance(std::min(Duration(microseconds(100)), end - self.world->now())));
-            }
-            return {};
-        }, time);
-    }, py::arg("timeout") = 60.0, "Until the card rests; Timeout after timeout s.");
-    c.def_property("question_seconds", [](const Rtc5& self) { return to_seconds(self.question_time); }, [](Rtc5& self, double seconds) {
-        const Duration time = duration(seconds);
-        if (time > whole_seconds(1000)) refuse("A question takes 0 to 1000 s.");
-        self.question_time = time;
-    }, "Time that a question takes, s, before the card answers; 10 us at first.");
+    c.def(
+        "read_status",
+        [](Rtc5& self) {
+            return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.list_status(); });
+        },
+        "Status of the lists, as read_status.");
+    c.def(
+        "get_status",
+        [](Rtc5& self) {
+            return ask(self, [](Engine& engine) -> Result<std::pair<std::uint32_t, std::int64_t>> {
+                return std::pair(engine.status(), engine.list_position());
+            });
+        },
+        "(status, position in the list).");
+    c.def(
+        "get_marking_info",
+        [](Rtc5& self) {
+            return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_marking_info(); });
+        },
+        "What went wrong in marking, bits; reading clears them. See marking_info_text.");
+    c.def_static(
+        "marking_info_text", [](std::uint32_t bits) { return rtc5::decoded(bits, rtc5::map::marking_info_bits); },
+        py::arg("bits"), "A sentence for each bit.");
+    c.def(
+        "get_startstop_info",
+        [](Rtc5& self) {
+            return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_startstop_info(); });
+        },
+        "What the start and stop lines did, bits.");
+    c.def(
+        "get_value",
+        [](Rtc5& self, std::uint32_t signal) {
+            return ask(self, [&](Engine& engine) { return engine.get_value(signal); });
+        },
+        py::arg("signal"), "A signal by its number, 0 to 255.");
+    c.def(
+        "get_encoder",
+        [](Rtc5& self) {
+            return ask(self, [](Engine& engine) -> Result<std::pair<int, int>> {
+                return std::pair(engine.encoder(0), engine.encoder(1));
+            });
+        },
+        "(encoder 0, encoder 1), counts.");
+    c.def(
+        "list_space",
+        [](Rtc5& self) {
+            return order(self, [](Engine& engine) { return engine.state().lists.input_end - engine.input_pointer(); });
+        },
+        "Free positions of the list that is being put into.");
+    c.def(
+        "busy", [](Rtc5& self) { return order(self, [](Engine& engine) { return engine.busy(); }); },
+        "Whether a list runs; takes no time.");
+    c.def(
+        "output",
+        [](Rtc5& self) {
+            return order(self, [](Engine& engine) {
+                return std::tuple(engine.output().a[0], engine.output().a[1], engine.state().laser.on != 0);
+            });
+        },
+        "Where head A is (bits) and whether its laser is on; takes no time.");
+    c.def(
+        "wait",
+        [](Rtc5& self, double timeout) {
+            const Duration time = duration(timeout);
+            alone(
+                *self.world,
+                [&]() -> Result<void> {
+                    const Instant end = later(self.world->now(), time);
+                    while (!self.engine().at_rest()) {
+                        if (self.world->now() >= end)
+                            return fail(Trouble::machine,
+                                        fmt::format("The card did not come to rest within {:.6g} s; its list goes on.",
+                                                    to_seconds(time)));
+                        MOTIONRACK_CHECK(
+                            self.world->advance(std::min(Duration(microseconds(100)), end - self.world->now())));
+                    }
+                    return {};
+                },
+                time);
+        },
+        py::arg("timeout") = 60.0, "Until the card rests; Timeout after timeout s.");
+    c.def_property(
+        "question_seconds", [](const Rtc5& self) { return to_seconds(self.question_time); },
+        [](Rtc5& self, double seconds) {
+            const Duration time = duration(seconds);
+            if (time > whole_seconds(1000)) refuse("A question takes 0 to 1000 s.");
+            self.question_time = time;
+        },
+        "Time that a question takes, s, before the card answers; 10 us at first.");
 }
 
 }  // namespace
 
 void bind_rtc5(py::module_& m) {
-    Rtc5Class c(m, "Rtc5", "The RTC5's commands under their documented names, in bits, bits/ms and 10 us. List commands go to the list that set_start_list has opened.");
+    Rtc5Class c(m, "Rtc5",
+                "The RTC5's commands under their documented names, in bits, bits/ms and 10 us. List commands go to the "
+                "list that set_start_list has opened.");
     c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-        const Turn turn(*world, Turn::For::moving);
-        card_of_type(*world, card, "rtc5");
-        return Rtc5{world, rack::rtc5_card_of(world->running(), card)};
-    }), py::arg("world"), py::arg("card"));
+              const Turn turn(*world, Turn::For::moving);
+              card_of_type(*world, card, "rtc5");
+              return Rtc5{world, rack::rtc5_card_of(world->running(), card)};
+          }),
+          py::arg("world"), py::arg("card"));
     bind_lists(c);
     bind_settings(c);
     bind_answers(c);

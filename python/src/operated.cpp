@@ -1,14 +1,13 @@
 // The gate.
-#include <python/src/operated.hpp>
-
 #include <chrono>
+#include <python/src/operated.hpp>
 
 namespace motionrack::python {
 
 namespace {
-constexpr auto hear_every = std::chrono::milliseconds(2);   // of real time, what was posted
+constexpr auto hear_every = std::chrono::milliseconds(2);  // of real time, what was posted
 constexpr auto look_every = std::chrono::milliseconds(50);
-}
+}  // namespace
 
 Result<std::unique_ptr<Operated>> Operated::make(const rack::RackConfig& config) {
     std::unique_ptr<Operated> out(new Operated);

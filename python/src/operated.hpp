@@ -3,7 +3,8 @@
 //   Python ──order──► [ inbox ] ──► motion thread: Machine::run ──► pace: gate open until `allowed_`
 //   Python ──advance──► allowed_ ─────────────────────────────────────┘   at the gate: parked_, Python goes on
 //
-// Python and the motion thread are never at work at the same time, so what is ordered happens at a slice that is the same in every run.
+// Python and the motion thread are never at work at the same time, so what is ordered happens at a slice that is the
+// same in every run.
 #pragma once
 
 #include <condition_variable>
@@ -22,8 +23,8 @@ class Operated {
     Operated(const Operated&) = delete;
     Operated& operator=(const Operated&) = delete;
 
-    /// Lets so much time pass, in whole slices of 2 ms. `look` is called every 50 ms of real time meanwhile, and ends the wait where it is
-    /// true: the machine stands at the gate then, in the midst of what it does.
+    /// Lets so much time pass, in whole slices of 2 ms. `look` is called every 50 ms of real time meanwhile, and ends
+    /// the wait where it is true: the machine stands at the gate then, in the midst of what it does.
     void advance(Duration time, const std::function<bool()>& look);
     /// Runs `work` on the motion thread while it waits at the gate, and gives what it gives.
     template <class Work>

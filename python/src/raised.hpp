@@ -1,4 +1,5 @@
-// Errors on their way to Python: a Result becomes its value or is thrown, and module.cpp makes the named exception of it.
+// Errors on their way to Python: a Result becomes its value or is thrown, and module.cpp makes the named exception of
+// it.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -8,15 +9,20 @@
 
 namespace motionrack::python {
 
-/// What is thrown. `timeout`: a wait ended before what it waited for came. `all`: every problem, where there are several.
+/// What is thrown. `timeout`: a wait ended before what it waited for came. `all`: every problem, where there are
+/// several.
 struct Raised {
     Error error;
     bool timeout = false;
     std::vector<Error> all = {};
 };
 
-[[noreturn]] inline void raise(Error error, bool timeout = false) { throw Raised{std::move(error), timeout}; }
-[[noreturn]] inline void refuse(std::string sentence) { raise({Trouble::refused, std::move(sentence)}); }
+[[noreturn]] inline void raise(Error error, bool timeout = false) {
+    throw Raised{std::move(error), timeout};
+}
+[[noreturn]] inline void refuse(std::string sentence) {
+    raise({Trouble::refused, std::move(sentence)});
+}
 
 /// The value, or its error thrown.
 template <class T>

@@ -1,8 +1,7 @@
 // Finding what a name stands for, and looking at it.
-#include <python/src/sampler.hpp>
-
 #include <cmath>
 #include <motionrack/rack/quantities.hpp>
+#include <python/src/sampler.hpp>
 
 namespace motionrack::python {
 
@@ -18,7 +17,8 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireDesk& desk, const s
         return out;
     }
     const std::size_t dot = std::min(name.find('.'), name.size());
-    if (const rack::Card* card = rack.card(std::string_view(name).substr(0, dot)); card != nullptr && dot < name.size()) {
+    if (const rack::Card* card = rack.card(std::string_view(name).substr(0, dot));
+        card != nullptr && dot < name.size()) {
         const std::string value = name.substr(dot + 1);
         const Result<std::int64_t> there = card->inspect(value);
         if (there) {
@@ -43,7 +43,8 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireDesk& desk, const s
 
 }  // namespace
 
-Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names, std::size_t most) {
+Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names,
+                                std::size_t most) {
     Sampler out;
     out.most_ = most;
     for (const std::string& name : names) {

@@ -29,7 +29,8 @@ class Sampler {
     static Result<Sampler> create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names,
                                   std::size_t most);
 
-    /// Between runs. Where there are more than `most`, every second one is dropped, and from then on only every second one is kept.
+    /// Between runs. Where there are more than `most`, every second one is dropped, and from then on only every second
+    /// one is kept.
     void take(Instant now);
     const std::vector<std::int64_t>& ticks() const { return ticks_; }
     const std::vector<Channel>& channels() const { return channels_; }

@@ -1,11 +1,10 @@
 // Who has a rack, and Ctrl-C.
-#include <python/src/turn.hpp>
-
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
 #include <motionrack/rack/bus_access.hpp>
+#include <python/src/turn.hpp>
 
 namespace motionrack::python {
 
@@ -13,7 +12,8 @@ namespace {
 
 /// What Python raised while worlds ran without its lock; touched with the lock only.
 std::vector<std::pair<const World*, py::error_already_set>>& raised_meanwhile() {
-    static auto* const all = new std::vector<std::pair<const World*, py::error_already_set>>();  // outlives the interpreter
+    static auto* const all =
+        new std::vector<std::pair<const World*, py::error_already_set>>();  // outlives the interpreter
     return *all;
 }
 
@@ -27,7 +27,8 @@ Turn::Turn(World& world, For what) : world_(world) {
         return;
     }
     if (nobody != me) refuse("Another thread is running this rack; nothing was done. One thread at a time.");
-    if (what == For::moving) refuse("The rack is in the middle of a run; nothing was done. A progress call may look, not move.");
+    if (what == For::moving)
+        refuse("The rack is in the middle of a run; nothing was done. A progress call may look, not move.");
 }
 
 Turn::~Turn() {
@@ -36,7 +37,8 @@ Turn::~Turn() {
 
 Duration duration(double seconds) {
     if (std::isinf(seconds) && seconds > 0) return never;
-    if (!(seconds >= 0 && seconds <= 9e8)) refuse(fmt::format("A time is {} s; it is 0 to 9e8 s, or infinite. Nothing was done.", seconds));
+    if (!(seconds >= 0 && seconds <= 9e8))
+        refuse(fmt::format("A time is {} s; it is 0 to 9e8 s, or infinite. Nothing was done.", seconds));
     return from_seconds(seconds);
 }
 
@@ -44,7 +46,9 @@ rack::Card& card_of_type(World& world, const std::string& name, std::string_view
     rack::Card& card = *value_of(rack::card_named(world.running(), name));
     for (const rack::RackCard& config : world.config().cards)
         if (config.name == name && config.type != type)
-            refuse(fmt::format("Card {} is of type {}, not {}; this function library does not drive it. Nothing was done.", name, config.type, type));
+            refuse(
+                fmt::format("Card {} is of type {}, not {}; this function library does not drive it. Nothing was done.",
+                            name, config.type, type));
     return card;
 }
 

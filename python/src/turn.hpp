@@ -1,4 +1,5 @@
-// One call from Python into a rack: one thread at a time, without Python's lock while it runs, Ctrl-C heard between runs.
+// One call from Python into a rack: one thread at a time, without Python's lock while it runs, Ctrl-C heard between
+// runs.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,8 +14,8 @@ namespace motionrack::python {
 
 namespace py = pybind11;
 
-/// While one lives its thread has the rack. Throws a refusal where another thread has it, or where this one is in the middle of a run (a
-/// progress call); there it may only look.
+/// While one lives its thread has the rack. Throws a refusal where another thread has it, or where this one is in the
+/// middle of a run (a progress call); there it may only look.
 class Turn {
   public:
     enum class For : std::uint8_t { looking, moving };
@@ -28,8 +29,8 @@ class Turn {
     bool mine_ = false;
 };
 
-/// Runs `call` without Python's lock; it gives a Result<T> or a plain value. `timeout`: a failure of the machine after that time is a
-/// time-out. What Python raised meanwhile (KeyboardInterrupt, a progress call's exception) goes on.
+/// Runs `call` without Python's lock; it gives a Result<T> or a plain value. `timeout`: a failure of the machine after
+/// that time is a time-out. What Python raised meanwhile (KeyboardInterrupt, a progress call's exception) goes on.
 template <class Call>
 auto alone(World& world, Call call, Duration timeout = never);
 
@@ -49,7 +50,9 @@ void stop_because(World& world, py::error_already_set error);
 void raise_what_python_raised(World& world);
 
 /// Whole ticks of 100 ps from Python.
-inline Duration ticks(std::int64_t count) { return Duration{count}; }
+inline Duration ticks(std::int64_t count) {
+    return Duration{count};
+}
 /// Seconds from Python, 0 to 9e8; infinity: never. Throws a refusal beyond that.
 Duration duration(double seconds);
 
@@ -79,7 +82,8 @@ auto alone(World& world, Call call, Duration timeout) {
         raise_what_python_raised(world);
         if constexpr (detail::is_result<Value>::value) {
             if (!result)
-                raise(std::move(result).error(), result.error().trouble == Trouble::machine && timeout != never && world.now() - began >= timeout);
+                raise(std::move(result).error(),
+                      result.error().trouble == Trouble::machine && timeout != never && world.now() - began >= timeout);
             if constexpr (!std::is_void_v<typename Value::value_type>) return *std::move(result);
         } else {
             return result;

@@ -1,21 +1,22 @@
 // Starting a rack, its time, and what happens between two runs of the kernel.
-#include <python/src/world.hpp>
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <motionrack/rack/subprograms.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <python/src/raised.hpp>
+#include <python/src/world.hpp>
 
 namespace motionrack::python {
 
 namespace {
 constexpr Duration slice = milliseconds(50);
 constexpr std::size_t most_problems = 20;
-}
+}  // namespace
 
-World::World(const rack::RackConfig& config) : config_(config) { build(); }
+World::World(const rack::RackConfig& config) : config_(config) {
+    build();
+}
 
 void World::build() {
     desk_.reset();
@@ -23,7 +24,9 @@ void World::build() {
     desk_ = std::make_unique<rack::WireDesk>(*rack_);
 }
 
-World::~World() { close(); }
+World::~World() {
+    close();
+}
 
 void World::close() {
     if (recorder_) static_cast<void>(end_waves());
@@ -48,7 +51,7 @@ rack::Rack& World::running() {
     return *rack_;
 }
 
-// ---- starting -----------------------------------------------------------------------------------------------------------
+// ---- starting
 
 rack::JobSettings World::job_settings() {
     rack::JobSettings settings;
@@ -78,7 +81,7 @@ void World::listen_again() {
     rack_->on_slice(slice, [this] { between(); });
 }
 
-// ---- time ---------------------------------------------------------------------------------------------------------------
+// ---- time
 
 void World::between() {
     plan_->apply_due();
@@ -108,10 +111,13 @@ Result<void> World::run_to(Instant until, const std::function<bool()>& enough) {
 Result<void> World::advance(Duration time) {
     running();
     if (time < Duration{})
-        return fail(Trouble::refused, fmt::format("Time does not run backwards: {:.9g} s; nothing was run. Use snapshot() and restore().", to_seconds(time)));
+        return fail(Trouble::refused,
+                    fmt::format("Time does not run backwards: {:.9g} s; nothing was run. Use snapshot() and restore().",
+                                to_seconds(time)));
     if (time > latest - now())
-        return fail(Trouble::refused, fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Make another rack.",
-                                                  to_seconds(now()), to_seconds(latest)));
+        return fail(Trouble::refused,
+                    fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Make another rack.",
+                                to_seconds(now()), to_seconds(latest)));
     return run_to(now() + time);
 }
 
@@ -119,10 +125,15 @@ Result<bool> World::wait_wire(const std::string& name, int level, Duration timeo
     const sim::WireId wire = running().kernel().find_wire(name);
     if (wire == sim::WireId::none) {
         MOTIONRACK_CHECK(desk_->get(name));
-        return fail(Trouble::bad_input, fmt::format("{} has no edges of its own to wait for; nothing was run. Wait for the pin of a card that it leads to.", name));
+        return fail(
+            Trouble::bad_input,
+            fmt::format(
+                "{} has no edges of its own to wait for; nothing was run. Wait for the pin of a card that it leads to.",
+                name));
     }
     if (timeout < Duration{} || timeout > latest - now())
-        return fail(Trouble::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.", to_seconds(timeout), to_seconds(latest - now())));
+        return fail(Trouble::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.",
+                                                  to_seconds(timeout), to_seconds(latest - now())));
     struct Listening {
         Bell& bell;
         ~Listening() { bell.listen_no_more(); }
@@ -146,12 +157,13 @@ rack::HomingOutcome World::home(rack::HomingSettings settings) {
     return out;
 }
 
-// ---- a part program -----------------------------------------------------------------------------------------------------
+// ---- a part program
 
 control::gcode::Settings World::reading_of(const GivenProgram& program) const {
     control::gcode::Settings out = rack::reader_settings(config_, program.block_delete);
     if (!program.folder.empty()) out.subprogram = rack::subprograms_in(program.folder);
-    if (!program.tools_name.empty()) out.tools = value_of(control::gcode::read_tool_table(program.tools, program.tools_name));
+    if (!program.tools_name.empty())
+        out.tools = value_of(control::gcode::read_tool_table(program.tools, program.tools_name));
     value_of(control::gcode::check_settings(out));
     return out;
 }
@@ -159,16 +171,20 @@ control::gcode::Settings World::reading_of(const GivenProgram& program) const {
 control::gcode::Settings World::check(const GivenProgram& program) const {
     if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
     control::gcode::Settings reading = reading_of(program);
-    if (auto check = control::gcode::check_program(program.text, reading, most_problems, program.name); !check.problems.empty())
+    if (auto check = control::gcode::check_program(program.text, reading, most_problems, program.name);
+        !check.problems.empty())
         throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
     return reading;
 }
 
 Result<rack::JobOutcome> World::run(const GivenProgram& program, control::gcode::Settings reading) {
     if (ran_ || (started() && now() != Instant{}))
-        return fail(Trouble::refused, fmt::format("A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
-                                                  "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
-                                                  to_seconds(now())));
+        return fail(
+            Trouble::refused,
+            fmt::format(
+                "A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
+                "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
+                to_seconds(now())));
     running();
     ran_ = true;
     program_ = program;

@@ -1,4 +1,5 @@
-// A rack as Python has it: not started until something needs its time, then run in slices between which Python is heard.
+// A rack as Python has it: not started until something needs its time, then run in slices between which Python is
+// heard.
 //
 //   Python ──► World ──┬─► Rack, Job (a part program), FaultPlan
 //                      ├─► WireDesk, WireTap, WaveRecorder
@@ -24,8 +25,9 @@ namespace motionrack::python {
 /// A part program and what goes with it.
 struct GivenProgram {
     std::string text, name;
-    std::string folder;             ///< where its subprograms lie; empty: it has none but its own
-    std::string tools, tools_name;  ///< text of a tool table (LinuxCNC's .tbl), and its name; an empty name: there is none
+    std::string folder;  ///< where its subprograms lie; empty: it has none but its own
+    std::string tools,
+        tools_name;  ///< text of a tool table (LinuxCNC's .tbl), and its name; an empty name: there is none
     bool block_delete = false;
 };
 
@@ -47,8 +49,9 @@ class World {
     Instant now() { return rack().kernel().now(); }
     void close();
 
-    // ---- before it is started ----
-    /// "X.limit_plus=0@0.5s": see FaultPlan. Errors: refused in a started rack, and those of the plan; none is planned then.
+    // ---- before it is started
+    /// "X.limit_plus=0@0.5s": see FaultPlan. Errors: refused in a started rack, and those of the plan; none is planned
+    /// then.
     Result<void> plan_faults(const std::vector<std::string>& texts);
     std::vector<std::string> not_done() const { return plan_ ? plan_->not_done() : std::vector<std::string>(); }
     /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
@@ -57,21 +60,23 @@ class World {
     /// "trapezoid" or "jerk_limited", instead of the rack file's. Errors: refused in a started rack.
     Result<void> set_profile(const std::string& profile);
 
-    /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be sound; whether it
-    /// fits the other cards, as a rack file must, is not looked at. Errors: refused, bad_input; nothing is changed.
+    /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be
+    /// sound; whether it fits the other cards, as a rack file must, is not looked at. Errors: refused, bad_input;
+    /// nothing is changed.
     Result<void> set_card(const std::string& card, const std::string& key, double value);
 
-    // ---- time ----
+    // ---- time
     /// Errors: refused (beyond latest), stopped (Ctrl-C).
     Result<void> advance(Duration time);
-    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: bad_input, stopped.
+    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: bad_input,
+    /// stopped.
     Result<bool> wait_wire(const std::string& wire, int level, Duration timeout);
     static constexpr Instant latest{never.count() / 2};
 
-    // ---- wires ----
+    // ---- wires
     Result<void> set_wire(const std::string& name, double value);
 
-    // ---- a part program, once, from time 0 ----
+    // ---- a part program, once, from time 0
     /// How the program is read, which is good; else throws every problem, in the order of its lines. Nothing moves.
     control::gcode::Settings check(const GivenProgram& program) const;
     /// A program that check() has found good, and how it is read.
@@ -82,18 +87,18 @@ class World {
     const std::string& program() const { return program_.text; }
     const std::string& program_name() const { return program_.name; }
 
-    // ---- samples and waves ----
+    // ---- samples and waves
     Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most);
     Result<Sampler> end_samples();
     Result<void> begin_waves(const std::string& path, const std::vector<std::string>& signals);
     Result<void> end_waves();
 
-    // ---- the whole world ----
+    // ---- the whole world
     /// A world of its own in the same state; recordings stay with this one.
     std::shared_ptr<World> copy();
     void copy_from(World& other);
 
-    // ---- who looks on ----
+    // ---- who looks on
     /// Between runs, at least every 50 ms of virtual time, and where the bell rings.
     void on_look(std::function<void()> call) { look_ = std::move(call); }
     /// Of a program, about every 50 ms of virtual time; empty: nobody.
@@ -101,8 +106,8 @@ class World {
     void stop() { stop_ = true; }
     bool stopped() const { return stop_; }
     void go_on() { stop_ = false; }
-    /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look. While a driver or a job
-    /// runs the rack, its host calls this.
+    /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look.
+    /// While a driver or a job runs the rack, its host calls this.
     void between();
     /// After something else had the host's slices (a job, a homing).
     void listen_again();

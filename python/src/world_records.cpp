@@ -1,7 +1,7 @@
 // Samples, waves and copies of a world.
-#include <algorithm>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <python/src/raised.hpp>
 #include <python/src/world.hpp>
 
@@ -9,11 +9,14 @@ namespace motionrack::python {
 
 Result<void> World::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
     running();
-    if (sampler_) return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
+    if (sampler_)
+        return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
     if (period < microseconds(1) || period > whole_seconds(3600))
-        return fail(Trouble::refused, fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
+        return fail(Trouble::refused, fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.",
+                                                  to_seconds(period)));
     if (most < 2 || most > 100'000'000)
-        return fail(Trouble::refused, fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
+        return fail(Trouble::refused,
+                    fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
     MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
     sampler_ = std::move(sampler);
     bell_->ring_every(period);
@@ -33,7 +36,8 @@ Result<Sampler> World::end_samples() {
 
 Result<void> World::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
     running();
-    if (recorder_) return fail(Trouble::refused, "Waves are recorded already; end that before the next file. It goes on.");
+    if (recorder_)
+        return fail(Trouble::refused, "Waves are recorded already; end that before the next file. It goes on.");
     rack::WaveSettings settings;
     settings.path = path;
     MOTIONRACK_TRY(settings.format, rack::wave_format(path));
@@ -64,9 +68,12 @@ std::shared_ptr<World> World::copy() {
 /// Whether the state of one can be that of the other: the same cards in the same places, as many parts and wires.
 bool World::is_built_like(World& other) {
     const sim::Kernel &own = running().kernel(), &its = other.running().kernel();
-    const auto same = [](const rack::RackCard& a, const rack::RackCard& b) { return a.name == b.name && a.type == b.type; };
+    const auto same = [](const rack::RackCard& a, const rack::RackCard& b) {
+        return a.name == b.name && a.type == b.type;
+    };
     return own.device_count() == its.device_count() && own.wire_count() == its.wire_count() &&
-           std::equal(config_.cards.begin(), config_.cards.end(), other.config_.cards.begin(), other.config_.cards.end(), same);
+           std::equal(config_.cards.begin(), config_.cards.end(), other.config_.cards.begin(),
+                      other.config_.cards.end(), same);
 }
 
 void World::copy_from(World& other) {

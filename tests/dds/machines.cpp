@@ -22,7 +22,9 @@ namespace {
 constexpr int own_network = -1;
 
 /// This process' child dies with it, however it ends.
-void die_with_parent() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
+void die_with_parent() {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
 
 bool enter(pid_t holder, const char* space) {
     const int file = ::open(("/proc/" + std::to_string(holder) + "/ns/" + space).c_str(), O_RDONLY | O_CLOEXEC);
@@ -99,9 +101,12 @@ bool Machines::add_machine() {
     }
     const std::string port = "p" + std::to_string(number), address = "10.77.0." + std::to_string(number + 1) + "/24";
     const int machine = static_cast<int>(number);
-    return run(own_network, {"ip", "link", "add", port, "type", "veth", "peer", "name", "eth0", "netns", std::to_string(holder)}) &&
-           run(own_network, {"ip", "link", "set", port, "master", "br0", "up"}) && run(machine, {"ip", "link", "set", "lo", "up"}) &&
-           run(machine, {"ip", "address", "add", address, "dev", "eth0"}) && run(machine, {"ip", "link", "set", "eth0", "up"});
+    return run(own_network,
+               {"ip", "link", "add", port, "type", "veth", "peer", "name", "eth0", "netns", std::to_string(holder)}) &&
+           run(own_network, {"ip", "link", "set", port, "master", "br0", "up"}) &&
+           run(machine, {"ip", "link", "set", "lo", "up"}) &&
+           run(machine, {"ip", "address", "add", address, "dev", "eth0"}) &&
+           run(machine, {"ip", "link", "set", "eth0", "up"});
 }
 
 bool Machines::run(int machine, const Command& command) {
@@ -116,7 +121,8 @@ bool Machines::run(int machine, const Command& command) {
         become(command);
     }
     int status = 0;
-    const bool good = process > 0 && ::waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const bool good =
+        process > 0 && ::waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     if (!good) {
         why_not_ = "failed:";
         for (const std::string& word : command) why_not_ += " " + word;
@@ -140,20 +146,29 @@ Child Machines::start(int machine, const Command& command) {
     return {process, output[0]};
 }
 
-void Machines::set_link(int machine, bool up) { run(own_network, {"ip", "link", "set", "p" + std::to_string(machine), up ? "up" : "down"}); }
+void Machines::set_link(int machine, bool up) {
+    run(own_network, {"ip", "link", "set", "p" + std::to_string(machine), up ? "up" : "down"});
+}
 
 bool Machines::begin_loss(int machine) {
     const std::string port = "p" + std::to_string(machine);
     // Where the kernel has no netem, a narrow link loses what does not fit through.
     return run(own_network, {"tc", "qdisc", "add", "dev", port, "root", "netem", "loss", "25%"}) ||
-           run(own_network, {"tc", "qdisc", "add", "dev", port, "root", "tbf", "rate", "300kbit", "burst", "3000", "limit", "3000"});
+           run(own_network,
+               {"tc", "qdisc", "add", "dev", port, "root", "tbf", "rate", "300kbit", "burst", "3000", "limit", "3000"});
 }
 
-void Machines::end_loss(int machine) { run(own_network, {"tc", "qdisc", "del", "dev", "p" + std::to_string(machine), "root"}); }
+void Machines::end_loss(int machine) {
+    run(own_network, {"tc", "qdisc", "del", "dev", "p" + std::to_string(machine), "root"});
+}
 
 Child::Child(Child&& other) noexcept
-    : process_(std::exchange(other.process_, -1)), output_(std::exchange(other.output_, -1)), rest_(std::move(other.rest_)), said_(std::move(other.said_)),
-      last_(std::move(other.last_)), events_(std::move(other.events_)) {}
+    : process_(std::exchange(other.process_, -1)),
+      output_(std::exchange(other.output_, -1)),
+      rest_(std::move(other.rest_)),
+      said_(std::move(other.said_)),
+      last_(std::move(other.last_)),
+      events_(std::move(other.events_)) {}
 
 Child::~Child() {
     if (output_ >= 0) ::close(output_);
@@ -166,7 +181,9 @@ void Child::send(int signal) {
     if (process_ > 0) ::kill(process_, signal);
 }
 
-std::string Child::said() const { return said_.size() > 2000 ? "..." + said_.substr(said_.size() - 2000) : said_; }
+std::string Child::said() const {
+    return said_.size() > 2000 ? "..." + said_.substr(said_.size() - 2000) : said_;
+}
 
 /// Reads the next line; false at the end, or where none comes for a minute.
 bool Child::read_line() {

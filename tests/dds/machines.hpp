@@ -30,7 +30,8 @@ class Child {
     Child(Child&& other) noexcept;
     Child& operator=(Child&&) = delete;
 
-    /// Reads until a line fulfils `condition`; false if the program ends first or nothing of the kind comes for a minute.
+    /// Reads until a line fulfils `condition`; false if the program ends first or nothing of the kind comes for a
+    /// minute.
     using Condition = std::function<bool(const nlohmann::json&)>;
     bool wait_for(const Condition& condition);
     /// Reads to its end; the exit code, or -1 if a signal ended it.

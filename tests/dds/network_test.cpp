@@ -41,11 +41,13 @@ class Network : public testing::Test {
         if (!folder_.empty()) fs::remove_all(folder_, ignored);
     }
     Child publish(int machine, int offset = 0) {
-        return network_->start(machine, {MOTIONRACK_TEST_PUBLISHER, "good", "stage", std::to_string(period_us_), std::to_string(scales), std::to_string(offset)});
+        return network_->start(machine, {MOTIONRACK_TEST_PUBLISHER, "good", "stage", std::to_string(period_us_),
+                                         std::to_string(scales), std::to_string(offset)});
     }
     /// Listens with its frames in `name`.csv.
     Child subscribe(int machine, const std::string& name, int count = 0) {
-        Command command = {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json", "--every", "0.02", "--csv", file(name)};
+        Command command = {MOTIONRACK_PROGRAM, "frames",  "subscribe", "--bus", "stage",
+                           "--json",           "--every", "0.02",      "--csv", file(name)};
         if (count > 0) command.insert(command.end(), {"--count", std::to_string(count)});
         return network_->start(machine, command);
     }
@@ -88,10 +90,15 @@ class NetworkAt : public Network, public testing::WithParamInterface<int> {
     NetworkAt() { period_us_ = 1'000'000 / GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Frames, NetworkAt, testing::Values(500, 1000), [](const auto& each) { return "at_" + std::to_string(each.param) + "_Hz"; });
+INSTANTIATE_TEST_SUITE_P(Frames, NetworkAt, testing::Values(500, 1000),
+                         [](const auto& each) { return "at_" + std::to_string(each.param) + "_Hz"; });
 
-bool is_event(const json& line, const char* kind) { return line.value("event", "") == kind; }
-std::int64_t count_in(const json& line, const char* name) { return line.contains("counts") ? line["counts"].value(name, std::int64_t{-1}) : -1; }
+bool is_event(const json& line, const char* kind) {
+    return line.value("event", "") == kind;
+}
+std::int64_t count_in(const json& line, const char* name) {
+    return line.contains("counts") ? line["counts"].value(name, std::int64_t{-1}) : -1;
+}
 Child::Condition used_at_least(std::int64_t frames) {
     return [frames](const json& line) { return count_in(line, "used") >= frames; };
 }
@@ -132,18 +139,23 @@ TEST_P(NetworkAt, CountsWhatALossyLinkLosesAndUsesTheRest) {
     EXPECT_EQ(check_rows(got), 0);
     ASSERT_FALSE(got.empty());
     EXPECT_EQ(count_in(subscriber.last(), "used"), static_cast<std::int64_t>(got.size()));
-    EXPECT_EQ(count_in(subscriber.last(), "used") + count_in(subscriber.last(), "late") + count_in(subscriber.last(), "lost"),
-              std::int64_t{got.back().sequence} - std::int64_t{got.front().sequence} + 1);
+    EXPECT_EQ(
+        count_in(subscriber.last(), "used") + count_in(subscriber.last(), "late") + count_in(subscriber.last(), "lost"),
+        std::int64_t{got.back().sequence} - std::int64_t{got.front().sequence} + 1);
 }
 
 TEST_P(NetworkAt, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
     Child publisher = publish(0), subscriber = subscribe(1, "cut");
     ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
     network_->set_link(1, false);
-    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return line.value("stale", false) && line.value("age_ms", 0.0) > 600; })) << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) {
+        return line.value("stale", false) && line.value("age_ms", 0.0) > 600;
+    })) << subscriber.said();
     const std::int64_t lost = count_in(subscriber.last(), "lost"), used = count_in(subscriber.last(), "used");
     network_->set_link(1, true);
-    EXPECT_TRUE(subscriber.wait_for([&](const json& line) { return count_in(line, "lost") > lost + 50 && !line.value("stale", true); })) << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for([&](const json& line) {
+        return count_in(line, "lost") > lost + 50 && !line.value("stale", true);
+    })) << subscriber.said();
     EXPECT_TRUE(subscriber.wait_for(used_at_least(used + 100)));
     EXPECT_EQ(count_in(subscriber.last(), "restarts"), 0);
     EXPECT_EQ(count_in(subscriber.last(), "takeovers"), 0);
@@ -162,7 +174,9 @@ TEST_P(NetworkAt, FollowsAPublisherThatWasKilledAndStartedAnew) {
         publisher.send(SIGKILL);
         EXPECT_EQ(publisher.finish(), -1);
     }
-    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return line.value("stale", false) && line.value("age_ms", 0.0) > 600; })) << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) {
+        return line.value("stale", false) && line.value("age_ms", 0.0) > 600;
+    })) << subscriber.said();
     Child again = publish(0);
     EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "restart"); })) << subscriber.said();
     const json event = subscriber.last();
@@ -191,7 +205,8 @@ TEST_P(NetworkAt, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
         EXPECT_EQ(each->last()["source"]["id"], first_id);
         EXPECT_EQ(each->last()["other"]["id"], second_id);
         EXPECT_EQ(each->last()["other"]["host"], "machine1");
-        EXPECT_TRUE(each->wait_for([](const json& line) { return count_in(line, "other_source") > 100; })) << each->said();
+        EXPECT_TRUE(each->wait_for([](const json& line) { return count_in(line, "other_source") > 100; }))
+            << each->said();
     }
     EXPECT_TRUE(first.wait_for(conflict)) << first.said();
     EXPECT_EQ(first.last()["other"], second_id);
@@ -207,9 +222,11 @@ TEST_P(NetworkAt, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
 }
 
 TEST_P(NetworkAt, CountsForeignSamplesAndUsesNone) {
-    Child publisher = publish(0), bad = network_->start(1, {MOTIONRACK_TEST_PUBLISHER, "bad", "stage"}), subscriber = subscribe(2, "foreign");
+    Child publisher = publish(0), bad = network_->start(1, {MOTIONRACK_TEST_PUBLISHER, "bad", "stage"}),
+          subscriber = subscribe(2, "foreign");
     EXPECT_TRUE(subscriber.wait_for([](const json& line) {
-        return count_in(line, "wrong_crc") > 10 && count_in(line, "foreign") > 10 && count_in(line, "malformed") > 10 && count_in(line, "used") > 50;
+        return count_in(line, "wrong_crc") > 10 && count_in(line, "foreign") > 10 && count_in(line, "malformed") > 10 &&
+               count_in(line, "used") > 50;
     })) << subscriber.said();
     EXPECT_EQ(count_in(subscriber.last(), "other_source"), 0);
     subscriber.send(SIGINT);
@@ -227,7 +244,9 @@ TEST_P(NetworkAt, AFrozenSubscriberHoldsNobodyUp) {
     EXPECT_TRUE(other.wait_for(used_at_least(used + 500))) << other.said();
     frozen.send(SIGCONT);
     const std::int64_t behind = count_in(frozen.last(), "used");
-    EXPECT_TRUE(frozen.wait_for([&](const json& line) { return count_in(line, "used") > behind + 100 && !line.value("stale", true); })) << frozen.said();
+    EXPECT_TRUE(frozen.wait_for([&](const json& line) {
+        return count_in(line, "used") > behind + 100 && !line.value("stale", true);
+    })) << frozen.said();
     for (Child* each : {&frozen, &other}) {
         each->send(SIGINT);
         each->finish();
@@ -239,13 +258,17 @@ TEST_P(NetworkAt, AFrozenSubscriberHoldsNobodyUp) {
 TEST_F(Network, ARackOnOneMachineIsReadOnAnother) {
     const std::string rack = (folder_ / "rack.toml").string();
     std::ofstream(rack) << "[card.host]\ntype = \"grating_bus\"\nscales = 6\nperiod_us = 2000\n";
-    Child subscriber = network_->start(1, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json", "--every", "0.02", "--scales", "6"});
-    Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--fault", "host.off=1@1s",
-                                          "--fault", "host.off=0@2s", "--for", "3"});
+    Child subscriber = network_->start(
+        1, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json", "--every", "0.02", "--scales", "6"});
+    Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json",
+                                          "--fault", "host.off=1@1s", "--fault", "host.off=0@2s", "--for", "3"});
     ASSERT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "joined"); })) << subscriber.said();
     EXPECT_EQ(subscriber.last()["source"]["host"], "machine0");
-    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "stale"); })) << "the host is off: " << subscriber.said();
-    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return line.value("stale", true) == false && line.value("time_s", 0.0) > 2; })) << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "stale"); }))
+        << "the host is off: " << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) {
+        return line.value("stale", true) == false && line.value("time_s", 0.0) > 2;
+    })) << subscriber.said();
     EXPECT_EQ(subscriber.last()["positions"].size(), 6u);
     EXPECT_EQ(count_in(subscriber.last(), "takeovers") + count_in(subscriber.last(), "restarts"), 0);
     EXPECT_EQ(publisher.finish(), 0) << publisher.said();
@@ -259,10 +282,14 @@ TEST_F(Network, CardsOfARackOnAnotherMachineHoldTheFrames) {
     const auto state_is = [](const char* state) {
         return [state](const json& line) { return line.contains("cards") && line["cards"][0]["state"] == state; };
     };
-    Child feed = network_->start(1, {MOTIONRACK_PROGRAM, "frames", "feed", listeners, "--bus", "stage", "--json", "--every", "0.02"});
+    Child feed = network_->start(
+        1, {MOTIONRACK_PROGRAM, "frames", "feed", listeners, "--bus", "stage", "--json", "--every", "0.02"});
     ASSERT_TRUE(feed.wait_for(state_is("no frame"))) << feed.said();
-    Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--for", "1"});
-    ASSERT_TRUE(feed.wait_for([&](const json& line) { return state_is("agrees")(line) && line["cards"][0]["frames"] > 100; })) << feed.said();
+    Child publisher =
+        network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--for", "1"});
+    ASSERT_TRUE(feed.wait_for([&](const json& line) {
+        return state_is("agrees")(line) && line["cards"][0]["frames"] > 100;
+    })) << feed.said();
     EXPECT_EQ(feed.last()["cards"][0]["counts"].size(), 6u);
     EXPECT_EQ(publisher.finish(), 0) << publisher.said();
     EXPECT_TRUE(feed.wait_for(state_is("stale"))) << "the publisher has ended: " << feed.said();
@@ -270,7 +297,8 @@ TEST_F(Network, CardsOfARackOnAnotherMachineHoldTheFrames) {
 }
 
 TEST_F(Network, SaysThatNoFrameCame) {
-    Child subscriber = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--for", "0.1"});
+    Child subscriber =
+        network_->start(0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--for", "0.1"});
     EXPECT_EQ(subscriber.finish(), 4);
     EXPECT_EQ(subscriber.last()["joined"], false);
 }

@@ -18,7 +18,8 @@ namespace {
 
 class Counting final : public dds::FrameSource {
   public:
-    Counting(Duration period, std::uint32_t scales, std::uint32_t offset) : period_(period), scales_(scales), offset_(offset) {}
+    Counting(Duration period, std::uint32_t scales, std::uint32_t offset)
+        : period_(period), scales_(scales), offset_(offset) {}
     Result<bool> next(dds::Frame& frame) override {
         frame.sequence = number_;
         frame.time = (milliseconds(1) + std::int64_t{number_} * period_).count();
@@ -51,7 +52,10 @@ int publish_good(const std::string& bus, Duration period, std::uint32_t scales, 
     dds::PublishingSettings settings;
     settings.pace = period;
     settings.report = [](const dds::Event& event) {
-        print({{"event", name_of(event.kind)}, {"source", event.source.id_text()}, {"other", event.other.id_text()}, {"text", sentence(event)}});
+        print({{"event", name_of(event.kind)},
+               {"source", event.source.id_text()},
+               {"other", event.other.id_text()},
+               {"text", sentence(event)}});
     };
     settings.progress = [&publisher](std::uint64_t sent, Duration) {
         if (sent == 1 || sent % 100 == 0) print({{"sent", sent}, {"id", (*publisher)->source().id_text()}});
@@ -70,10 +74,18 @@ dds::Sample bad_sample(const dds::Source& source, std::uint32_t number) {
     sample.frame.crc = crc_of(sample.frame);
     sample.check = check_of(sample);
     switch (number % 5) {
-        case 0: sample.frame.crc ^= 1; break;
-        case 1: sample.frame.counts[2] ^= 0x100; break;
-        case 2: sample.format = 7; break;
-        case 3: sample.frame.words = 0; break;
+        case 0:
+            sample.frame.crc ^= 1;
+            break;
+        case 1:
+            sample.frame.counts[2] ^= 0x100;
+            break;
+        case 2:
+            sample.format = 7;
+            break;
+        case 3:
+            sample.frame.words = 0;
+            break;
         default:
             sample.pace = -1;
             sample.check = check_of(sample);
@@ -84,7 +96,8 @@ dds::Sample bad_sample(const dds::Source& source, std::uint32_t number) {
 int publish_bad(const std::string& bus) {
     const auto participant = dds::join(bus, 0);
     if (!participant) return wrong(participant.error().text());
-    const dds::Entity topic(dds_create_topic(participant->get(), &motionrack_dds_WireSample_desc, dds::topic_name, nullptr, nullptr));
+    const dds::Entity topic(
+        dds_create_topic(participant->get(), &motionrack_dds_WireSample_desc, dds::topic_name, nullptr, nullptr));
     const dds::Qos qos = dds::qos_of(bus, false);
     const dds::Entity writer(dds_create_writer(participant->get(), topic.get(), qos.get(), nullptr));
     if (writer.get() < 0) return wrong("no writer");

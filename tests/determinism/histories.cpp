@@ -38,7 +38,8 @@ History run(const rack::RackConfig& config, const std::string& program) {
 History run(const std::filesystem::path& file) {
     auto session = rack::Session::open(file.string());
     if (!session) throw std::runtime_error(session.error().text());
-    if (const Result<void> done = (*session)->advance(500'000'000); !done) throw std::runtime_error(done.error().text());
+    if (const Result<void> done = (*session)->advance(500'000'000); !done)
+        throw std::runtime_error(done.error().text());
     const sim::Kernel& kernel = (*session)->rack().kernel();
     return {(*session)->state_hash(), kernel.trace_hash(), kernel.now()};
 }
@@ -61,13 +62,19 @@ std::string rack_histories(const std::filesystem::path& root) {
         const char* program;  ///< empty: it runs by itself
     };
     std::string out;
-    for (const Run& one : {Run{"racks/router.toml", "02_part/part.ngc"}, Run{"racks/single.toml", "01_first_move/first_move.ngc"}, Run{"racks/stage.toml", ""},
-                           Run{"racks/carriage.toml", ""}, Run{"racks/marking.toml", ""}, Run{"04_s_curve/s_curve.toml", "04_s_curve/move.ngc"},
-                           Run{"11_carriage/machine.toml", "11_carriage/carriage.ngc"}, Run{"13_stage/machine.toml", ""}, Run{"15_panel/demonstration.toml", ""},
-                           Run{"16_probe/machine.toml", "16_probe/probe.ngc"}, Run{"grating_bus/crate.toml", ""}, Run{"grating_bus/three_hosts.toml", ""}}) {
+    for (const Run& one :
+         {Run{"racks/router.toml", "02_part/part.ngc"}, Run{"racks/single.toml", "01_first_move/first_move.ngc"},
+          Run{"racks/stage.toml", ""}, Run{"racks/carriage.toml", ""}, Run{"racks/marking.toml", ""},
+          Run{"04_s_curve/s_curve.toml", "04_s_curve/move.ngc"},
+          Run{"11_carriage/machine.toml", "11_carriage/carriage.ngc"}, Run{"13_stage/machine.toml", ""},
+          Run{"15_panel/demonstration.toml", ""}, Run{"16_probe/machine.toml", "16_probe/probe.ngc"},
+          Run{"grating_bus/crate.toml", ""}, Run{"grating_bus/three_hosts.toml", ""}}) {
         const std::filesystem::path file = root / "examples" / one.rack;
-        const History history = one.program[0] == '\0' ? run(file) : run(config_of(rack::read_rack_file(file.string())), text_of(root / "examples" / one.program));
-        out += fmt::format("{} {:016x} {:016x} {}\n", one.rack, history.state_hash, history.trace_hash, history.time.count());
+        const History history = one.program[0] == '\0' ? run(file)
+                                                       : run(config_of(rack::read_rack_file(file.string())),
+                                                             text_of(root / "examples" / one.program));
+        out += fmt::format("{} {:016x} {:016x} {}\n", one.rack, history.state_hash, history.trace_hash,
+                           history.time.count());
     }
     return out;
 }

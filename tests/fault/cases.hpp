@@ -28,14 +28,18 @@ struct Case {
     std::string name() const {
         std::string out;
         for (const char c : group + "_" + fault.name + "_" + point.name) {
-            if (std::isalnum(static_cast<unsigned char>(c))) out += c;
-            else if (!out.empty() && out.back() != '_') out += '_';
+            if (std::isalnum(static_cast<unsigned char>(c)))
+                out += c;
+            else if (!out.empty() && out.back() != '_')
+                out += '_';
         }
         return out;
     }
 };
 
-inline std::ostream& operator<<(std::ostream& out, const Case& one) { return out << one.name(); }
+inline std::ostream& operator<<(std::ostream& out, const Case& one) {
+    return out << one.name();
+}
 
 inline std::vector<Case> all_cases() {
     std::vector<Case> out;

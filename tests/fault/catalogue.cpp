@@ -28,19 +28,26 @@ std::vector<std::string> texts_in(const TomlNode& node) {
 Point point_of(const TomlNode& node) {
     Point out;
     for (const TomlNode& entry : node.children) {
-        if (entry.key == "name") out.name = entry.text;
-        else if (entry.key == "test") out.test = entry.text;
-        else out.values[entry.key] = text_in(entry);
+        if (entry.key == "name")
+            out.name = entry.text;
+        else if (entry.key == "test")
+            out.test = entry.text;
+        else
+            out.values[entry.key] = text_in(entry);
     }
     return out;
 }
 
 /// Takes the key if it is one of a setup.
 bool take(Setup& setup, const TomlNode& entry) {
-    if (entry.key == "by") setup.by = entry.text;
-    else if (entry.key == "machine") setup.is = entry.text;
-    else if (entry.key == "rack") setup.rack = entry.text;
-    else if (entry.key == "program") setup.program = entry.text;
+    if (entry.key == "by")
+        setup.by = entry.text;
+    else if (entry.key == "machine")
+        setup.is = entry.text;
+    else if (entry.key == "rack")
+        setup.rack = entry.text;
+    else if (entry.key == "program")
+        setup.program = entry.text;
     else if (entry.key == "points") {
         setup.points.clear();
         for (const TomlNode& point : entry.children) setup.points.push_back(point_of(point));
@@ -52,20 +59,34 @@ bool take(Setup& setup, const TomlNode& entry) {
 
 /// Takes the key if it is one of a fault alone.
 bool take(Fault& fault, const TomlNode& entry) {
-    if (entry.key == "name") fault.name = entry.text;
-    else if (entry.key == "does") fault.does = entry.text;
-    else if (entry.key == "inject") fault.inject = texts_in(entry);
-    else if (entry.key == "before") fault.before = entry.text;
-    else if (entry.key == "command") fault.command = entry.text;
-    else if (entry.key == "after") fault.after = entry.text;
-    else if (entry.key == "stops") fault.stops = entry.text;
-    else if (entry.key == "within_ms") fault.within_ms = entry.type == TomlType::integer ? static_cast<double>(entry.integer) : entry.number;
-    else if (entry.key == "says") fault.says = texts_in(entry);
-    else if (entry.key == "shows") fault.shows = texts_in(entry);
-    else if (entry.key == "keeps") fault.keeps = entry.text;
-    else if (entry.key == "trusted") fault.trusted = entry.flag;
-    else if (entry.key == "exit") fault.exit = static_cast<int>(entry.integer);
-    else return false;
+    if (entry.key == "name")
+        fault.name = entry.text;
+    else if (entry.key == "does")
+        fault.does = entry.text;
+    else if (entry.key == "inject")
+        fault.inject = texts_in(entry);
+    else if (entry.key == "before")
+        fault.before = entry.text;
+    else if (entry.key == "command")
+        fault.command = entry.text;
+    else if (entry.key == "after")
+        fault.after = entry.text;
+    else if (entry.key == "stops")
+        fault.stops = entry.text;
+    else if (entry.key == "within_ms")
+        fault.within_ms = entry.type == TomlType::integer ? static_cast<double>(entry.integer) : entry.number;
+    else if (entry.key == "says")
+        fault.says = texts_in(entry);
+    else if (entry.key == "shows")
+        fault.shows = texts_in(entry);
+    else if (entry.key == "keeps")
+        fault.keeps = entry.text;
+    else if (entry.key == "trusted")
+        fault.trusted = entry.flag;
+    else if (entry.key == "exit")
+        fault.exit = static_cast<int>(entry.integer);
+    else
+        return false;
     return true;
 }
 
@@ -74,13 +95,18 @@ Result<Fault> fault_of(const TomlNode& node, const Setup& of_group) {
     out.setup = of_group;
     for (const TomlNode& entry : node.children)
         if (!take(out, entry) && !take(out.setup, entry))
-            return fail(Trouble::bad_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)), entry.key_place);
+            return fail(Trouble::bad_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
+                        entry.key_place);
     for (const std::string* needed : {&out.name, &out.does, &out.stops, &out.keeps})
         if (needed->empty())
-            return fail(Trouble::bad_input, fmt::format("The fault {} needs name, does, stops and keeps.", rack::in_quotes(out.name)), node.key_place);
+            return fail(Trouble::bad_input,
+                        fmt::format("The fault {} needs name, does, stops and keeps.", rack::in_quotes(out.name)),
+                        node.key_place);
     const auto& points = out.setup.points;
     if (points.size() != 2 || points[0].name == points[1].name || points[0].name.empty() || points[1].name.empty())
-        return fail(Trouble::bad_input, fmt::format("The fault {} has {} operating points; it needs two, with names.", rack::in_quotes(out.name), points.size()),
+        return fail(Trouble::bad_input,
+                    fmt::format("The fault {} has {} operating points; it needs two, with names.",
+                                rack::in_quotes(out.name), points.size()),
                     node.key_place);
     return out;
 }
@@ -90,7 +116,8 @@ Result<Fault> fault_of(const TomlNode& node, const Setup& of_group) {
 std::string Fault::at_point(std::string text, const Point& point) {
     for (const auto& [name, value] : point.values) {
         const std::string place = "{" + name + "}";
-        for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + value.size())) text.replace(at, place.size(), value);
+        for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + value.size()))
+            text.replace(at, place.size(), value);
     }
     return text;
 }
@@ -105,10 +132,13 @@ Result<std::vector<Group>> read_catalogue(const std::filesystem::path& file) {
     for (const TomlNode& node : groups->children) {
         Group group;
         for (const TomlNode& entry : node.children) {
-            if (entry.key == "name") group.name = entry.text;
-            else if (entry.key == "about") group.about = entry.text;
+            if (entry.key == "name")
+                group.name = entry.text;
+            else if (entry.key == "about")
+                group.about = entry.text;
             else if (entry.key != "fault" && !take(group.setup, entry))
-                return fail(Trouble::bad_input, fmt::format("A group has no key {}.", rack::in_quotes(entry.key)), entry.key_place, file.string());
+                return fail(Trouble::bad_input, fmt::format("A group has no key {}.", rack::in_quotes(entry.key)),
+                            entry.key_place, file.string());
         }
         if (const TomlNode* faults = node.find("fault"))
             for (const TomlNode& fault : faults->children) {

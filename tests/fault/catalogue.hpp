@@ -1,4 +1,5 @@
-// The catalogue of faults as catalogue.toml declares it: read once, for the tests that run every row and for the page made of it.
+// The catalogue of faults as catalogue.toml declares it: read once, for the tests that run every row and for the page
+// made of it.
 //
 //   catalogue.toml ──read_catalogue──► groups ──► faults ──► two operating points each
 //                                                   ├──► fault_test.cpp runs them (ctest -L fault)
@@ -17,8 +18,8 @@ namespace motionrack::faults {
 
 /// Where a fault is run. Its values replace "{name}" in the texts of its fault.
 struct Point {
-    std::string name;                           ///< "slow"
-    std::string test;                           ///< of a fault that a test of another room runs: its name
+    std::string name;  ///< "slow"
+    std::string test;  ///< of a fault that a test of another room runs: its name
     std::map<std::string, std::string> values;
 };
 
@@ -33,17 +34,18 @@ struct Setup {
 
 struct Fault {
     std::string name;
-    std::string does;                  ///< what is injected, in words
-    std::vector<std::string> inject;   ///< options of the program: "--fault X.motor.stall@0.3s"; of session the fault itself
+    std::string does;  ///< what is injected, in words
+    std::vector<std::string>
+        inject;  ///< options of the program: "--fault X.motor.stall@0.3s"; of session the fault itself
     std::string before, command, after;  ///< of shell
-    std::string stops;                 ///< what must stop, in words
-    std::optional<double> within_ms;   ///< of simulated time after the fault; without it all goes on
-    std::vector<std::string> says;     ///< what the user reads
-    std::vector<std::string> shows;    ///< values afterwards: "flex.2.POSITION = 4952", "line.encoder_counts stands"
-    std::string keeps;                 ///< what is kept, in words
-    std::optional<bool> trusted;       ///< of run: whether the positions are
-    int exit = 0;                      ///< the program's exit code
-    Setup setup;                       ///< the group's, with what the fault has in its place
+    std::string stops;                   ///< what must stop, in words
+    std::optional<double> within_ms;     ///< of simulated time after the fault; without it all goes on
+    std::vector<std::string> says;       ///< what the user reads
+    std::vector<std::string> shows;      ///< values afterwards: "flex.2.POSITION = 4952", "line.encoder_counts stands"
+    std::string keeps;                   ///< what is kept, in words
+    std::optional<bool> trusted;         ///< of run: whether the positions are
+    int exit = 0;                        ///< the program's exit code
+    Setup setup;                         ///< the group's, with what the fault has in its place
 
     /// `text` with the point's values in place.
     static std::string at_point(std::string text, const Point& point);

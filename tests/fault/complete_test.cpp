@@ -1,4 +1,5 @@
-// Nothing that can be injected is missing from the catalogue, nothing in it is without its tests, and its page is current.
+// Nothing that can be injected is missing from the catalogue, nothing in it is without its tests, and its page is
+// current.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,10 +19,12 @@ namespace {
 const std::filesystem::path root = MOTIONRACK_SOURCE_DIR;
 
 TEST(FaultCatalogue, IsThePageOfTheReference) {
-    EXPECT_EQ(text_of(root / "docs/reference/faults.md"), catalogue_page(catalogue())) << "make it anew: fault_page > docs/reference/faults.md";
+    EXPECT_EQ(text_of(root / "docs/reference/faults.md"), catalogue_page(catalogue()))
+        << "make it anew: fault_page > docs/reference/faults.md";
 }
 
-/// What has faults in a rack, by what it is: "stepping axis", "servo axis", "stage", "belt or table", or the card's type.
+/// What has faults in a rack, by what it is: "stepping axis", "servo axis", "stage", "belt or table", or the card's
+/// type.
 std::string kind_of(rack::Rack& rack, const std::string& target) {
     for (const rack::RunningAxis& axis : rack.axes())
         if (target == std::string(1, axis.config.letter)) return axis.servo ? "servo axis" : "stepping axis";
@@ -41,7 +44,8 @@ std::set<std::string> racks() {
 }
 
 std::optional<rack::RackConfig> config_of(const std::string& text) {
-    auto reading = text.find('\n') == std::string::npos ? rack::read_rack_file((root / text).string()) : rack::read_rack_text(text);
+    auto reading = text.find('\n') == std::string::npos ? rack::read_rack_file((root / text).string())
+                                                        : rack::read_rack_text(text);
     EXPECT_TRUE(reading.config) << text;
     return reading.config;
 }
@@ -70,20 +74,26 @@ TEST(FaultCatalogue, HasEveryFaultOfEveryPartAndCard) {
             }
         }
     }
-    for (const rack::CardKind& kind : rack::card_kinds()) EXPECT_TRUE(card_types.count(std::string(kind.type))) << "no fault is run on a rack with a card of type " << kind.type;
-    for (const auto& [kind, fault] : can_break) EXPECT_TRUE(broken.count({kind, fault})) << "the catalogue has no " << fault << " of a " << kind;
+    for (const rack::CardKind& kind : rack::card_kinds())
+        EXPECT_TRUE(card_types.count(std::string(kind.type)))
+            << "no fault is run on a rack with a card of type " << kind.type;
+    for (const auto& [kind, fault] : can_break)
+        EXPECT_TRUE(broken.count({kind, fault})) << "the catalogue has no " << fault << " of a " << kind;
     std::set<std::string> names;
     for (const auto& [kind, fault] : can_break) names.insert(fault);
-    for (const std::string_view fault : rack::fault_names()) EXPECT_TRUE(names.count(std::string(fault))) << "no axis of the catalogue's racks can have " << fault;
+    for (const std::string_view fault : rack::fault_names())
+        EXPECT_TRUE(names.count(std::string(fault))) << "no axis of the catalogue's racks can have " << fault;
 }
 
 /// The names of all tests that ctest runs by this label.
 std::string tests_labelled(const std::string& label) {
     std::string out;
-    std::FILE* pipe = ::popen(("ctest --test-dir '" MOTIONRACK_BUILD_DIR "' -N -L '^" + label + "$' 2>&1").c_str(), "r");
+    std::FILE* pipe =
+        ::popen(("ctest --test-dir '" MOTIONRACK_BUILD_DIR "' -N -L '^" + label + "$' 2>&1").c_str(), "r");
     if (pipe == nullptr) return out;
     std::array<char, 4096> buffer{};
-    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), got);
+    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        out.append(buffer.data(), got);
     ::pclose(pipe);
     return out;
 }
@@ -96,15 +106,18 @@ TEST(FaultCatalogue, HasNoRowThatNoTestRuns) {
         const bool elsewhere = one.fault.setup.by == "test";
         EXPECT_EQ(elsewhere, !one.point.test.empty()) << one.name() << " names a test, or is run here";
         const std::string test = elsewhere ? one.point.test : "Catalogue/AFault.DoesWhatTheCatalogueSays/" + one.name();
-        const std::size_t at = tests.find(": " + test), end = at + 2 + test.size();  // behind it there may be "  # GetParam() = .."
-        EXPECT_TRUE(at != std::string::npos && (tests[end] == '\n' || tests[end] == ' ')) << "ctest -L fault runs no " << test << ", which is to run " << one.name();
+        const std::size_t at = tests.find(": " + test),
+                          end = at + 2 + test.size();  // behind it there may be "  # GetParam() = .."
+        EXPECT_TRUE(at != std::string::npos && (tests[end] == '\n' || tests[end] == ' '))
+            << "ctest -L fault runs no " << test << ", which is to run " << one.name();
     }
 }
 
 /// The text of the test's own file: where its name and its words stand.
 std::string source_of(const std::string& test) {
     const std::size_t dot = test.rfind('.'), slash = test.find('/'), end = test.find('/', dot);
-    const std::string suite = slash < dot ? test.substr(slash + 1, dot - slash - 1) : test.substr(0, dot), name = test.substr(dot + 1, end == std::string::npos ? end : end - dot - 1);
+    const std::string suite = slash < dot ? test.substr(slash + 1, dot - slash - 1) : test.substr(0, dot),
+                      name = test.substr(dot + 1, end == std::string::npos ? end : end - dot - 1);
     for (const char* folder : {"tests", "motionrack"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
             if (entry.path().extension() == ".cpp") {
@@ -119,7 +132,8 @@ TEST(FaultCatalogue, HasTheWordsThatTestsOfOtherRoomsLookFor) {
         if (one.fault.setup.by != "test") continue;
         const std::string source = source_of(one.point.test);
         ASSERT_FALSE(source.empty()) << one.point.test << " is in no file";
-        for (const std::string& words : one.fault.says) EXPECT_NE(source.find(words), std::string::npos) << one.point.test << " does not look for: " << words;
+        for (const std::string& words : one.fault.says)
+            EXPECT_NE(source.find(words), std::string::npos) << one.point.test << " does not look for: " << words;
     }
 }
 

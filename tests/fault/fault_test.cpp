@@ -1,4 +1,5 @@
-// Runs every fault of the catalogue at its operating points, with the program as a user calls it, and checks what the catalogue says of it.
+// Runs every fault of the catalogue at its operating points, with the program as a user calls it, and checks what the
+// catalogue says of it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +42,9 @@ class AFault : public InFolder, public testing::WithParamInterface<Case> {
         for (const std::string& option : fault().inject) out.append(" ").append(one().text(option));
         return out;
     }
-    Instant broken_at() const { return fault().inject.empty() ? Instant{} : instant_of(one().text(fault().inject.front())); }
+    Instant broken_at() const {
+        return fault().inject.empty() ? Instant{} : instant_of(one().text(fault().inject.front()));
+    }
     Instant last_motion() const { return broken_at() + from_seconds(*fault().within_ms * 1e-3); }
 
     void expect_words(const std::string& said) const {
@@ -56,7 +59,7 @@ class AFault : public InFolder, public testing::WithParamInterface<Case> {
     void run_shell() const;
 };
 
-// ---- run: a part program --------------------------------------------------------------------------------------------------------
+// ---- run: a part program
 
 void AFault::run_program() const {
     write("part.ngc", one().text(fault().setup.program));
@@ -88,7 +91,8 @@ std::vector<std::pair<Instant, double>> read(const trace::RecordingReader& recor
     if (!columns) return out;
     std::vector<std::int64_t> times(columns->size);
     std::vector<double> values(columns->size);
-    EXPECT_TRUE(columns->time.read(0, times.size(), times.data()) && columns->value.read(0, values.size(), values.data()));
+    EXPECT_TRUE(columns->time.read(0, times.size(), times.data()) &&
+                columns->value.read(0, values.size(), values.data()));
     for (std::size_t i = 0; i < times.size(); ++i) out.emplace_back(Instant{times[i]}, values[i]);
     return out;
 }
@@ -122,7 +126,7 @@ void AFault::look_at_values(const trace::RecordingReader& recording) const {
     }
 }
 
-// ---- home: the search for a switch ----------------------------------------------------------------------------------------------
+// ---- home: the search for a switch
 
 void AFault::home() const {
     const std::string arguments = "home X -q --json --rack " + rack_file() + options();
@@ -141,7 +145,7 @@ void AFault::home() const {
     }
 }
 
-// ---- frames: cards of a grating bus, and stages ---------------------------------------------------------------------------------
+// ---- frames: cards of a grating bus, and stages
 
 void AFault::show_frames() const {
     const std::string arguments = "frames " + rack_file() + " -q --for " + one().text("{for}") + options();
@@ -154,13 +158,14 @@ void AFault::show_frames() const {
     for (const std::string& pattern : fault().says) {
         const std::size_t words = ran.out.find(one().text(pattern));
         if (words == std::string::npos) continue;
-        const std::size_t begin = ran.out.rfind('\n', words), at = ran.out.find(" at ", begin == std::string::npos ? 0 : begin);
+        const std::size_t begin = ran.out.rfind('\n', words),
+                          at = ran.out.find(" at ", begin == std::string::npos ? 0 : begin);
         ASSERT_NE(at, std::string::npos) << pattern;
         EXPECT_LE(std::stod(ran.out.substr(at + 4)), to_seconds(last_motion())) << pattern;
     }
 }
 
-// ---- session: a rack without a program ------------------------------------------------------------------------------------------
+// ---- session: a rack without a program
 
 double value_of(rack::Session& session, const std::string& name) {
     if (const auto part = session.part(name)) return *part;
@@ -181,8 +186,9 @@ void AFault::play_session() const {
         pass(to_seconds(timed->at) * 1e3 - static_cast<double>((*session)->now_ns()) * 1e-6);
         const std::size_t equals = timed->action.find('='), dot = timed->action.find('.');
         const bool wire = (*session)->wire(timed->action.substr(0, equals)).has_value();
-        const Result<void> done = wire ? (*session)->set_wire(timed->action.substr(0, equals), std::stod(timed->action.substr(equals + 1)))
-                                       : (*session)->fault(timed->action.substr(dot + 1), timed->action.substr(0, dot));
+        const Result<void> done =
+            wire ? (*session)->set_wire(timed->action.substr(0, equals), std::stod(timed->action.substr(equals + 1)))
+                 : (*session)->fault(timed->action.substr(dot + 1), timed->action.substr(0, dot));
         ASSERT_TRUE(done) << done.error().text();
     }
     pass(fault().within_ms.value_or(0));
@@ -193,20 +199,26 @@ void AFault::play_session() const {
     for (const std::string& shows : fault().shows) {
         const std::string text = one().text(shows);
         const double now = value_of(**session, name_of(text)), was = before[name_of(shows)];
-        if (text.find(" stands") != std::string::npos) EXPECT_LE(std::fabs(now - was), 2) << text;
-        else if (text.find(" goes up") != std::string::npos) EXPECT_GT(now, was + 2) << text;
-        else if (text.find(" goes down") != std::string::npos) EXPECT_LT(now, was - 2) << text;
-        else EXPECT_DOUBLE_EQ(now, std::stod(text.substr(text.find(" = ") + 3))) << text;
+        if (text.find(" stands") != std::string::npos)
+            EXPECT_LE(std::fabs(now - was), 2) << text;
+        else if (text.find(" goes up") != std::string::npos)
+            EXPECT_GT(now, was + 2) << text;
+        else if (text.find(" goes down") != std::string::npos)
+            EXPECT_LT(now, was - 2) << text;
+        else
+            EXPECT_DOUBLE_EQ(now, std::stod(text.substr(text.find(" = ") + 3))) << text;
     }
     std::string said;
-    for (const sim::Condition& condition : (*session)->rack().kernel().conditions()) said += (*session)->rack().describe(condition) + "\n";
+    for (const sim::Condition& condition : (*session)->rack().kernel().conditions())
+        said += (*session)->rack().describe(condition) + "\n";
     expect_words(said);
 }
 
-// ---- shell: files and signals ---------------------------------------------------------------------------------------------------
+// ---- shell: files and signals
 
 void AFault::run_shell() const {
-    const std::string path = "export PATH=\"" + std::filesystem::path(MOTIONRACK_PROGRAM).parent_path().string() + ":$PATH\"; ";
+    const std::string path =
+        "export PATH=\"" + std::filesystem::path(MOTIONRACK_PROGRAM).parent_path().string() + ":$PATH\"; ";
     const auto in_shell = [&](const std::string& text) { return shell("bash -c '" + path + one().text(text) + "'"); };
     if (!fault().before.empty()) {
         const Ran before = in_shell(fault().before);
@@ -237,7 +249,8 @@ std::vector<Case> own_cases() {
     return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, AFault, testing::ValuesIn(own_cases()), [](const auto& each) { return each.param.name(); });
+INSTANTIATE_TEST_SUITE_P(Catalogue, AFault, testing::ValuesIn(own_cases()),
+                         [](const auto& each) { return each.param.name(); });
 
 }  // namespace
 }  // namespace motionrack::faults

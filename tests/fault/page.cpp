@@ -9,7 +9,8 @@ namespace {
 
 /// As the cell of a table: on one line, without its borders.
 std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find_first_of("|\n", at)) != std::string::npos; ++at) text.replace(at, 1, text[at] == '\n' ? " " : "\\|"), ++at;
+    for (std::size_t at = 0; (at = text.find_first_of("|\n", at)) != std::string::npos; ++at)
+        text.replace(at, 1, text[at] == '\n' ? " " : "\\|"), ++at;
     return text;
 }
 
@@ -48,13 +49,16 @@ std::string points_text(const std::vector<Point>& points) {
     for (const Point& point : points) {
         std::string values;
         for (const auto& [name, value] : point.values)
-            if (value.find('\n') == std::string::npos) values += fmt::format("{}{} `{}`", values.empty() ? "" : ", ", name, value);
+            if (value.find('\n') == std::string::npos)
+                values += fmt::format("{}{} `{}`", values.empty() ? "" : ", ", name, value);
         out += (out.empty() ? "" : "; ") + point.name + (values.empty() ? "" : " (" + values + ")");
     }
     return out;
 }
 
-bool same_points(const std::vector<Point>& a, const std::vector<Point>& b) { return points_text(a) == points_text(b); }
+bool same_points(const std::vector<Point>& a, const std::vector<Point>& b) {
+    return points_text(a) == points_text(b);
+}
 
 }  // namespace
 
@@ -63,21 +67,30 @@ std::string catalogue_page(const std::vector<Group>& groups) {
     for (const Group& group : groups) count += group.faults.size();
     std::string out = fmt::format(
         "# Faults\n\n<!-- written by `fault_page`, from tests/fault/catalogue.toml -->\n\n"
-        "{} faults that parts, cards, wires, the bus, files, the network and the process can have: what is injected, what must stop and within what time, the words that "
-        "the user reads, and what is kept. `ctest -L fault` runs each of them at two operating points and checks all of it. Times are of the simulated world, from the fault to "
-        "the last change of any position, unless a line says otherwise. {{name}} is a number or a word that the operating point has.\n\n"
-        "Faults are injected by `--fault NAME=VALUE@TIME` of `motionrack run`, `home` and `frames`, in [Python](../howto/python.md) and [C](c.md), and on the panel: see "
-        "[wire a machine](../howto/wire.md#what-if-a-wire-breaks).\n", count);
+        "{} faults that parts, cards, wires, the bus, files, the network and the process can have: what is injected, "
+        "what must stop and within what time, the words that "
+        "the user reads, and what is kept. `ctest -L fault` runs each of them at two operating points and checks all "
+        "of it. Times are of the simulated world, from the fault to "
+        "the last change of any position, unless a line says otherwise. {{name}} is a number or a word that the "
+        "operating point has.\n\n"
+        "Faults are injected by `--fault NAME=VALUE@TIME` of `motionrack run`, `home` and `frames`, in "
+        "[Python](../howto/python.md) and [C](c.md), and on the panel: see "
+        "[wire a machine](../howto/wire.md#what-if-a-wire-breaks).\n",
+        count);
     for (const Group& group : groups) {
         out += fmt::format("\n## {}\n{}\n", group.name, group.about);
         if (!group.setup.is.empty()) out += fmt::format("Run on {}.\n", group.setup.is);
         if (!group.setup.program.empty()) out += fmt::format("\n```\n{}```\n\n", group.setup.program);
         if (!group.setup.points.empty()) out += fmt::format("Operating points: {}.\n", points_text(group.setup.points));
-        out += "\n| fault | what is injected | what must stop | what the user reads | what is kept |\n|---|---|---|---|---|\n";
+        out +=
+            "\n| fault | what is injected | what must stop | what the user reads | what is kept "
+            "|\n|---|---|---|---|---|\n";
         for (const Fault& fault : group.faults) {
             std::string done = what_is_done(fault);
-            if (!same_points(fault.setup.points, group.setup.points)) done += " (" + points_text(fault.setup.points) + ")";
-            out += fmt::format("| {} | {} | {} | {} | {} |\n", cell(fault.name), cell(done), cell(what_stops(fault)), cell(what_is_read(fault)), cell(what_is_kept(fault)));
+            if (!same_points(fault.setup.points, group.setup.points))
+                done += " (" + points_text(fault.setup.points) + ")";
+            out += fmt::format("| {} | {} | {} | {} | {} |\n", cell(fault.name), cell(done), cell(what_stops(fault)),
+                               cell(what_is_read(fault)), cell(what_is_kept(fault)));
         }
     }
     return out;

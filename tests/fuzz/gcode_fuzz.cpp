@@ -29,7 +29,10 @@ Settings machine(std::uint8_t choice) {
     settings.probe = (choice & 16) == 0;
     settings.most_lines = 2'000;
     settings.tools = *read_tool_table("T1 Z10 D3\nT2 P7 X1 Z20 D6\nT3 D-4\n");
-    if ((choice & 8) != 0) settings.subprogram = [](const std::string& name) -> motionrack::Result<std::string> { return "o<" + name + "> sub\nG0 X#1\no<" + name + "> endsub [#1]\n"; };
+    if ((choice & 8) != 0)
+        settings.subprogram = [](const std::string& name) -> motionrack::Result<std::string> {
+            return "o<" + name + "> sub\nG0 X#1\no<" + name + "> endsub [#1]\n";
+        };
     return settings;
 }
 
@@ -88,7 +91,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Interpreter sender(machine(data[0]));
     Lines lines(text);
     for (std::string_view line; lines.next(line);) {
-        if (const auto read = sender.line(line, lines.number(), Language::words); !read) require(read.error().status != GrblStatus::none);
+        if (const auto read = sender.line(line, lines.number(), Language::words); !read)
+            require(read.error().status != GrblStatus::none);
         require(!sender.block().flow && sender.block().assignments.empty());
     }
     if (const auto table = read_tool_table(text)) require(table->tools().size() <= most_tools);

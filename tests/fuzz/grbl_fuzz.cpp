@@ -1,5 +1,5 @@
-// libFuzzer: any bytes down a Grbl port of a machine that runs. The first byte picks the machine; FFh lets 20 ms go by. What comes back is
-// lines of ASCII; after a reset the machine comes to rest, and an empty line is answered with ok.
+// libFuzzer: any bytes down a Grbl port of a machine that runs. The first byte picks the machine; FFh lets 20 ms go by.
+// What comes back is lines of ASCII; after a reset the machine comes to rest, and an empty line is answered with ok.
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -18,8 +18,8 @@ const rack::RackConfig& machine(bool homes) {
     const auto read = [](const std::string& switches) {
         std::string text = "[card.m]\ntype = \"mcx314\"\n";
         for (const std::string axis : {"X", "Y", "Z"})
-            text += "[axis." + axis + "]\ncard = \"m\"\nchannel = \"" + static_cast<char>(axis[0] - 'A' + 'a') + "\"\n" +
-                    (switches.empty() ? "" : "[axis." + axis + ".switches]\n" + switches);
+            text += "[axis." + axis + "]\ncard = \"m\"\nchannel = \"" + static_cast<char>(axis[0] - 'A' + 'a') +
+                    "\"\n" + (switches.empty() ? "" : "[axis." + axis + ".switches]\n" + switches);
         return *rack::read_rack_text(text).config;
     };
     static const rack::RackConfig plain = read(""), with_homes = read("home_mm = 1\nlimit_plus_mm = 302\n");

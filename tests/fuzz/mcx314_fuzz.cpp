@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as accesses, wires and passing time on a virtual MCX314, or an MCX314As where their number is odd;
-// what must always hold is in the card's test/chip_fuzz.hpp.
+// libFuzzer: any bytes as accesses, wires and passing time on a virtual MCX314, or an MCX314As where their number is
+// odd; what must always hold is in the card's test/chip_fuzz.hpp.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -9,9 +9,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     motionrack::fuzz::Bytes bytes({data, size});
     motionrack::mcx314::fuzz::Verdict verdict;
-    motionrack::mcx314::fuzz::run(bytes, 2'000, verdict,
-                                  size % 2 == 0 ? motionrack::mcx314::Variant::mcx314
-                                                : motionrack::mcx314::Variant::mcx314as);
+    motionrack::mcx314::fuzz::run(
+        bytes, 2'000, verdict,
+        size % 2 == 0 ? motionrack::mcx314::Variant::mcx314 : motionrack::mcx314::Variant::mcx314as);
     if (verdict.problem.empty()) return 0;
     std::fprintf(stderr, "%s\n", verdict.problem.c_str());
     std::abort();

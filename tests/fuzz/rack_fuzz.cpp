@@ -35,7 +35,8 @@ void check_config(const RackConfig& config) {
     }
     for (const RackTrack& track : config.tracks) MOTIONRACK_ASSERT(parts::Track::make(track.settings()));
     for (const RackScanner& scanner : config.scanners) {
-        MOTIONRACK_ASSERT(config.card(scanner.card) != nullptr && (!scanner.track || config.track(*scanner.track) != nullptr));
+        MOTIONRACK_ASSERT(config.card(scanner.card) != nullptr &&
+                          (!scanner.track || config.track(*scanner.track) != nullptr));
         MOTIONRACK_ASSERT(parts::MarkingStation::make(scanner.settings()));
     }
     std::set<std::string> driven;

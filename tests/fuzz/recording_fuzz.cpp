@@ -26,7 +26,8 @@ void read_whole(const std::string& path) {
         std::vector<std::int64_t> values(1 << 14);
         for (std::uint64_t from = 0; from < columns->size && from < (1u << 20); from += values.size()) {
             const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(values.size(), columns->size - from));
-            if (!columns->time.read(from, count, values.data()) || !columns->value.read(from, count, values.data())) break;
+            if (!columns->time.read(from, count, values.data()) || !columns->value.read(from, count, values.data()))
+                break;
         }
     }
     const auto data = reader->report();
@@ -36,7 +37,9 @@ void read_whole(const std::string& path) {
 }  // namespace
 
 /// The HDF5 library itself loses some memory where it gives up a damaged file.
-extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
+extern "C" const char* __asan_default_options() {
+    return "detect_leaks=0";
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::string path = "/tmp/motionrack_recording_fuzz_" + std::to_string(::getpid());
@@ -46,7 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (kind && *kind == trace::FileKind::hdf5) read_whole(path);
     const auto diff = trace::diff_files(path, path);
     if (diff)
-        require(diff->same() && !trace::diff_text(*diff, "a", "b").empty() && !trace::diff_json(*diff, "a", "b").empty());
+        require(diff->same() && !trace::diff_text(*diff, "a", "b").empty() &&
+                !trace::diff_json(*diff, "a", "b").empty());
     else
         require(!diff.error().message.empty());
     if (kind && *kind == trace::FileKind::csv) (void)trace::report_from_csv(path);

@@ -14,7 +14,9 @@ class AControlLease : public testing::Test {
   protected:
     Moment now{};
     ControlLease lease{[this] { return now; }};
-    Result<void> take(const char* user, const char* session, bool force = false, bool stands = true) { return lease.take(user, session, force, stands); }
+    Result<void> take(const char* user, const char* session, bool force = false, bool stands = true) {
+        return lease.take(user, session, force, stands);
+    }
 };
 
 TEST_F(AControlLease, IsNobodysAtFirstAndGoesToWhoeverAsks) {

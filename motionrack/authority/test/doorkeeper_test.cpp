@@ -46,7 +46,9 @@ class ADoorkeeper : public testing::Test {
         ::chmod(file().c_str(), 0600);
     }
     void pass(std::chrono::seconds time) { now = {now.wall + time, now.steady + time}; }
-    auto pair(const std::string& code, const std::string& name, const std::string& address = "127.0.0.1") { return door->pair(code, name, address, now); }
+    auto pair(const std::string& code, const std::string& name, const std::string& address = "127.0.0.1") {
+        return door->pair(code, name, address, now);
+    }
 
     fs::path folder;
     Now now{WallTime(std::chrono::hours(500'000)), {}};
@@ -102,7 +104,8 @@ TEST_F(ADoorkeeper, PairsATakenNameWithTheStartCodeOnly) {
 
 TEST_F(ADoorkeeper, SlowsWrongCodesDownPerAddressAndForAll) {
     for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, Denied::Why::wrong);
-    EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().why, Denied::Why::too_many) << "even a right one is not looked at";
+    EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().why, Denied::Why::too_many)
+        << "even a right one is not looked at";
     for (int i = 0; i < 55; ++i)
         EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.1." + std::to_string(i)).error().why, Denied::Why::wrong);
     EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.2.1").error().why, Denied::Why::too_many);
@@ -149,13 +152,16 @@ TEST_F(ADoorkeeper, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
 TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     const std::string hash(64, 'a');
     const auto user = [&](const std::string& fields) { return "{\"users\":[{" + fields + "}]}"; };
-    const std::string token = "\"token_sha256\":\"" + hash + "\"", expires = "\"expires\":1", role = "\"role\":\"observe\"", name = "\"name\":\"a\"";
+    const std::string token = "\"token_sha256\":\"" + hash + "\"", expires = "\"expires\":1",
+                      role = "\"role\":\"observe\"", name = "\"name\":\"a\"";
     write(user(name + "," + role + "," + token + "," + expires));
     EXPECT_TRUE(try_open());
     for (const std::string& wrong : std::vector<std::string>{
-             "{", "[]", "{\"users\":1}", "{\"users\":[1]}", user(""), user(name + ",\"role\":\"nobody\"," + token + "," + expires),
-             user("\"name\":1," + role + "," + token + "," + expires), user(name + "," + role + ",\"token_sha256\":\"aa\"," + expires),
-             user(name + "," + role + "," + token), user(name + "," + role + "," + token + ",\"expires\":-1")}) {
+             "{", "[]", "{\"users\":1}", "{\"users\":[1]}", user(""),
+             user(name + ",\"role\":\"nobody\"," + token + "," + expires),
+             user("\"name\":1," + role + "," + token + "," + expires),
+             user(name + "," + role + ",\"token_sha256\":\"aa\"," + expires), user(name + "," + role + "," + token),
+             user(name + "," + role + "," + token + ",\"expires\":-1")}) {
         write(wrong);
         const auto opened = try_open();
         ASSERT_FALSE(opened) << wrong;
@@ -190,7 +196,8 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
 
 TEST_F(ADoorkeeper, TakesNamesThatPeopleCanTellApart) {
     for (const char* good : {"anna", "Anna B. 2", "j\xc3\xb6rg", "a"}) EXPECT_EQ(name_problem(good), "") << good;
-    for (const char* bad : {"", " a", "a ", "a\nb", "a\"b", "<b>", "12345678901234567890123456789012345678901"}) EXPECT_NE(name_problem(bad), "") << bad;
+    for (const char* bad : {"", " a", "a ", "a\nb", "a\"b", "<b>", "12345678901234567890123456789012345678901"})
+        EXPECT_NE(name_problem(bad), "") << bad;
     EXPECT_FALSE(pair(start_codes[0], "a\nb"));
     EXPECT_TRUE(pair(start_codes[0], "anna"));
 }

@@ -84,8 +84,7 @@ TEST(CommandTables, RefuseRangesThatCannotBe) {
               "the range of the command A does not fit its bytes of data");
     EXPECT_EQ(with_commands({{"A", 1, 0, 0, 1, "", "", "a"}}),
               "the range of the command A does not fit its bytes of data");
-    EXPECT_EQ(with_commands({{"A", 1, 5, 0, 1, "", "", "a"}}),
-              "the command A has a table of data, which has no range");
+    EXPECT_EQ(with_commands({{"A", 1, 5, 0, 1, "", "", "a"}}), "the command A has a table of data, which has no range");
     EXPECT_EQ(with_commands({{"A", 1, 240, 0, 0, "", "", "a"}}), "");
     EXPECT_EQ(with_commands({{"A", 1, 1025, 0, 0, "", "", "a"}}),
               "the command A does not have 0 to 1024 bytes of data or answer");

@@ -30,12 +30,15 @@ TEST(Power, IsWithinItsErrors) {
     std::uniform_real_distribution<double> size(-30, 30), exponent(-9, 9);
     double worst = 0, worst_whole = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const double x = std::exp2(size(random)), y = exponent(random), whole = std::round(exponent(random) * (i % 2 ? 1 : 5));
+        const double x = std::exp2(size(random)), y = exponent(random),
+                     whole = std::round(exponent(random) * (i % 2 ? 1 : 5));
         worst = std::fmax(worst, ulps(power(x, y), std::pow(static_cast<long double>(x), static_cast<long double>(y))));
         const double at = i % 3 ? x : -x;
         if (std::fabs(std::log2(x) * whole) > 990) continue;
         // Whole powers of long double lose half an ulp of theirs with each product; they are as good as 2^-60 here.
-        worst_whole = std::fmax(worst_whole, ulps(power(at, whole), std::pow(static_cast<long double>(at), static_cast<long double>(whole))));
+        worst_whole =
+            std::fmax(worst_whole,
+                      ulps(power(at, whole), std::pow(static_cast<long double>(at), static_cast<long double>(whole))));
     }
     RecordProperty("worst_ulps", std::to_string(worst));
     RecordProperty("worst_ulps_whole", std::to_string(worst_whole));
@@ -88,10 +91,13 @@ TEST(Trig, TangentAndArcSineAreWithinTheirErrors) {
 /// Folds the bits of many results; the number below was the same with g++ and clang++ at -O0, -O2 and -O3.
 TEST(Power, BitsAreTheSameOnEveryCompilerAndCpu) {
     std::uint64_t state = seed, fold = 0;
-    const auto mix = [&fold](double value) { fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u; };
+    const auto mix = [&fold](double value) {
+        fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
+    };
     for (int i = 0; i < 50'000; ++i) {
         state = state * 6364136223846793005u + 1442695040888963407u;
-        const double x = static_cast<double>(state >> 11) * 0x1p-40, y = static_cast<double>(static_cast<std::int64_t>(state << 7) >> 20) * 0x1p-40;
+        const double x = static_cast<double>(state >> 11) * 0x1p-40,
+                     y = static_cast<double>(static_cast<std::int64_t>(state << 7) >> 20) * 0x1p-40;
         mix(power(x, y));
         mix(power(x, static_cast<double>(i % 40 - 20)));
         mix(motionrack::tan(y));

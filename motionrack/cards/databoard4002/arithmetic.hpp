@@ -7,7 +7,7 @@
 
 namespace motionrack::databoard4002 {
 
-// ---- Positions ------------------------------------------------------------------------------------------------------
+// ---- Positions
 
 /// The lowest 24 bits as two's complement, -8,388,608 .. 8,388,607.
 constexpr std::int64_t signed24(std::int64_t x) {
@@ -16,7 +16,7 @@ constexpr std::int64_t signed24(std::int64_t x) {
 /// The longest move, counts.
 inline constexpr std::int64_t longest_move = 0x7F'FFFF;
 
-// ---- Rate and frequency ---------------------------------------------------------------------------------------------
+// ---- Rate and frequency
 
 inline constexpr std::int64_t clock_hz = 400'000;
 inline constexpr int most_rate = 0x3FFF;
@@ -31,7 +31,7 @@ constexpr double hz_of(int rate) {
     return rate == 0 ? 0.0 : static_cast<double>(clock_hz) / static_cast<double>(divisor_of(rate));
 }
 
-// ---- Voltage --------------------------------------------------------------------------------------------------------
+// ---- Voltage
 
 /// What the frequency/voltage converter gives at a rate.
 struct TrimRow {
@@ -45,7 +45,8 @@ struct Trim {
     int size = 0;
 };
 
-/// The table in the maker's description; its first row is read as 0.01 V and its row 15745 as 14745, as their neighbours ask for.
+/// The table in the maker's description; its first row is read as 0.01 V and its row 15745 as 14745, as their
+/// neighbours ask for.
 inline constexpr Trim default_trim = {
     {{{10'000, 13'799},    {25'000, 14'051},    {50'000, 14'339},    {75'000, 14'565},    {100'000, 14'745},
       {150'000, 15'014},   {200'000, 15'207},   {250'000, 15'351},   {300'000, 15'463},   {350'000, 15'547},
@@ -70,13 +71,15 @@ constexpr bool sound(const Trim& trim) {
 }
 static_assert(sound(default_trim));
 
-/// The converter's voltage in uV at a rate 0 .. 16383: linear in the frequency between rows and below the first, level above the
-/// last; halves are rounded up.
+/// The converter's voltage in uV at a rate 0 .. 16383: linear in the frequency between rows and below the first, level
+/// above the last; halves are rounded up.
 constexpr std::int32_t microvolts_of(int rate, const Trim& trim) {
     if (rate <= 0) return 0;
     const std::int64_t n = divisor_of(rate);
     const TrimRow* row = trim.rows.data();
-    auto scaled = [](std::int64_t volts, std::int64_t num, std::int64_t den) { return (2 * volts * num + den) / (2 * den); };
+    auto scaled = [](std::int64_t volts, std::int64_t num, std::int64_t den) {
+        return (2 * volts * num + den) / (2 * den);
+    };
     if (rate <= row->rate) return static_cast<std::int32_t>(scaled(row->microvolts, divisor_of(row->rate), n));
     for (int i = 1; i < trim.size; ++i, ++row) {
         if (rate > row[1].rate) continue;

@@ -1,5 +1,5 @@
-// The DataBoard 4002's ports, words, commands, states and pins as constants; model, driver, documents and tests read them
-// here. The tables are in map/.
+// The DataBoard 4002's ports, words, commands, states and pins as constants; model, driver, documents and tests read
+// them here. The tables are in map/.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -121,9 +121,12 @@ inline constexpr PinInfo pins[] = {
 static_assert(declared<pins_flaw(pins)>());
 
 inline constexpr CardMap card = {
-    "databoard4002", "Intelligent positioning card for one axis: byte commands, slope table, analog and frequency output",
-    registers,       commands,
-    machines,        pins};
+    "databoard4002",
+    "Intelligent positioning card for one axis: byte commands, slope table, analog and frequency output",
+    registers,
+    commands,
+    machines,
+    pins};
 
 }  // namespace map
 

@@ -1,4 +1,5 @@
-// The slope table: 48 intervals of 5 bytes, deceleration 0..23 by the distance to go, acceleration 24..47 by the distance travelled.
+// The slope table: 48 intervals of 5 bytes, deceleration 0..23 by the distance to go, acceleration 24..47 by the
+// distance travelled.
 //
 //   rate ^        ________            entry 47 outside the table
 //        |   ____|        |___

@@ -31,7 +31,8 @@ bool sound(const Frame& frame) {
 }
 
 bool same(const Frame& a, const Frame& b) {
-    return a.time == b.time && a.sequence == b.sequence && a.words == b.words && std::equal(a.positions().begin(), a.positions().end(), b.positions().begin());
+    return a.time == b.time && a.sequence == b.sequence && a.words == b.words &&
+           std::equal(a.positions().begin(), a.positions().end(), b.positions().begin());
 }
 
 }  // namespace motionrack::grating_bus

@@ -36,8 +36,8 @@ bool sound(const Frame& frame);
 /// Same content, sequence and time included.
 bool same(const Frame& a, const Frame& b);
 
-/// `now`, extended to 64 bits: the count next to `before` that has these low 32 bits. Right while a scale moves less than 2^31 counts
-/// between two frames.
+/// `now`, extended to 64 bits: the count next to `before` that has these low 32 bits. Right while a scale moves less
+/// than 2^31 counts between two frames.
 constexpr std::int64_t unwrapped(std::int64_t before, std::uint32_t now) {
     return before + static_cast<std::int32_t>(now - static_cast<std::uint32_t>(before));
 }

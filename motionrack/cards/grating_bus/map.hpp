@@ -1,7 +1,8 @@
 // The grating bus' registers, states and pins as constants; model, driver, documents and tests read them here.
 //
-// The motion card's processor reads its logic through a 16-bit interface (the source's processor has one beside its 64-bit one). The source
-// names no registers; the map is the project's own. Offsets are byte offsets; values of more than 16 bits are several registers, _L the low one.
+// The motion card's processor reads its logic through a 16-bit interface (the source's processor has one beside its
+// 64-bit one). The source names no registers; the map is the project's own. Offsets are byte offsets; values of more
+// than 16 bits are several registers, _L the low one.
 //
 //   00h .. 1Fh   the card: role, state, what to do
 //   20h .. 3Fh   counters of what went wrong; each is 16 bits and stays at FFFFh
@@ -46,7 +47,8 @@ inline constexpr FieldInfo state_fields[] = {
 inline constexpr Access r = Access::read, w = Access::write;
 
 inline constexpr RegisterInfo registers[] = {
-    {"CONTROL", 0x00, 16, w, false, "", "what the processor wants; bits act from the lowest to the highest", control_fields},
+    {"CONTROL", 0x00, 16, w, false, "", "what the processor wants; bits act from the lowest to the highest",
+     control_fields},
     {"SIGNATURE", 0x00, 16, r, false, "", "4742h: a card of a grating bus", {}},
     {"ROLE", 0x02, 16, r, false, "", "how the card is set", role_fields},
     {"STATUS", 0x04, 16, r, false, "", "frame and faults", status_fields},
@@ -97,10 +99,11 @@ inline constexpr StateInfo states[] = {
     {"S12", "emits the pulse frame_done"},
 };
 inline constexpr TransitionInfo transitions[] = {
-    {"S0", "S1", "pulse or edge"},  {"S1", "S2", "after T1"},         {"S2", "S3", "after T2"},     {"S3", "S4", "after T3"},
-    {"S4", "S5", "next clock"},     {"S5", "S6", "scales are left"},  {"S5", "S11", "all are read"}, {"S6", "S7", "next clock"},
-    {"S7", "S8", "after T1"},       {"S8", "S9", "after T2"},         {"S9", "S10", "after T3"},    {"S10", "S5", "next clock"},
-    {"S11", "S12", "next clock"},   {"S12", "S0", "next clock"},
+    {"S0", "S1", "pulse or edge"}, {"S1", "S2", "after T1"},    {"S2", "S3", "after T2"},
+    {"S3", "S4", "after T3"},      {"S4", "S5", "next clock"},  {"S5", "S6", "scales are left"},
+    {"S5", "S11", "all are read"}, {"S6", "S7", "next clock"},  {"S7", "S8", "after T1"},
+    {"S8", "S9", "after T2"},      {"S9", "S10", "after T3"},   {"S10", "S5", "next clock"},
+    {"S11", "S12", "next clock"},  {"S12", "S0", "next clock"},
 };
 inline constexpr MachineInfo machines[] = {
     {"frame", "how a card reads one frame; a slave walks it with the host", states, transitions},
@@ -118,12 +121,19 @@ inline constexpr PinInfo pins[] = {
 };
 static_assert(declared<pins_flaw(pins)>());
 
-// ---- the decoder card -------------------------------------------------------------------------------------------------------
+// ---- the decoder card
 
 inline constexpr RegisterInfo decoder_registers[] = {
     {"SIGNATURE", 0x00, 16, r, false, "", "4744h: the decoder of a grating bus", {}},
     {"SCALES", 0x02, 16, r, false, "", "scales that it counts", {}},
-    {"COUNT_L", 0x100, 16, r, false, "", "count of scale 0 now, low; reading it keeps the high word for the next read; of scale n 4n bytes on", {}},
+    {"COUNT_L",
+     0x100,
+     16,
+     r,
+     false,
+     "",
+     "count of scale 0 now, low; reading it keeps the high word for the next read; of scale n 4n bytes on",
+     {}},
     {"COUNT_H", 0x102, 16, r, false, "", "the high word of the count whose low word was read last", {}},
 };
 static_assert(declared<registers_flaw(decoder_registers)>());
@@ -131,7 +141,11 @@ static_assert(declared<registers_flaw(decoder_registers)>());
 /// Names of numbered pins: "a0" .. "a254".
 struct PinName {
     char text[5] = {};
-    constexpr std::string_view view() const { return text[2] == 0 ? std::string_view(text, 2) : text[3] == 0 ? std::string_view(text, 3) : std::string_view(text, 4); }
+    constexpr std::string_view view() const {
+        return text[2] == 0   ? std::string_view(text, 2)
+               : text[3] == 0 ? std::string_view(text, 3)
+                              : std::string_view(text, 4);
+    }
 };
 consteval std::array<PinName, 2 * most_scales> scale_pin_names() {
     std::array<PinName, 2 * most_scales> out;
@@ -151,16 +165,23 @@ inline constexpr PinInfo decoder_pins[] = {
     {"b*", PinDirection::input, false, "scale n, line B"},
 };
 
-inline constexpr CardMap decoder = {"grating_decoder", "Decoder card that counts up to 255 scales and freezes all of them at one instant", decoder_registers, {}, {}, decoder_pins};
+inline constexpr CardMap decoder = {"grating_decoder",
+                                    "Decoder card that counts up to 255 scales and freezes all of them at one instant",
+                                    decoder_registers,
+                                    {},
+                                    {},
+                                    decoder_pins};
 
-inline constexpr CardMap card = {"grating_bus", "Motion card that reads all scales of one instant over a shared bus, as its host or as a listener",
-                                 registers,     {}, machines, pins};
+inline constexpr CardMap card = {
+    "grating_bus", "Motion card that reads all scales of one instant over a shared bus, as its host or as a listener",
+    registers,     {},
+    machines,      pins};
 
 }  // namespace map
 
 inline constexpr std::uint16_t signature = 0x4742;
 inline constexpr std::uint16_t decoder_signature = 0x4744;
-inline constexpr int output_count = 4;             ///< analog outputs of a motion card
+inline constexpr int output_count = 4;  ///< analog outputs of a motion card
 
 /// A register's offset by its name; names that are not declared do not compile.
 consteval std::uint32_t offset(std::string_view name) {

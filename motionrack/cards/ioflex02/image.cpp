@@ -23,7 +23,8 @@ std::uint32_t crc32_of(std::uint32_t before, const std::uint8_t* bytes, std::siz
 }
 
 bool ImageHeader::ours() const {
-    return std::equal(image_magic.begin(), image_magic.end(), bytes.begin(), [](char a, std::uint8_t b) { return a == static_cast<char>(b); });
+    return std::equal(image_magic.begin(), image_magic.end(), bytes.begin(),
+                      [](char a, std::uint8_t b) { return a == static_cast<char>(b); });
 }
 
 bool ImageHeader::named(std::string_view project) const {
@@ -45,16 +46,19 @@ std::uint32_t ImageHeader::crc() const {
 }
 
 std::uint32_t ImageHeader::number(std::size_t at) const {
-    return std::uint32_t{bytes[at]} | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 | std::uint32_t{bytes[at + 3]} << 24;
+    return std::uint32_t{bytes[at]} | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 |
+           std::uint32_t{bytes[at + 3]} << 24;
 }
 
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content) {
     if (content.project.empty() || content.project.size() > most_name)
-        return fail(Trouble::refused, fmt::format("The project's name has {} characters, but it has 1 to {}. No image was made.",
-                                                  content.project.size(), most_name));
+        return fail(Trouble::refused,
+                    fmt::format("The project's name has {} characters, but it has 1 to {}. No image was made.",
+                                content.project.size(), most_name));
     if (content.payload.size() < least_payload || content.payload.size() > most_payload)
-        return fail(Trouble::refused, fmt::format("The payload has {} bytes, but an image has {} to {}. No image was made.",
-                                                  content.payload.size(), least_payload, most_payload));
+        return fail(Trouble::refused,
+                    fmt::format("The payload has {} bytes, but an image has {} to {}. No image was made.",
+                                content.payload.size(), least_payload, most_payload));
     std::vector<std::uint8_t> out(image_header);
     std::copy(image_magic.begin(), image_magic.end(), out.begin());
     std::copy(content.project.begin(), content.project.end(), out.begin() + name_at);
@@ -82,14 +86,23 @@ Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
     const std::uint8_t nothing = 0;
     const int done = uncompress2(out.data(), &size, file.empty() ? &nothing : file.data(), &used);
     if (size > most_image || (done == Z_BUF_ERROR && size == out.size()))
-        return fail(Trouble::bad_input, fmt::format("The configuration image unpacks to more than {} bytes, the most that the array takes. It "
-                                                    "was not used; is it an image of this card?", most_image));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("The configuration image unpacks to more than {} bytes, the most that the array takes. It "
+                        "was not used; is it an image of this card?",
+                        most_image));
     if (done != Z_OK)
-        return fail(Trouble::bad_input, fmt::format("The configuration image of {} bytes cannot be unpacked: it is cut short, damaged, or no "
-                                                    "zlib stream. It was not used; make or copy it anew.", file.size()));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("The configuration image of {} bytes cannot be unpacked: it is cut short, damaged, or no "
+                        "zlib stream. It was not used; make or copy it anew.",
+                        file.size()));
     if (used != file.size())
-        return fail(Trouble::bad_input, fmt::format("The configuration image has {} bytes, but its zlib stream ends after {}. It was not used; "
-                                                    "make or copy it anew.", file.size(), used));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("The configuration image has {} bytes, but its zlib stream ends after {}. It was not used; "
+                        "make or copy it anew.",
+                        file.size(), used));
     out.resize(size);
     return out;
 }

@@ -5,9 +5,9 @@
 //   | magic  | project's name  |ident | 0  | length | CRC-32 | payload
 //   +--------+-----------------+------+----+--------+--------+-------------- - -
 //
-// Numbers have their low byte first; the length is the payload's; the CRC-32 is that of bytes 0 to 31 and the payload. A project called
-// "position" begins its payload with the words MODE of the four axes. In a file or a program an image is compressed as a zlib stream
-// (RFC 1950).
+// Numbers have their low byte first; the length is the payload's; the CRC-32 is that of bytes 0 to 31 and the payload.
+// A project called "position" begins its payload with the words MODE of the four axes. In a file or a program an image
+// is compressed as a zlib stream (RFC 1950).
 #pragma once
 
 #include <array>
@@ -35,14 +35,17 @@ struct ImageContent {
     std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(least_payload);
 };
 
-/// Header and payload, not compressed. Errors: refused, if the name or the payload is too long or the payload too short.
+/// Header and payload, not compressed. Errors: refused, if the name or the payload is too long or the payload too
+/// short.
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content);
 /// The image compressed, as files have it.
 std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw);
-/// The reverse. Errors: bad_input, if it is no whole zlib stream, is damaged, or unpacks to more than the greatest image.
+/// The reverse. Errors: bad_input, if it is no whole zlib stream, is damaged, or unpacks to more than the greatest
+/// image.
 Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file);
 
-/// The image that is built into the library: project "position", its axes counting as `modes` say (words MODE). Compressed.
+/// The image that is built into the library: project "position", its axes counting as `modes` say (words MODE).
+/// Compressed.
 std::vector<std::uint8_t> position_image(const std::array<std::uint16_t, axis_count>& modes = {});
 
 /// CRC-32 (IEEE 802.3) of more bytes; begin with 0.

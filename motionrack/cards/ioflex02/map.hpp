@@ -1,5 +1,5 @@
-// The IOFLEX02's registers, commands, states and pins as constants; model, driver, documents and tests read them here. The tables
-// are in map/.
+// The IOFLEX02's registers, commands, states and pins as constants; model, driver, documents and tests read them here.
+// The tables are in map/.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -14,9 +14,9 @@ inline constexpr int axis_count = 4;
 inline constexpr Duration sample_time = nanoseconds(100);  ///< the lines are looked at so often
 inline constexpr Duration time_tick = nanoseconds(1'200);  ///< one count of the time
 inline constexpr std::uint32_t mask_24 = 0xFFFFFF;
-inline constexpr std::uint32_t window = 0x100;             ///< bytes of the bus that a card answers in
+inline constexpr std::uint32_t window = 0x100;  ///< bytes of the bus that a card answers in
 inline constexpr std::uint16_t signature = 0x4F49;
-inline constexpr std::uint16_t nobody = 0xFFFF;            ///< what no card or no project answers
+inline constexpr std::uint16_t nobody = 0xFFFF;  ///< what no card or no project answers
 
 /// A register's offset by its name; names that are not declared do not compile.
 consteval std::uint32_t offset(std::string_view name) {
@@ -44,9 +44,12 @@ constexpr std::int32_t signed24(std::int64_t bits) {
 namespace map {
 
 inline constexpr CardMap card = {
-    "ioflex02", "Position card for four incremental encoders: 24-bit counters with calibration, time of 1.2 us, inputs and outputs",
-    registers,  commands,
-    machines,   pins};
+    "ioflex02",
+    "Position card for four incremental encoders: 24-bit counters with calibration, time of 1.2 us, inputs and outputs",
+    registers,
+    commands,
+    machines,
+    pins};
 
 }  // namespace map
 

@@ -1,5 +1,5 @@
-// The chip's whole-number arithmetic (RULES.md), shared by the virtual chip, the function library and the planner: limits of the
-// parameters, points of lines and arcs after any number of basic pulses, and where an arc really ends.
+// The chip's whole-number arithmetic (RULES.md), shared by the virtual chip, the function library and the planner:
+// limits of the parameters, points of lines and arcs after any number of basic pulses, and where an arc really ends.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,25 @@
 namespace motionrack::mcx314::rules {
 
 inline constexpr std::int64_t sclk_hz = 8'000'000;
-inline constexpr std::int64_t tick_100ps = 1'250;      ///< 125 ns
-inline constexpr std::int64_t speed_carry = 64'000;    ///< va at which the speed steps
-inline constexpr std::int64_t jerk_ticks_per_k = 16;   ///< SCLK a step of the acceleration, times K
-/// What registers are in pulses and seconds: V = 1 is M = clock_hz / R pulses/s, A = 1 is rate_unit * M pulses/s2, the jerk is
-/// jerk_unit * M / K pulses/s3. V, SV, A and D go up to most_units.
+inline constexpr std::int64_t tick_100ps = 1'250;     ///< 125 ns
+inline constexpr std::int64_t speed_carry = 64'000;   ///< va at which the speed steps
+inline constexpr std::int64_t jerk_ticks_per_k = 16;  ///< SCLK a step of the acceleration, times K
+/// What registers are in pulses and seconds: V = 1 is M = clock_hz / R pulses/s, A = 1 is rate_unit * M pulses/s2, the
+/// jerk is jerk_unit * M / K pulses/s3. V, SV, A and D go up to most_units.
 inline constexpr double clock_hz = static_cast<double>(sclk_hz), rate_unit = 125, jerk_unit = 62.5e6;
 inline constexpr std::int64_t most_units = 8'000;
-inline constexpr int start_ticks = 2;                  ///< ticks between a drive command and the generator's first one
+inline constexpr int start_ticks = 2;  ///< ticks between a drive command and the generator's first one
 
 /// A parameter as the generator uses it: limited to its documented range.
-constexpr std::int64_t used_range(std::int64_t r) { return std::clamp<std::int64_t>(r, 16'000, 16'777'215); }
-constexpr std::int64_t used_speed(std::int64_t v) { return std::clamp<std::int64_t>(v, 1, most_units); }
-constexpr std::int64_t used_jerk(std::int64_t k) { return std::clamp<std::int64_t>(k, 1, 65'535); }
+constexpr std::int64_t used_range(std::int64_t r) {
+    return std::clamp<std::int64_t>(r, 16'000, 16'777'215);
+}
+constexpr std::int64_t used_speed(std::int64_t v) {
+    return std::clamp<std::int64_t>(v, 1, most_units);
+}
+constexpr std::int64_t used_jerk(std::int64_t k) {
+    return std::clamp<std::int64_t>(k, 1, 65'535);
+}
 
 /// 24-bit two's complement, as finish points and centres are read.
 constexpr std::int64_t signed24(std::uint32_t v) {
@@ -35,8 +41,12 @@ constexpr std::int64_t limited32(std::uint32_t v) {
     return std::clamp<std::int64_t>(static_cast<std::int32_t>(v), -2'147'483'646, 2'147'483'646);
 }
 
-constexpr std::int64_t magnitude(std::int64_t x) { return x < 0 ? -x : x; }
-constexpr std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }  // a >= 0, b > 0
+constexpr std::int64_t magnitude(std::int64_t x) {
+    return x < 0 ? -x : x;
+}
+constexpr std::int64_t ceil_div(std::int64_t a, std::int64_t b) {
+    return (a + b - 1) / b;
+}  // a >= 0, b > 0
 
 /// Greatest s with s * s <= v, v < 2^63 - 2^33.
 inline std::int64_t isqrt(std::int64_t v) {
@@ -53,7 +63,7 @@ inline std::int64_t near(std::int64_t q) {
     return q - m * m > m ? m + 1 : m;  // beyond (m + 1/2)^2
 }
 
-// ---- lines --------------------------------------------------------------------------------------------------------------------
+// ---- lines
 
 /// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `longest` (> 0); n * p is
 /// below 2^63 with all that the chip takes.
@@ -69,14 +79,15 @@ constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, st
     return static_cast<std::int64_t>((way + twice - 1) / twice);
 }
 
-// ---- arcs ---------------------------------------------------------------------------------------------------------------------
+// ---- arcs
 
-/// In octant k: which coordinate (0: x, 1: y) steps at every basic pulse, which way, and on which side of zero the other one is.
+/// In octant k: which coordinate (0: x, 1: y) steps at every basic pulse, which way, and on which side of zero the
+/// other one is.
 struct Octant {
     int short_axis, short_step, long_side;
 };
-inline constexpr std::array<Octant, 8> octants{{{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1},
-                                                {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
+inline constexpr std::array<Octant, 8> octants{
+    {{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1}, {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
 
 constexpr int octant_of(std::int64_t x, std::int64_t y) {
     if (x == 0 && y == 0) return 0;
@@ -92,14 +103,22 @@ constexpr int octant_of(std::int64_t x, std::int64_t y) {
 
 constexpr bool leaves_octant(int octant, std::int64_t x, std::int64_t y) {
     switch (octant) {
-        case 0: return y >= x;
-        case 1: return x <= 0;
-        case 2: return -x >= y;
-        case 3: return y <= 0;
-        case 4: return -y >= -x;
-        case 5: return x >= 0;
-        case 6: return x >= -y;
-        default: return y >= 0;
+        case 0:
+            return y >= x;
+        case 1:
+            return x <= 0;
+        case 2:
+            return -x >= y;
+        case 3:
+            return y <= 0;
+        case 4:
+            return -y >= -x;
+        case 5:
+            return x >= 0;
+        case 6:
+            return x >= -y;
+        default:
+            return y >= 0;
     }
 }
 
@@ -109,8 +128,8 @@ constexpr int direction_in_octant(int octant, int coordinate) {
     return octant >= 2 && octant < 6 ? -1 : +1;
 }
 
-/// An arc being drawn; trivially copyable. Coordinates are relative to the centre; clockwise arcs are kept mirrored (second axis
-/// negated), so everything here turns counter-clockwise.
+/// An arc being drawn; trivially copyable. Coordinates are relative to the centre; clockwise arcs are kept mirrored
+/// (second axis negated), so everything here turns counter-clockwise.
 struct Arc {
     std::array<std::int64_t, 2> at{};
     std::array<std::int64_t, 2> finish{};
@@ -118,7 +137,7 @@ struct Arc {
     std::int32_t octant = 0;
     std::int32_t finish_octant = 0;
     std::int32_t clockwise = 0;
-    std::int32_t lap = 0;       ///< the start is past the finish in the finish's octant
+    std::int32_t lap = 0;  ///< the start is past the finish in the finish's octant
     std::int32_t finished = 1;
     std::int32_t reserved = 0;  ///< no padding in a state that is compared by its bytes
 
@@ -164,7 +183,8 @@ struct Arc {
         at[l] += steps[l];
         finished = octant == finish_octant && !lap && past_finish();
         for (int i = 0; i < 4 && !finished && leaves_octant(octant, at[0], at[1]); ++i) {
-            finished = octant == finish_octant && !lap;  // its octant is behind: the finish point lies beyond the circle
+            finished =
+                octant == finish_octant && !lap;  // its octant is behind: the finish point lies beyond the circle
             if (finished) break;
             octant = (octant + 1) % 8;
             lap = 0;
@@ -218,7 +238,7 @@ inline ArcEnd end_of_arc(std::int64_t cx, std::int64_t cy, std::int64_t fx, std:
     return end;
 }
 
-// ---- ramps --------------------------------------------------------------------------------------------------------------------
+// ---- ramps
 
 /// What a ramp takes: ticks, and the sum of CV over them (pulses = phase / R).
 struct Ramp {
@@ -226,8 +246,8 @@ struct Ramp {
     std::int64_t phase = 0;
 };
 
-/// An S-ramp of the speed from `from` to `to` (1 .. 8,000) with rates up to `limit` (A or D) and K, exactly as the chip makes it, by
-/// walking its steps.
+/// An S-ramp of the speed from `from` to `to` (1 .. 8,000) with rates up to `limit` (A or D) and K, exactly as the chip
+/// makes it, by walking its steps.
 inline Ramp s_ramp(std::int64_t from, std::int64_t to, std::int64_t limit, std::int64_t k) {
     const std::int64_t jerk = jerk_ticks_per_k * used_jerk(k), way = from < to ? 1 : -1;
     std::int64_t speed = from, rate = 0, rate_part = 0, speed_part = 0, steps = 0;
@@ -247,8 +267,10 @@ inline Ramp s_ramp(std::int64_t from, std::int64_t to, std::int64_t limit, std::
             ramp.phase += speed;
             if (++rate_part >= jerk) {
                 rate_part = 0;
-                if (phase == 0 && ++rate >= limit) phase = 1;
-                else if (phase == 2 && rate > 1) --rate;
+                if (phase == 0 && ++rate >= limit)
+                    phase = 1;
+                else if (phase == 2 && rate > 1)
+                    --rate;
             }
             speed_part += rate;
         }

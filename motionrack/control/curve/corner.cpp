@@ -1,7 +1,6 @@
-#include <motionrack/control/curve/corner.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/curve/corner.hpp>
 #include <motionrack/control/profile.hpp>
 
 namespace motionrack::control {
@@ -59,8 +58,10 @@ double jerk_along(const Point& tangent, const MachineLimits& limits) {
     return least_along(tangent, no_limit, [&](std::size_t i) { return jerk_of(limits[i]); });
 }
 
-// The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its square.
-Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, const MachineLimits& limits) {
+// The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its
+// square.
+Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width,
+                     const MachineLimits& limits) {
     Point change;
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = out[i] - in[i];
     const double by_accel = std::sqrt(0.5 * share_of_a_bend * width * accel_along(change, limits));
@@ -88,7 +89,9 @@ double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, cons
     seconds += turn_seconds(high);
     const auto ways = [&](double top) { return way(low.speed, top) + way(high.speed, top); };
     const double top = fastest(high.speed, leg.speed, rest, ways);
-    if (top > 0) seconds += ramp_seconds(top - low.speed, leg) + ramp_seconds(top - high.speed, leg) + std::max(0.0, rest - ways(top)) / top;
+    if (top > 0)
+        seconds += ramp_seconds(top - low.speed, leg) + ramp_seconds(top - high.speed, leg) +
+                   std::max(0.0, rest - ways(top)) / top;
     return seconds;
 }
 

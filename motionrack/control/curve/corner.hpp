@@ -11,7 +11,8 @@
 
 namespace motionrack::control {
 
-/// The greatest speed on a bend takes so much of an axis' acceleration across the path and of its jerk; the rest changes the speed.
+/// The greatest speed on a bend takes so much of an axis' acceleration across the path and of its jerk; the rest
+/// changes the speed.
 inline constexpr double share_of_a_bend = 0.8;
 
 /// A move, and what the axes can do along it; mm or degrees, and s.
@@ -35,7 +36,9 @@ double ramp_seconds(double more, const Leg& leg);
 
 /// An axis without a limit of its jerk gets one with which it reaches its acceleration in this time.
 inline constexpr double jerk_seconds = 0.002;
-inline double jerk_of(const AxisLimits& axis) { return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / jerk_seconds; }
+inline double jerk_of(const AxisLimits& axis) {
+    return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / jerk_seconds;
+}
 
 /// What the axes can do along `tangent`, or over a turn: the least of limit / |tangent|.
 double speed_along(const Point& tangent, const MachineLimits& limits);
@@ -43,7 +46,8 @@ double accel_along(const Point& tangent, const MachineLimits& limits);
 double jerk_along(const Point& tangent, const MachineLimits& limits);
 
 /// A turn from one tangent to another that is spread over `width`, between these legs. What a stop wins is not told.
-Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, const MachineLimits& limits);
+Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width,
+                     const MachineLimits& limits);
 
 /// s; a joint that is stopped at is left with its point. Very long where the leg has no room for it.
 double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, const Joint& end, bool stops_at_end);

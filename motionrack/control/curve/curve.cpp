@@ -80,7 +80,9 @@ Point bend_on(const CurvePiece& piece, double x) {
     return out;
 }
 
-bool is_straight(const CurvePiece& piece) { return piece.bend == Point{} && piece.twist == Point{}; }
+bool is_straight(const CurvePiece& piece) {
+    return piece.bend == Point{} && piece.twist == Point{};
+}
 
 CurveBuilder::CurveBuilder(const MachineLimits& limits, const Point& start) : spans_(limits, start), turns_(limits) {}
 
@@ -118,7 +120,7 @@ void CurveBuilder::end_curve(CurveItem& item) {
     begun_ = false;
 }
 
-// ---- turns ---------------------------------------------------------------------------------------------------------
+// ---- turns
 
 /// Makes the next turn, or tells that none follows; false if that is not known yet, or there is no room for it.
 bool CurveBuilder::next_turn() {
@@ -251,7 +253,7 @@ void CurveBuilder::add_arc_corner() {
     turns_.added();
 }
 
-// ---- pieces --------------------------------------------------------------------------------------------------------
+// ---- pieces
 
 bool CurveBuilder::next_piece(CurvePiece& piece) {
     place_turns();

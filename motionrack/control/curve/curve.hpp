@@ -51,9 +51,10 @@ bool is_straight(const CurvePiece& piece);
 /// What comes out: a piece of a curve, or the rest that ends a curve.
 struct CurveItem {
     bool rest = false;
-    CurvePiece piece;       ///< if not rest
-    double seconds = 0;     ///< rest: the dwell; 0 for a stop
-    double room_mm = 0;     ///< rest: how far XYZ may be here from the corner's sides, if the next curve begins a little before this one ends
+    CurvePiece piece;    ///< if not rest
+    double seconds = 0;  ///< rest: the dwell; 0 for a stop
+    double room_mm = 0;  ///< rest: how far XYZ may be here from the corner's sides, if the next curve begins a little
+                         ///< before this one ends
     std::int32_t line = 0;  ///< rest: of the move that ends here, or of the dwell
     Point at = {};          ///< rest: where
 };
@@ -111,12 +112,12 @@ class CurveBuilder {
 
     SpanMaker spans_;
     TurnRow turns_;
-    bool begun_ = false;   ///< there is a curve, of which this is known:
-    Span last_;            ///< the span whose turns were made last
-    double u_end_ = 0;     ///< where it ends
+    bool begun_ = false;       ///< there is a curve, of which this is known:
+    Span last_;                ///< the span whose turns were made last
+    double u_end_ = 0;         ///< where it ends
     Ease ease_in_, ease_out_;  ///< of its first and of its last line
     double eased_from_ = 0;    ///< where this one begins
-    bool in_arc_ = false;  ///< of the last span there are more turns
+    bool in_arc_ = false;      ///< of the last span there are more turns
     ArcPolygon arc_;
     ArcCorner corner_ = {};  ///< the next of arc_
     double arc_begin_ = 0;

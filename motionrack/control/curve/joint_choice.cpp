@@ -1,7 +1,6 @@
-#include <motionrack/control/curve/joint_choice.hpp>
-
 #include <bit>
 #include <motionrack/base/result.hpp>
+#include <motionrack/control/curve/joint_choice.hpp>
 
 namespace motionrack::control {
 

@@ -152,15 +152,18 @@ bool SpanMaker::has_width(const Span& span, const Point& in, const Point& out) c
         double& most = i < 3 ? linear : rotary;
         most = std::max(most, std::fabs(out[i] - in[i]));
     }
-    const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear), std::min(last_.tolerance.rotary, span.tolerance.rotary)};
+    const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear),
+                         std::min(last_.tolerance.rotary, span.tolerance.rotary)};
     return room.linear >= least_width * linear && room.rotary >= least_width * rotary;
 }
 
-/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly. Rotary axes go along.
+/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
+/// Rotary axes go along.
 double SpanMaker::room_to_cut(const Span& before, const Span& after) const {
     if (before.rotary || after.rotary) return 0;
     double room = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
-    const double rotary = corner_share * std::min(before.tolerance.rotary, after.tolerance.rotary) - before.merged.rotary;
+    const double rotary =
+        corner_share * std::min(before.tolerance.rotary, after.tolerance.rotary) - before.merged.rotary;
     for (std::size_t i = 3; i < before.tangent_out.size(); ++i) {
         const double turned = std::max(std::fabs(before.tangent_out[i]), std::fabs(after.tangent_in[i]));
         if (turned > 0) room = std::min(room, rotary / turned);
@@ -173,12 +176,17 @@ double SpanMaker::width_between(const Span& before, const Span& after) const {
     double linear = 0, rotary = 0;
     for (std::size_t i = 0; i < before.tangent_out.size(); ++i) {
         const double change = std::fabs(after.tangent_in[i] - before.tangent_out[i]);
-        if (i < 3) linear += change * change;
-        else rotary = std::max(rotary, change);
+        if (i < 3)
+            linear += change * change;
+        else
+            rotary = std::max(rotary, change);
     }
     double width = std::min(before.length, after.length);
-    if (linear > 0) width = std::min(width, corner_share * 12 * std::min(before.tolerance.linear, after.tolerance.linear) / std::sqrt(linear));
-    if (rotary > 0) width = std::min(width, corner_share * 12 * std::min(before.tolerance.rotary, after.tolerance.rotary) / rotary);
+    if (linear > 0)
+        width = std::min(
+            width, corner_share * 12 * std::min(before.tolerance.linear, after.tolerance.linear) / std::sqrt(linear));
+    if (rotary > 0)
+        width = std::min(width, corner_share * 12 * std::min(before.tolerance.rotary, after.tolerance.rotary) / rotary);
     return width;
 }
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <motionrack/control/curve/bow.hpp>
 #include <motionrack/control/curve/joint_choice.hpp>
-#include <motionrack/control/geometry.hpp>
 #include <motionrack/control/curve/stop.hpp>
+#include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/control/move.hpp>
 
@@ -50,9 +50,9 @@ struct Span {
     double feed = 0;      ///< greatest du/dt by the program
     double speed = 0;     ///< the lesser of this and of what the axes can do
     Ease ease_in, ease_out;
-    double seconds = 0;   ///< rest
-    double room_mm = 0;   ///< rest: how far the path may be from the sides of the corner here
-    Bow bow;              ///< arc
+    double seconds = 0;  ///< rest
+    double room_mm = 0;  ///< rest: how far the path may be from the sides of the corner here
+    Bow bow;             ///< arc
 };
 
 /// Takes moves, gives spans in order.
@@ -60,7 +60,9 @@ class SpanMaker {
   public:
     SpanMaker(const MachineLimits& limits, const Point& start);
 
-    bool has_room() const { return made_ - taken_ + 2 * (waiting_past_ - waiting_) + most_a_push + most_a_flush <= capacity; }
+    bool has_room() const {
+        return made_ - taken_ + 2 * (waiting_past_ - waiting_) + most_a_push + most_a_flush <= capacity;
+    }
     void push(const Move& move);
     void flush();
 

@@ -1,7 +1,6 @@
-#include <motionrack/control/curve/stop.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/curve/stop.hpp>
 #include <motionrack/control/profile.hpp>
 
 namespace motionrack::control {
@@ -13,7 +12,8 @@ constexpr double rounding = 1e-9;
 constexpr double most_share = 0.5;
 /// What is eased is a little longer than what overlaps.
 constexpr double spare = 1.1;
-/// Eased are legs that win more than this part of their time: where the jerk changes their speed is not quite the quickest.
+/// Eased are legs that win more than this part of their time: where the jerk changes their speed is not quite the
+/// quickest.
 constexpr double worth_easing = 0.01;
 /// Less of the room is tried too: down to this part.
 constexpr double least_room = 0.05;
@@ -21,12 +21,15 @@ constexpr double least_room = 0.05;
 /// s in which a leg that begins at rest only speeds up: to its speed, or to its middle.
 double rising_seconds(const Leg& leg) {
     const double full = leg.accel / leg.jerk, by_jerk = cube_root(4 * leg.length / leg.jerk);
-    const double to_middle = by_jerk > 2 * full ? 0.5 * full + std::sqrt(0.25 * full * full + leg.length / leg.accel) : by_jerk;
+    const double to_middle =
+        by_jerk > 2 * full ? 0.5 * full + std::sqrt(0.25 * full * full + leg.length / leg.accel) : by_jerk;
     return std::min(ramp_seconds(leg.speed, leg), to_middle);
 }
 
 /// s in which the acceleration of such a leg rises.
-double rise_of(const Leg& leg) { return std::min(leg.accel / leg.jerk, 0.5 * rising_seconds(leg)); }
+double rise_of(const Leg& leg) {
+    return std::min(leg.accel / leg.jerk, 0.5 * rising_seconds(leg));
+}
 
 /// s until such a leg has gone so far, but no longer than its acceleration lasts.
 double seconds_over(double way, const Leg& leg) {
@@ -41,8 +44,8 @@ Leg eased(Leg leg, double share) {
     return leg;
 }
 
-/// An axis that turns back gets the acceleration of both: this is the part of the jerk with which they overlap as long as the room lasts and it
-/// does not get too much.
+/// An axis that turns back gets the acceleration of both: this is the part of the jerk with which they overlap as long
+/// as the room lasts and it does not get too much.
 double share_turning_back(const Leg& leg, double room_mm) {
     const double jerk = 0.5 * leg.accel / cube_root(6 * room_mm);
     return jerk * std::sqrt(jerk) / leg.jerk;
@@ -53,21 +56,24 @@ Ease ease_for(const Leg& leg, double share, double seconds) {
     return {std::min(spare * share * leg.jerk * seconds * seconds * seconds / 6, 0.5 * leg.length), share};
 }
 
-/// s that a leg loses by it, where it is at its greatest speed. With constant acceleration a launch is known by when and where it would have
-/// begun without any jerk.
+/// s that a leg loses by it, where it is at its greatest speed. With constant acceleration a launch is known by when
+/// and where it would have begun without any jerk.
 double cost_of(const Ease& ease, const Leg& leg) {
     const double jerk = leg.jerk * ease.share, first = cube_root(6 * ease.length / jerk), slow = jerk * first;
     const double accel = std::max(slow, leg.jerk * rise_of(leg)), second = (accel - slow) / leg.jerk;
     const double speed_then = 0.5 * slow * first, speed = speed_then + 0.5 * (slow + accel) * second;
     const double way = ease.length + second * (speed_then + second * (0.5 * slow + second * leg.jerk / 6));
     const double rise = accel / leg.jerk;
-    const double later = first + second - speed / accel - 0.5 * rise, nearer = accel * rise * rise / 24 - (way - 0.5 * speed * speed / accel);
-    const double all_of_it = (rising_seconds(eased(leg, ease.share)) - rising_seconds(leg)) * 2 * ease.length / leg.length;
+    const double later = first + second - speed / accel - 0.5 * rise,
+                 nearer = accel * rise * rise / 24 - (way - 0.5 * speed * speed / accel);
+    const double all_of_it =
+        (rising_seconds(eased(leg, ease.share)) - rising_seconds(leg)) * 2 * ease.length / leg.length;
     return std::max(all_of_it, later + nearer / std::max(speed, accel * (rising_seconds(leg) - rise)));
 }
 
 double overlap_of(const Leg& before, const Leg& after, double room_mm) {
-    return std::min({rising_seconds(before), rising_seconds(after), seconds_over(room_mm, before) + seconds_over(room_mm, after)});
+    return std::min(
+        {rising_seconds(before), rising_seconds(after), seconds_over(room_mm, before) + seconds_over(room_mm, after)});
 }
 
 Stop eased_stop(const Leg& before, const Leg& after, double room_mm, bool turns_back) {
@@ -80,7 +86,8 @@ Stop eased_stop(const Leg& before, const Leg& after, double room_mm, bool turns_
 
 }  // namespace
 
-Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm, const MachineLimits& limits) {
+Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm,
+                  const MachineLimits& limits) {
     Stop stop;
     if (!(room_mm > 0)) return stop;
     bool shared = false, turns_back = false, too_much = false;
@@ -88,7 +95,8 @@ Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Po
         if (in[i] == 0 || out[i] == 0) continue;
         shared = true;
         turns_back = turns_back || in[i] * out[i] < 0;
-        too_much = too_much || std::fabs(before.jerk * in[i] + after.jerk * out[i]) > jerk_of(limits[i]) * (1 + rounding);
+        too_much =
+            too_much || std::fabs(before.jerk * in[i] + after.jerk * out[i]) > jerk_of(limits[i]) * (1 + rounding);
     }
     if (!too_much) {
         stop.gain = overlap_of(before, after, room_mm);

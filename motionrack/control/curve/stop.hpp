@@ -1,4 +1,5 @@
-// A stop at a corner, of which the tolerance lets the next leg begin before the one before it has ended: what it wins, and what it needs.
+// A stop at a corner, of which the tolerance lets the next leg begin before the one before it has ended: what it wins,
+// and what it needs.
 //
 //   speed  ╲         ╱       An axis of both legs gets the jerk of both. Where that is too much, both are eased about the corner: there they
 //           ╲▁_    _▁╱       take a part of their jerk.
@@ -22,6 +23,7 @@ struct Stop {
 };
 
 /// About what overlap_of() will find; `room_mm`: how far the path may be from the corner's sides.
-Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm, const MachineLimits& limits);
+Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm,
+                  const MachineLimits& limits);
 
 }  // namespace motionrack::control

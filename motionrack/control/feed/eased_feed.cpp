@@ -1,7 +1,6 @@
-#include <motionrack/control/feed/eased_feed.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/feed/eased_feed.hpp>
 #include <motionrack/control/profile.hpp>
 #include <optional>
 
@@ -24,7 +23,12 @@ struct Rise {
 class End {
   public:
     End(double eased_way, double eased_jerk, const FeedSpan& limits)
-        : way_(eased_way), jerk_(limits.jerk), most_accel_(limits.accel), first_(cube_root(6 * eased_way / eased_jerk)), accel_(eased_jerk * first_), speed_(0.5 * accel_ * first_) {}
+        : way_(eased_way),
+          jerk_(limits.jerk),
+          most_accel_(limits.accel),
+          first_(cube_root(6 * eased_way / eased_jerk)),
+          accel_(eased_jerk * first_),
+          speed_(0.5 * accel_ * first_) {}
 
     double eased_way() const { return way_; }
     double speed() const { return speed_; }  ///< where the ease ends
@@ -83,7 +87,10 @@ std::optional<double> greatest_speed(const End& begin, const End& end, double le
 
 /// Less jerk at one or both ends, all else alike.
 bool is_eased_line(std::span<const FeedSpan> spans, const FeedSpan& full) {
-    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) { return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel && span.jerk <= full.jerk; });
+    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
+        return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel &&
+               span.jerk <= full.jerk;
+    });
 }
 
 }  // namespace
@@ -95,7 +102,9 @@ bool write_eased_feed(std::span<const FeedSpan> spans, std::vector<FeedPiece>& o
     if (!is_eased_line(spans, full)) return false;
     double length = 0;
     for (const FeedSpan& span : spans) length += span.length;
-    const auto end_of = [&](bool there, std::size_t i) { return there ? End(spans[i].length, spans[i].jerk, full) : End(0, full.jerk, full); };
+    const auto end_of = [&](bool there, std::size_t i) {
+        return there ? End(spans[i].length, spans[i].jerk, full) : End(0, full.jerk, full);
+    };
     const End begin = end_of(first > 0, 0), end = end_of(first + 1 < spans.size(), spans.size() - 1);
     if (!begin.is_possible() || !end.is_possible()) return false;
     const std::optional<double> found = greatest_speed(begin, end, length, full.speed);
@@ -120,7 +129,8 @@ bool write_eased_feed(std::span<const FeedSpan> spans, std::vector<FeedPiece>& o
     add(down.flatter_way, down.flatter, peak, 0, -jerk);
     add(down.even_way, down.even, down.even_until, -down.accel, 0);
     if (eased_end) add(down.steeper_way, down.steeper, down.even_from, -down.accel, jerk);
-    const double landing = eased_end ? end.eased_way() : down.steeper_way, landing_speed = eased_end ? end.speed() : down.even_from;
+    const double landing = eased_end ? end.eased_way() : down.steeper_way,
+                 landing_speed = eased_end ? end.speed() : down.even_from;
     out.push_back(feed_landing(length - landing, landing, landing_speed * landing_speed));
     return true;
 }

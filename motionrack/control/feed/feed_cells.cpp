@@ -11,7 +11,8 @@ namespace {
 constexpr double growth = 0.25;
 /// Beside a narrow place cells take so much of the time that the jerk needs to leave it.
 constexpr double unlike_part = 0.25;
-/// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this part of their time.
+/// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this
+/// part of their time.
 constexpr double quickest_cell = 0.1;
 /// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
 constexpr double least_cells = 48, most_cells_of_a_span = 256;
@@ -24,16 +25,20 @@ constexpr double first_part = 0.1;
 constexpr double least_part = 1e-13;
 
 FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
-    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk), std::min(a.brake, b.brake)};
+    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk),
+            std::min(a.brake, b.brake)};
 }
 
 /// With constant jerk from rest.
-double launch_length(double jerk, double seconds) { return jerk * seconds * seconds * seconds / 6; }
+double launch_length(double jerk, double seconds) {
+    return jerk * seconds * seconds * seconds / 6;
+}
 
 }  // namespace
 
-/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike, and not so long that the speed cannot come
-/// back to what a span ahead allows: one that ends at half of that speed needs no braking, and one of a fourteenth of the way has the room.
+/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike, and not so long that
+/// the speed cannot come back to what a span ahead allows: one that ends at half of that speed needs no braking, and
+/// one of a fourteenth of the way has the room.
 FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back) const {
     End end{length_ * most_launch, 0};
     FeedSpan least = spans[back ? spans.size() - 1 : 0];
@@ -43,7 +48,8 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
         const FeedSpan& span = spans[back ? spans.size() - 1 - n : n];
         if (within) {
             const FeedSpan all = least_of(least, span);
-            const double fits = launch_length(all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
+            const double fits = launch_length(
+                all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
             const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
             if (n > 0 && (fits <= before || !alike)) {
                 end.length = std::min(end.length, before);
@@ -53,7 +59,9 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
                 end.length = std::min(end.length, fits);
             }
         }
-        if (n > 0) end.length = std::min(end.length, std::max(before * most_launch, launch_length(least.jerk, std::sqrt(span.speed / least.jerk))));
+        if (n > 0)
+            end.length = std::min(end.length, std::max(before * most_launch,
+                                                       launch_length(least.jerk, std::sqrt(span.speed / least.jerk))));
         before += span.length;
         within = within && before < end.length;
     }
@@ -63,18 +71,20 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
 
 /// How long cells should be for a span's own sake.
 double FeedPlanner::wanted(const FeedSpan& span) const {
-    const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk, quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
+    const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk,
+                                      quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
     return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / least_cells);
 }
 
-/// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than its speed and its
-/// acceleration last.
+/// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than
+/// its speed and its acceleration last.
 double FeedPlanner::first_size(double wanted) const {
     const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.square), slope = std::fabs(start_.slope);
     return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
 }
 
-/// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the narrow ones.
+/// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the
+/// narrow ones.
 void FeedPlanner::grade(std::span<const FeedSpan> spans) {
     sizes_.assign(spans.size() + 1, 0);
     sizes_.front() = moving() ? first_size(wanted(spans.front())) : launch_.length / 3;
@@ -87,8 +97,10 @@ void FeedPlanner::grade(std::span<const FeedSpan> spans) {
         const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
         sizes_[k] = std::min({wanted(spans[k - 1]), wanted(spans[k]), ramp});
     }
-    for (std::size_t k = 1; k < sizes_.size(); ++k) sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);
-    for (std::size_t k = sizes_.size() - 1; k-- > 0;) sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + growth * spans[k].length);
+    for (std::size_t k = 1; k < sizes_.size(); ++k)
+        sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);
+    for (std::size_t k = sizes_.size() - 1; k-- > 0;)
+        sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + growth * spans[k].length);
 }
 
 void FeedPlanner::cut(std::span<const FeedSpan> spans) {
@@ -101,10 +113,13 @@ void FeedPlanner::cut(std::span<const FeedSpan> spans) {
     for (double begin = launch_.length; begin < end;) {
         while (at + 1 < spans.size() && ends_[at] <= begin) ++at;
         const double from_left = begin - (ends_[at] - spans[at].length), to_right = ends_[at] - begin;
-        double size = std::min({wanted(spans[at]), sizes_[at] + growth * from_left, sizes_[at + 1] + growth / (1 + growth) * to_right});
+        double size = std::min(
+            {wanted(spans[at]), sizes_[at] + growth * from_left, sizes_[at + 1] + growth / (1 + growth) * to_right});
         size = std::max(size, least_part * length_);
-        if (begin + 1.5 * size >= end) size = end - begin;
-        else if (begin + 2.5 * size >= end) size = (end - begin) / 2;
+        if (begin + 1.5 * size >= end)
+            size = end - begin;
+        else if (begin + 2.5 * size >= end)
+            size = (end - begin) / 2;
         const double next = size == end - begin ? end : begin + size;
         add_cell(spans, at, begin, next);
         begin = next;

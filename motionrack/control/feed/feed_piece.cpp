@@ -1,9 +1,9 @@
-// Power series instead of hyperbolic and circular functions: cells are short, so a few terms do, and every compiler finds the same sums.
-#include <motionrack/control/feed/feed_piece.hpp>
-
+// Power series instead of hyperbolic and circular functions: cells are short, so a few terms do, and every compiler
+// finds the same sums.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <motionrack/control/feed/feed_piece.hpp>
 
 namespace motionrack::control {
 
@@ -78,7 +78,8 @@ void settle(FeedPiece& cell) {
     // Slower than at the ends it is only where it has slowed down and speeds up again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
     const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
-    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(speed, end)), time = std::min(most, cell.seconds);
+    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(speed, end)),
+           time = std::min(most, cell.seconds);
     for (int step = 0; step < 60; ++step) {
         const double there = moved(cell, speed, time);
         (there < length ? least : most) = time;
@@ -109,14 +110,16 @@ FeedPiece feed_landing(double begin, double length, double square) {
 }
 
 FeedState FeedPiece::at(double time) const {
-    if (phase == FeedPhase::launch) return {begin + jerk * time * time * time / 6, jerk * time * time / 2, jerk * time, jerk};
+    if (phase == FeedPhase::launch)
+        return {begin + jerk * time * time * time / 6, jerk * time * time / 2, jerk * time, jerk};
     if (phase == FeedPhase::landing) {
         const double left = seconds - time;
         return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
     }
     if (phase == FeedPhase::ramp) {
         const double speed = std::sqrt(square), accel = 0.5 * slope;
-        return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)), speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
+        return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
+                speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
     }
     const double x = std::clamp(moved(*this, std::sqrt(square), time), 0.0, length);
     const double speed = std::sqrt(square_at(*this, x));

@@ -25,13 +25,13 @@ enum class FeedPhase : std::uint8_t { launch, cell, ramp, landing };
 
 struct FeedPiece {
     FeedPhase phase = FeedPhase::cell;
-    double begin = 0;    ///< u
+    double begin = 0;  ///< u
     double length = 0;
     double seconds = 0;
-    double square = 0;   ///< cell, ramp: of the speed at its begin
-    double slope = 0;    ///< cell, ramp: of the square over the path, at its begin
-    double bend = 0;     ///< cell: change of the slope over the path
-    double jerk = 0;     ///< all but a cell
+    double square = 0;  ///< cell, ramp: of the speed at its begin
+    double slope = 0;   ///< cell, ramp: of the square over the path, at its begin
+    double bend = 0;    ///< cell: change of the slope over the path
+    double jerk = 0;    ///< all but a cell
 
     /// `time` from the piece's begin, 0 .. seconds.
     FeedState at(double time) const;
@@ -39,7 +39,8 @@ struct FeedPiece {
     FeedState last() const;
 };
 
-/// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it, but at an end beside a rest it may be rounded to 0.
+/// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it, but at an end beside a rest
+/// it may be rounded to 0.
 FeedPiece sketched_cell(double begin, double length, double square, double slope, double bend);
 /// Gives a cell its exact time.
 void settle(FeedPiece& piece);

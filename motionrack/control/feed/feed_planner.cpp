@@ -1,9 +1,8 @@
 // Two passes and a hull over the cells.
-#include <motionrack/control/feed/eased_feed.hpp>
-#include <motionrack/control/feed/feed_planner.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/feed/eased_feed.hpp>
+#include <motionrack/control/feed/feed_planner.hpp>
 #include <motionrack/control/profile.hpp>
 
 namespace motionrack::control {
@@ -18,13 +17,16 @@ constexpr double least_square = 1e-6;
 
 bool all_alike(std::span<const FeedSpan> spans) {
     return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
-        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.brake == spans[0].accel && span.jerk == spans[0].jerk;
+        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.brake == spans[0].accel &&
+               span.jerk == spans[0].jerk;
     });
 }
 
 }  // namespace
 
-std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) { return plan_from({}, spans); }
+std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) {
+    return plan_from({}, spans);
+}
 
 std::span<const FeedPiece> FeedPlanner::plan_from(const FeedStart& start, std::span<const FeedSpan> spans) {
     sketch_from(start, spans);
@@ -46,14 +48,18 @@ std::span<const FeedPiece> FeedPlanner::sketch(std::span<const FeedSpan> spans, 
     measure(spans);
     if (!(length_ > 0)) return pieces_;
     if (all_alike(spans)) {
-        if (moving()) write_travel(spans.front());
-        else write_s_curve(spans.front());
+        if (moving())
+            write_travel(spans.front());
+        else
+            write_s_curve(spans.front());
         return pieces_;
     }
     if (!moving() && write_eased_feed(spans, pieces_)) return pieces_;
     cut(spans);
-    if (again) approach_again();
-    else approach();
+    if (again)
+        approach_again();
+    else
+        approach();
     if (!moving() || found_) write();
     return pieces_;
 }
@@ -120,15 +126,20 @@ void FeedPlanner::bound() {
     const std::size_t n = cells_.size();
     way_.assign(n + 1, 0);
     bound_.assign(n + 2, 0);
-    for (std::size_t i = 0; i < n; ++i) bound_[i + 1] = std::min({cells_[i].square, cells_[i == 0 ? 0 : i - 1].square, cells_[std::min(i + 1, n - 1)].square});
-    for (std::size_t k = 0; k <= n; ++k) way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) + (k == n ? 1.5 * landing_.length : cells_[k].length));
+    for (std::size_t i = 0; i < n; ++i)
+        bound_[i + 1] =
+            std::min({cells_[i].square, cells_[i == 0 ? 0 : i - 1].square, cells_[std::min(i + 1, n - 1)].square});
+    for (std::size_t k = 0; k <= n; ++k)
+        way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) +
+                         (k == n ? 1.5 * landing_.length : cells_[k].length));
     if (!moving()) return;
     // As if a cell like the first were before it: the two points about the start are what is going on.
     way_[0] = cells_[0].length;
     const double most = bound_[1];
     bound_[1] = start_.square + 0.5 * start_.slope * cells_[0].length;
     bound_[0] = bound_[1] - start_.slope * way_[0];
-    can_start_ = std::max(start_.square, bound_[1]) <= most * (1 + rounding) && start_.slope <= cells_[0].up * (1 + rounding) && -start_.slope <= cells_[0].down * (1 + rounding);
+    can_start_ = std::max(start_.square, bound_[1]) <= most * (1 + rounding) &&
+                 start_.slope <= cells_[0].up * (1 + rounding) && -start_.slope <= cells_[0].down * (1 + rounding);
 }
 
 /// Whether a tighter bound would be news: where points could bend more, or slopes change more.
@@ -144,7 +155,8 @@ bool FeedPlanner::is_loose(double guess) const {
 /// Nothing will be above `guess` times what was found. Where that is slower, the jerk lets more bend.
 void FeedPlanner::narrow(const std::vector<double>& found, double guess) {
     for (std::size_t i = moving() ? 2 : 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
-    for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].square = std::min(cells_[i].square, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        cells_[i].square = std::min(cells_[i].square, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
 }
 
 void FeedPlanner::seek() {
@@ -175,8 +187,8 @@ void FeedPlanner::rise_both() {
     for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = std::min(left_[i], right_[i]);
 }
 
-/// The greatest slope at each knot. At a rest the straight line from (a quarter of the launch, 0) through the launch's end is what constant
-/// jerk makes of w there, whatever jerk it is.
+/// The greatest slope at each knot. At a rest the straight line from (a quarter of the launch, 0) through the launch's
+/// end is what constant jerk makes of w there, whatever jerk it is.
 void FeedPlanner::slope_limits() {
     const std::size_t n = cells_.size();
     up_.assign(n + 1, 0);
@@ -192,7 +204,8 @@ void FeedPlanner::slope_limits() {
     down_.back() = std::min(down_.back(), end_slope(landing_));
 }
 
-/// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed would reach over.
+/// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed
+/// would reach over.
 void FeedPlanner::ease_slopes() {
     ease(up_);
     ease(down_);
@@ -205,7 +218,7 @@ void FeedPlanner::ease(std::vector<double>& slopes) const {
     for (std::size_t k = n; k-- > 0;) slopes[k] = std::min(slopes[k], slopes[k + 1] + change(cells_[k]));
 }
 
-// ---- passes -------------------------------------------------------------------------------------------------------------------------
+// ---- passes
 
 /// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
 void FeedPlanner::rise(std::vector<double>& out, bool back) {
@@ -227,8 +240,8 @@ void FeedPlanner::rise(std::vector<double>& out, bool back) {
         if (i == 0) {
             slope = steepest;
         } else {
-            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than will be; on the way
-            // down from a motion that goes on, at the speed before.
+            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than
+            // will be; on the way down from a motion that goes on, at the speed before.
             const Cell& cell = cells_[back ? n - i : i - 1];
             const double more = cell.bend * cell.length;
             const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
@@ -242,13 +255,15 @@ void FeedPlanner::rise(std::vector<double>& out, bool back) {
     }
 }
 
-/// The greatest points under left_ that bend downwards no more than the jerk allows at the speed of left_: a convex hull. All sums are of
-/// what lies between two corners, so that small speeds near a rest keep their digits.
+/// The greatest points under left_ that bend downwards no more than the jerk allows at the speed of left_: a convex
+/// hull. All sums are of what lies between two corners, so that small speeds near a rest keep their digits.
 void FeedPlanner::hull() {
     const std::size_t n = cells_.size();
     square_.resize(n + 2);
     fall_.assign(n + 2, 0);
-    for (std::size_t i = 1; i <= n; ++i) fall_[i] = cells_[i - 1].bend / std::sqrt(std::max({left_[i - 1], left_[i], left_[i + 1]})) * cells_[i - 1].length;
+    for (std::size_t i = 1; i <= n; ++i)
+        fall_[i] =
+            cells_[i - 1].bend / std::sqrt(std::max({left_[i - 1], left_[i], left_[i + 1]})) * cells_[i - 1].length;
     edges_.clear();
     for (std::size_t i = 1; i < n + 2; ++i) {
         Edge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};
@@ -256,12 +271,14 @@ void FeedPlanner::hull() {
         while (!edges_.empty() && edges_.back().slope_out() - fall_[edge.from] >= edge.slope_in()) {
             const Edge& before = edges_.back();
             const double fall = before.fall + fall_[edge.from];
-            edge = {before.from, before.length + edge.length, fall + edge.fall, before.moment + fall * edge.length + edge.moment, before.rise + edge.rise};
+            edge = {before.from, before.length + edge.length, fall + edge.fall,
+                    before.moment + fall * edge.length + edge.moment, before.rise + edge.rise};
             edges_.pop_back();
         }
         edges_.push_back(edge);
     }
-    for (std::size_t k = 0; k < edges_.size(); ++k) follow(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+        follow(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
 }
 
 /// From its lower end, where digits count.
@@ -273,7 +290,8 @@ void FeedPlanner::follow(const Edge& edge, std::size_t to) {
         for (std::size_t i = edge.from; i + 1 < to; slope -= fall_[++i]) square_[i + 1] = square_[i] + slope * way_[i];
     } else {
         double slope = edge.slope_out();
-        for (std::size_t i = to; i > edge.from + 1; slope += fall_[--i]) square_[i - 1] = square_[i] - slope * way_[i - 1];
+        for (std::size_t i = to; i > edge.from + 1; slope += fall_[--i])
+            square_[i - 1] = square_[i] - slope * way_[i - 1];
     }
 }
 

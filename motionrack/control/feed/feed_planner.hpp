@@ -9,8 +9,9 @@
 //                                          is cut off below: the greatest function under it that bends no more is a convex hull
 //                                          (w + C is convex, where C'' is the bend that the jerk allows)
 //
-// All is done with the control points of a parabola in each cell (a quadratic B-spline): slopes are between neighbours, bends are their
-// differences, and the curve lies between the points. What holds for the points holds at every place. See docs/decisions/0011-feed-profile.md.
+// All is done with the control points of a parabola in each cell (a quadratic B-spline): slopes are between neighbours,
+// bends are their differences, and the curve lies between the points. What holds for the points holds at every place.
+// See docs/decisions/0011-feed-profile.md.
 #pragma once
 
 #include <motionrack/control/feed/feed_piece.hpp>
@@ -36,7 +37,8 @@ class FeedPlanner {
   public:
     explicit FeedPlanner(FeedSettings settings = {}) : settings_(settings) {}
 
-    /// From rest to rest over these spans, whose limits are above 0. The answer is valid until the next call; empty without spans.
+    /// From rest to rest over these spans, whose limits are above 0. The answer is valid until the next call; empty
+    /// without spans.
     std::span<const FeedPiece> plan(std::span<const FeedSpan> spans);
 
     /// The same from a motion that goes on. Empty if none was found that keeps the limits: perhaps there is none.
@@ -110,7 +112,7 @@ class FeedPlanner {
     std::vector<Cell> cells_;
     // by knot: 0 the launch's end, cells().size() the landing's begin
     std::vector<double> up_, down_;  ///< steepest slopes
-    std::vector<double> way_;  ///< between the control points beside it
+    std::vector<double> way_;        ///< between the control points beside it
     // by control point: 0 and cells().size() + 1 are the rests
     std::vector<double> bound_, left_, right_, square_;
     std::vector<double> fall_;  ///< the most that the slope may fall there

@@ -3,7 +3,8 @@
 
 namespace motionrack::control {
 
-/// Per unit of path (mm, degrees) and second; all above 0 and finite. Whoever keeps these on the path keeps what the axes can do.
+/// Per unit of path (mm, degrees) and second; all above 0 and finite. Whoever keeps these on the path keeps what the
+/// axes can do.
 struct FeedSpan {
     double length = 0;
     double speed = 0;

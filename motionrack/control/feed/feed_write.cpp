@@ -7,7 +7,8 @@
 
 namespace motionrack::control {
 
-/// Where no limit changes the quickest is known. Lengths are of the phases' own times and speeds: between places a short one has no digits.
+/// Where no limit changes the quickest is known. Lengths are of the phases' own times and speeds: between places a
+/// short one has no digits.
 ///
 ///   speed   v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
 void FeedPlanner::write_s_curve(const FeedSpan& limits) {
@@ -48,16 +49,19 @@ void FeedPlanner::write_travel(const FeedSpan& limits) {
         const double seconds = std::fabs(phases[i].seconds);
         const ProfileSample at = phases[i].at(phases[i].end - seconds), then = phases[i].at(phases[i].end);
         const bool lands = i + 1 == phases.size();
-        const double turn = !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // where the speed is greatest or least in it
+        const double turn =
+            !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // where the speed is greatest or least in it
         const double within = turn > 0 && turn < seconds ? at.speed + 0.5 * at.accel * turn : at.speed;
-        if (std::min({at.speed, within, lands ? at.speed : then.speed}) <= 0 || std::max({at.speed, within, then.speed}) > limits.speed * (1 + rounding) ||
+        if (std::min({at.speed, within, lands ? at.speed : then.speed}) <= 0 ||
+            std::max({at.speed, within, then.speed}) > limits.speed * (1 + rounding) ||
             std::fabs(at.accel) > limits.accel * (1 + rounding)) {
             pieces_.clear();
             return;
         }
         const double on = seconds * (at.speed + seconds * (0.5 * at.accel + seconds * at.jerk * (1.0 / 6)));
         const double length = lands ? at.speed * seconds / 3 : on;
-        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.speed * at.speed) : feed_ramp(begin, length, seconds, at.speed, at.accel, at.jerk));
+        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.speed * at.speed)
+                                : feed_ramp(begin, length, seconds, at.speed, at.accel, at.jerk));
         begin += length;
     }
 }
@@ -71,7 +75,8 @@ void FeedPlanner::write() {
     for (std::size_t i = 0; i < n; ++i) {
         const double after = slope(i + 1);
         const Cell& cell = cells_[i];
-        pieces_.push_back(sketched_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before, (after - before) / cell.length));
+        pieces_.push_back(sketched_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before,
+                                        (after - before) / cell.length));
         before = after;
     }
     pieces_.push_back(feed_landing(length_ - landing_.length, landing_.length, last));

@@ -84,9 +84,9 @@ struct Block {
     std::uint32_t words = 0;     ///< which of the letters but G and M are there; A = bit 0
     std::uint32_t g_groups = 0;  ///< which groups have a code
     std::uint32_t m_groups = 0;
-    bool percent = false;                  ///< the line is a lone %
-    bool deleted = false;                  ///< a line with '/' that was left out
-    bool flow = false;                     ///< an O word begins at `flow_column`; the rest of the line was not read
+    bool percent = false;  ///< the line is a lone %
+    bool deleted = false;  ///< a line with '/' that was left out
+    bool flow = false;     ///< an O word begins at `flow_column`; the rest of the line was not read
     std::uint16_t flow_column = 0;
     std::array<double, 26> value;          ///< valid where `words` says so
     std::array<std::uint16_t, 26> column;  ///< from 0

@@ -146,8 +146,8 @@ void CanonPrinter::modes(const Interpreter& interpreter) {
     if (block.has_g(g_units)) units(now);
     if (block.has_g(g_tool_length)) {
         const Point tool = in_units(interpreter.frame().tool, now.inch);
-        call(fmt::format("USE_TOOL_LENGTH_OFFSET({:.4f} {:.4f} {:.4f}, {:.4f} {:.4f} {:.4f}, 0.0000 0.0000 0.0000)", tidy(tool[0]),
-                         tidy(tool[1]), tidy(tool[2]), tidy(tool[3]), tidy(tool[4]), tidy(tool[5])));
+        call(fmt::format("USE_TOOL_LENGTH_OFFSET({:.4f} {:.4f} {:.4f}, {:.4f} {:.4f} {:.4f}, 0.0000 0.0000 0.0000)",
+                         tidy(tool[0]), tidy(tool[1]), tidy(tool[2]), tidy(tool[3]), tidy(tool[4]), tidy(tool[5])));
     }
     const std::int16_t once = block.has_g(g_nonmodal) ? block.g[g_nonmodal] : no_motion;
     const bool shifts = once >= 920, changes = block.has_g(g_system);
@@ -167,7 +167,8 @@ void CanonPrinter::plane(const Modes& now) {
 
 void CanonPrinter::system(const Interpreter& interpreter) {
     const Modes& now = interpreter.modes();
-    call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1, six(in_units(interpreter.frame().work[now.system], now.inch))));
+    call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1,
+                     six(in_units(interpreter.frame().work[now.system], now.inch))));
 }
 
 void CanonPrinter::shift(const Interpreter& interpreter) {
@@ -254,7 +255,8 @@ void CanonPrinter::output(const Step& step) {
 
 Point CanonPrinter::shown(const Interpreter& interpreter, const Point& machine) const {
     if (options_.coordinates == Coordinates::machine) return machine;
-    return in_units((late_ ? frame_ : interpreter.frame()).to_program(machine), late_ ? modes_.inch : interpreter.modes().inch);
+    return in_units((late_ ? frame_ : interpreter.frame()).to_program(machine),
+                    late_ ? modes_.inch : interpreter.modes().inch);
 }
 
 void CanonPrinter::here(const Interpreter& interpreter) {
@@ -285,9 +287,8 @@ void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
     centre[move.second] = move.centre_second;
     centre = shown(interpreter, centre);
     call(fmt::format("ARC_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f}, {}, {:.4f}, {:.4f}, {:.4f}, {:.4f})",
-                     tidy(end[move.first]), tidy(end[move.second]),
-                     tidy(centre[move.first]), tidy(centre[move.second]), move.turns, tidy(end[third]),
-                     tidy(end[3]), tidy(end[4]), tidy(end[5])));
+                     tidy(end[move.first]), tidy(end[move.second]), tidy(centre[move.first]), tidy(centre[move.second]),
+                     move.turns, tidy(end[third]), tidy(end[3]), tidy(end[4]), tidy(end[5])));
 }
 
 Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,

@@ -38,7 +38,8 @@ double part_of_turn(Planar a, Planar b, std::int32_t turns) {
 
 double sweep_of(const CutterPath& path) {
     const double whole = path.turns > 0 ? 2 * pi : -2 * pi;
-    return part_of_turn(path.start - path.centre, path.end - path.centre, path.turns) + whole * (std::abs(path.turns) - 1);
+    return part_of_turn(path.start - path.centre, path.end - path.centre, path.turns) +
+           whole * (std::abs(path.turns) - 1);
 }
 
 /// Where two paths are wanted to meet: near the corner, on the side to which `towards` points.
@@ -78,8 +79,7 @@ bool meet(const CutterPath& before, const CutterPath& after, const Near& near, P
         return meet_circles(before.centre, before.radius_out, after.centre, after.radius_in, near, at);
     if (before.arc)
         return meet_line_circle(after.start, after.direction_in, before.centre, before.radius_out, near, at);
-    if (after.arc)
-        return meet_line_circle(before.end, before.direction_out, after.centre, after.radius_in, near, at);
+    if (after.arc) return meet_line_circle(before.end, before.direction_out, after.centre, after.radius_in, near, at);
     const double sine = cross(before.direction_out, after.direction_in);
     if (std::fabs(sine) < parallel) return false;
     at = before.end + before.direction_out * (cross(after.start - before.end, after.direction_in) / sine);

@@ -20,16 +20,16 @@ inline constexpr double cutter_tolerance_mm = 0.001;
 /// The path of the cutter's centre beside one move, as if that move were alone.
 struct CutterPath {
     bool arc = false;
-    std::int32_t turns = 0;     ///< arc: as Move::turns
-    Planar start;               ///< beside the start of the contour's move
-    Planar end;                 ///< beside its end
-    Planar direction_in;        ///< unit vectors along the contour at its start
-    Planar direction_out;       ///< and at its end
-    Planar centre;              ///< arc
-    double radius_in = 0;       ///< arc: of the cutter's path at its start
-    double radius_out = 0;      ///< and at its end, which may differ by a rounding
-    double sweep = 0;           ///< arc: rad from start to end, of the sign of `turns`
-    double bend = 0;            ///< curvature of the contour, 1/mm, > 0 counter-clockwise
+    std::int32_t turns = 0;  ///< arc: as Move::turns
+    Planar start;            ///< beside the start of the contour's move
+    Planar end;              ///< beside its end
+    Planar direction_in;     ///< unit vectors along the contour at its start
+    Planar direction_out;    ///< and at its end
+    Planar centre;           ///< arc
+    double radius_in = 0;    ///< arc: of the cutter's path at its start
+    double radius_out = 0;   ///< and at its end, which may differ by a rounding
+    double sweep = 0;        ///< arc: rad from start to end, of the sign of `turns`
+    double bend = 0;         ///< curvature of the contour, 1/mm, > 0 counter-clockwise
 };
 
 /// `offset`: the cutter's radius, > 0 left of the contour, < 0 right of it. The ends must differ.
@@ -41,8 +41,8 @@ bool beside_arc(Planar from, Planar to, Planar centre, std::int32_t turns, doubl
 /// The first straight move: from where the cutter stands to beside the end.
 CutterPath onto_line(Planar from, Planar to, double offset);
 
-/// The first move if it is an arc: from where the cutter stands, tangent to the contour's parallel at the end. False: no arc does
-/// that.
+/// The first move if it is an arc: from where the cutter stands, tangent to the contour's parallel at the end. False:
+/// no arc does that.
 bool onto_arc(Planar from, Planar to, Planar centre, std::int32_t turns, double offset, CutterPath& path);
 
 enum class CutterJoint : std::uint8_t {

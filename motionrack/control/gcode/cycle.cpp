@@ -17,13 +17,19 @@ std::span<const Cycle::Act> Cycle::acts_of(std::int16_t code) {
     static constexpr Act stops[] = {Act::wait, Act::stop, Act::rapid_clear, Act::turn};
     static constexpr Act waits_and_bores[] = {Act::wait, Act::feed_clear};
     switch (code) {
-        case 820: return waits;
+        case 820:
+            return waits;
         case 740:
-        case 840: return taps;
-        case 850: return bores;
-        case 860: return stops;
-        case 890: return waits_and_bores;
-        default: return drills;
+        case 840:
+            return taps;
+        case 850:
+            return bores;
+        case 860:
+            return stops;
+        case 890:
+            return waits_and_bores;
+        default:
+            return drills;
     }
 }
 
@@ -56,12 +62,18 @@ void Cycle::act(Act what, Step& step) {
             straight(step, MoveKind::dwell, plan_.bottom);
             step.move.seconds = plan_.seconds;
             return;
-        case Act::stop: return spindle(step, Spindle::off);
-        case Act::turn_back: return spindle(step, back);
-        case Act::turn: return spindle(step, plan_.spindle);
-        case Act::feed_r: return straight(step, MoveKind::feed, plan_.r);
-        case Act::feed_clear: return straight(step, MoveKind::feed, plan_.clear);
-        case Act::rapid_clear: return straight(step, MoveKind::traverse, plan_.clear);
+        case Act::stop:
+            return spindle(step, Spindle::off);
+        case Act::turn_back:
+            return spindle(step, back);
+        case Act::turn:
+            return spindle(step, plan_.spindle);
+        case Act::feed_r:
+            return straight(step, MoveKind::feed, plan_.r);
+        case Act::feed_clear:
+            return straight(step, MoveKind::feed, plan_.clear);
+        case Act::rapid_clear:
+            return straight(step, MoveKind::traverse, plan_.clear);
     }
 }
 

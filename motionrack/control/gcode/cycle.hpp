@@ -1,9 +1,10 @@
-// Drilling, tapping and boring cycles G73, G74, G81 .. G86, G89: what one line does, made one after the other in constant memory.
+// Drilling, tapping and boring cycles G73, G74, G81 .. G86, G89: what one line does, made one after the other in
+// constant memory.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <motionrack/control/gcode/step.hpp>
+#include <span>
 
 namespace motionrack::control::gcode {
 
@@ -23,14 +24,14 @@ inline bool is_pecking(std::int16_t code) {
 ///       |F                |T       |
 ///     bottom  ---------------- clear (r or the level before the first hole)
 ///
-/// At the bottom: G73 G81 G83 T to clear (G73 has no way back to r, only up by the clearance); G82 waits, T to clear; G85 F to r, T to
-/// clear; G86 waits, stops the spindle, T to clear, starts it; G89 waits, F to clear; G74 G84 stop the spindle, turn it the other
-/// way, wait, F to clear, stop it, turn it as before.
+/// At the bottom: G73 G81 G83 T to clear (G73 has no way back to r, only up by the clearance); G82 waits, T to clear;
+/// G85 F to r, T to clear; G86 waits, stops the spindle, T to clear, starts it; G89 waits, F to clear; G74 G84 stop the
+/// spindle, turn it the other way, wait, F to clear, stop it, turn it as before.
 struct CyclePlan {
-    std::int16_t code = 810;  ///< in tenths
+    std::int16_t code = 810;         ///< in tenths
     Spindle spindle = Spindle::off;  ///< as it turns before the cycle
     double speed_rpm = 0;
-    std::uint8_t first = 0;   ///< axes of the plane
+    std::uint8_t first = 0;  ///< axes of the plane
     std::uint8_t second = 1;
     std::uint8_t third = 2;    ///< axis that drills
     std::int32_t repeats = 1;  ///< holes, >= 1

@@ -10,10 +10,14 @@ Turn turn_of(double degrees) {
     const auto quarters = static_cast<long>(std::remainder((degrees - rest) / 90, 4));
     const SinCos both = sin_cos(rest / 180 * pi);
     switch ((quarters + 4) % 4) {
-        case 0: return {both.cos, both.sin};
-        case 1: return {-both.sin, both.cos};
-        case 2: return {-both.cos, -both.sin};
-        default: return {both.sin, -both.cos};
+        case 0:
+            return {both.cos, both.sin};
+        case 1:
+            return {-both.sin, both.cos};
+        case 2:
+            return {-both.cos, -both.sin};
+        default:
+            return {both.sin, -both.cos};
     }
 }
 

@@ -15,7 +15,7 @@ struct Frame {
     Point tool = {};      ///< G43, G43.1, G43.2
     Point g28 = {};
     Point g30 = {};
-    Point probe = {};        ///< machine coordinates where the probe last touched or left, or where its move ended without
+    Point probe = {};  ///< machine coordinates where the probe last touched or left, or where its move ended without
     bool probe_hit = false;  ///< whether it did
 
     // Of the active system, by activate():

@@ -94,8 +94,9 @@ bool Interpreter::assign() {
     for (const auto& [parameter, value] : block_.assignments) {
         if (parameter.number > 0 || parameters_.named(parameter.name)) continue;
         if (++(is_global(parameter.name) ? global : local) > parameters_.room_for(parameter.name)) {
-            return fail_at(block_.text.find('#'), GrblStatus::unsupported,
-                           fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, most_names));
+            return fail_at(
+                block_.text.find('#'), GrblStatus::unsupported,
+                fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, most_names));
         }
     }
     for (const auto& [parameter, value] : block_.assignments) {
@@ -255,8 +256,8 @@ const Step* Interpreter::pull_next() {
         default:
             if (end_pending_) apply_end();
             event_.kind = stop_code_ == 0 || stop_code_ == 60 ? StepKind::pause
-                          : stop_code_ == 1 ? StepKind::optional_pause
-                                            : StepKind::end;
+                          : stop_code_ == 1                   ? StepKind::optional_pause
+                                                              : StepKind::end;
             break;
     }
     return &event_;
@@ -359,7 +360,8 @@ bool Interpreter::unused_exponent() {
     while (begin > 0 && !is_letter(text[begin - 1])) --begin;
     if (begin > 0) --begin;
     return !fail_at(begin, GrblStatus::bad_number,
-                    fmt::format("{}{}: numbers of G-code have no exponent; write 1000, not 1e3", text.substr(begin, column - begin), written('E')));
+                    fmt::format("{}{}: numbers of G-code have no exponent; write 1000, not 1e3",
+                                text.substr(begin, column - begin), written('E')));
 }
 
 bool Interpreter::unused() {
@@ -374,7 +376,9 @@ bool Interpreter::unused() {
     } else if (letter == 'R') {
         use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G73, G81 .. G89)";
     } else if (letter == 'P') {
-        use = "; it goes with G4, G10, G64, M50 .. M53, M62 .. M66 and the cycles that wait, and with arcs that have an end or offsets on the same line";
+        use =
+            "; it goes with G4, G10, G64, M50 .. M53, M62 .. M66 and the cycles that wait, and with arcs that have an "
+            "end or offsets on the same line";
     } else if (letter == 'L') {
         use = "; it goes with G10, M66 and the drilling cycles (G73, G81 .. G89)";
     } else if (letter == 'E') {
@@ -385,7 +389,9 @@ bool Interpreter::unused() {
     } else if (letter == 'H') {
         use = "; it goes with G43 and G43.2 (a tool's number)";
     } else if (letter == 'Q') {
-        use = "; it is the peck depth of G73 and G83, a control point of G5, the longest wait of M66, and the value of M67 and M68";
+        use =
+            "; it is the peck depth of G73 and G83, a control point of G5, the longest wait of M66, and the value of "
+            "M67 and M68";
     }
     return fail_word(letter, GrblStatus::unused_word,
                      fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));

@@ -1,9 +1,10 @@
 // The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
 //
-// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters. Where the
-// two differ, or neither is followed:
+// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters.
+// Where the two differ, or neither is followed:
 // - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
-// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed (both).
+// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed
+// (both).
 // - Arcs: offsets without axis words make full turns, P turns them several times, a third-axis word alone makes a helix
 //   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl
 //   leaves them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
@@ -14,7 +15,8 @@
 // - G80 may stand beside another motion word, which then counts (LinuxCNC; CAM programs begin with G0 G40 G80); Grbl
 //   refuses it.
 // - G53 ignores G91 (Grbl); LinuxCNC refuses the two together.
-// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first hole
+// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first
+// hole
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
@@ -49,14 +51,15 @@ enum class CutterSide : std::uint8_t { off, left, right };
 
 /// Modal state that is only numbers.
 struct Modes {
-    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 730 .. 890; no_motion after G80
-    std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
-    std::uint8_t system = 0;          ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
-    bool inch = false;                ///< G20
-    bool incremental = false;         ///< G91
-    bool arc_absolute = false;        ///< G90.1
-    bool inverse_time = false;        ///< G93
-    bool retract_to_r = false;        ///< G99
+    std::int16_t motion =
+        no_motion;             ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 730 .. 890; no_motion after G80
+    std::uint8_t plane = 0;    ///< 0 G17, 1 G18, 2 G19
+    std::uint8_t system = 0;   ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
+    bool inch = false;         ///< G20
+    bool incremental = false;  ///< G91
+    bool arc_absolute = false;  ///< G90.1
+    bool inverse_time = false;  ///< G93
+    bool retract_to_r = false;  ///< G99
     PathControl path = PathControl::continuous;
     CutterSide cutter = CutterSide::off;  ///< G40 G41 G42
     Spindle spindle = Spindle::off;
@@ -124,11 +127,11 @@ class Interpreter {
     /// Machine coordinates after the last line; with cutter compensation where the cutter's centre is if it goes no
     /// further.
     const Point& position() const { return astray_ ? at_ : position_; }
-    Point program_position() const;                      ///< the same in the active work system, mm and degrees
-    std::int32_t line_number() const { return line_; }   ///< of the last line
-    /// The probing move of the last line (Step::probe) has stopped: the edge was at `at` if `hit`, and the machine stands
-    /// at `stands`, where the next line begins. Without this call the move counts as gone to its end, where the probe
-    /// did as it was meant to. #5061 .. #5070 tell of it.
+    Point program_position() const;                     ///< the same in the active work system, mm and degrees
+    std::int32_t line_number() const { return line_; }  ///< of the last line
+    /// The probing move of the last line (Step::probe) has stopped: the edge was at `at` if `hit`, and the machine
+    /// stands at `stands`, where the next line begins. Without this call the move counts as gone to its end, where the
+    /// probe did as it was meant to. #5061 .. #5070 tell of it.
     void probed(bool hit, const Point& at, const Point& stands);
     /// The machine was moved otherwise: the next line begins there, without cutter compensation.
     void stand_at(const Point& position);
@@ -143,11 +146,11 @@ class Interpreter {
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
     const ToolTable& tools() const { return tools_; }
-    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they are, since cutter
-    /// compensation is on and would not go with them.
+    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they
+    /// are, since cutter compensation is on and would not go with them.
     bool leave_call(std::optional<double> returned);
-    /// The last line is a turning cycle (G70 .. G72.2), which needs its contour: the moves of the sub `label`, which draws_contour()
-    /// reads. Until turn() has it, the line has no steps but its comments and events.
+    /// The last line is a turning cycle (G70 .. G72.2), which needs its contour: the moves of the sub `label`, which
+    /// draws_contour() reads. Until turn() has it, the line has no steps but its comments and events.
     bool turns() const { return turning_.has_value(); }
     const std::string& contour_label() const { return contour_label_; }
     /// One that reads a contour: as this one, but without limits and with a feed, from where the cycle starts.
@@ -322,8 +325,8 @@ class Interpreter {
     // Cutter compensation: the move that waits, and what the line being read makes of it.
     HeldSteps held_;
     bool has_waited_ = false;
-    bool beside_ = false;    // a move waits in held_; from the first one beside the contour to G40
-    bool astray_ = false;    // the machine is not at position_, but at at_
+    bool beside_ = false;  // a move waits in held_; from the first one beside the contour to G40
+    bool astray_ = false;  // the machine is not at position_, but at at_
     Point at_ = {};
     CutterPath cutter_path_;
     Planar cutter_from_;

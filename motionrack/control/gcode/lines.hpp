@@ -6,8 +6,8 @@
 
 namespace motionrack::control::gcode {
 
-/// Cuts a text into lines at LF, CR LF or CR, and leaves out a byte order mark at the beginning. A copy is a place in the text to which
-/// one can come back.
+/// Cuts a text into lines at LF, CR LF or CR, and leaves out a byte order mark at the beginning. A copy is a place in
+/// the text to which one can come back.
 class Lines {
   public:
     explicit Lines(std::string_view text);

@@ -1,4 +1,5 @@
-// What words say to the rest of the machine: spindle, coolant, tool, overrides, stops, and modes that are kept and brought back.
+// What words say to the rest of the machine: spindle, coolant, tool, overrides, stops, and modes that are kept and
+// brought back.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/interpreter.hpp>
@@ -71,8 +72,9 @@ bool Interpreter::overrides() {
     const bool on = takes_p && block_.has('P') ? block_['P'] != 0 : code != 49;
     if (takes_p) used_ |= letter_bit('P');
     if (code == 52 && on) {
-        return fail_at(block_.m_column[m_override], GrblStatus::unsupported,
-                       "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is taken)");
+        return fail_at(
+            block_.m_column[m_override], GrblStatus::unsupported,
+            "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is taken)");
     }
     if (code <= 50) next_.feed_override = on;
     if (code <= 49 || code == 51) next_.speed_override = on;
@@ -85,7 +87,10 @@ void Interpreter::fill_overrides() {
     const int code = block_.m[m_override];
     event_.kind = StepKind::overrides;
     event_.port = code;
-    event_.value = code == 51 ? modes_.speed_override : code == 52 ? false : code == 53 ? modes_.feed_stop : modes_.feed_override;
+    event_.value = code == 51   ? modes_.speed_override
+                   : code == 52 ? false
+                   : code == 53 ? modes_.feed_stop
+                                : modes_.feed_override;
 }
 
 /// M98 P L and M99 stand alone; where they lead is for who walks through the program.
@@ -93,22 +98,33 @@ bool Interpreter::program_words() {
     const int code = block_.m[m_program];
     const std::size_t column = block_.m_column[m_program];
     if (language_ != Language::program)
-        return fail_at(column, GrblStatus::unsupported, fmt::format("M{}: a line by itself has no subprograms; run the program as a file", code));
-    const std::uint32_t own = letter_bit('N') | (code == 98 ? letter_bit('P') | letter_bit('L') : 0u);
-    if (block_.g_groups != 0 || block_.m_groups != 1u << m_program || (block_.words & ~own) != 0 || !block_.assignments.empty()) {
         return fail_at(column, GrblStatus::unsupported,
-                       code == 98 ? "M98 stands alone with its P and L, e.g. M98 P100 L3; put what is beside it on a line of its own"
-                                  : "M99 stands alone; put what is beside it on a line of its own (it goes back to where M98 called, not to a line)");
+                       fmt::format("M{}: a line by itself has no subprograms; run the program as a file", code));
+    const std::uint32_t own = letter_bit('N') | (code == 98 ? letter_bit('P') | letter_bit('L') : 0u);
+    if (block_.g_groups != 0 || block_.m_groups != 1u << m_program || (block_.words & ~own) != 0 ||
+        !block_.assignments.empty()) {
+        return fail_at(
+            column, GrblStatus::unsupported,
+            code == 98
+                ? "M98 stands alone with its P and L, e.g. M98 P100 L3; put what is beside it on a line of its own"
+                : "M99 stands alone; put what is beside it on a line of its own (it goes back to where M98 called, not "
+                  "to a line)");
     }
     used_ |= own;
     if (code == 99) return true;
-    if (!block_.has('P')) return fail_at(column, GrblStatus::word_missing, "P word missing: M98 needs the number of a program; write e.g. M98 P100 (and O100 .. M99 behind M2)");
-    return need_integer('P', 0, 1e9, "the number of a program") && (!block_.has('L') || need_integer('L', 0, 1e9, "how often the program runs"));
+    if (!block_.has('P'))
+        return fail_at(
+            column, GrblStatus::word_missing,
+            "P word missing: M98 needs the number of a program; write e.g. M98 P100 (and O100 .. M99 behind M2)");
+    return need_integer('P', 0, 1e9, "the number of a program") &&
+           (!block_.has('L') || need_integer('L', 0, 1e9, "how often the program runs"));
 }
 
 /// M61 Q: the tool in the spindle is another one than was thought.
 bool Interpreter::set_tool() {
-    if (!block_.has('Q')) return fail_at(block_.m_column[m_tool], GrblStatus::word_missing, "Q word missing: M61 needs the number of the tool in the spindle; write e.g. M61 Q3");
+    if (!block_.has('Q'))
+        return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
+                       "Q word missing: M61 needs the number of the tool in the spindle; write e.g. M61 Q3");
     if (!need_integer('Q', 0, largest_tool, "a tool number")) return false;
     const auto number = static_cast<std::int32_t>(block_['Q']);
     if (!known_tool('Q', number)) return false;
@@ -121,10 +137,13 @@ bool Interpreter::set_tool() {
 /// Without a tool table every number is a tool's.
 bool Interpreter::known_tool(char letter, std::int32_t number) {
     if (number == 0 || settings_.tools.empty() || tools_.find(number)) return true;
-    return fail_word(letter, GrblStatus::unsupported, fmt::format("{}: the tool table has no tool {}; write it into the table", written(letter), number));
+    return fail_word(
+        letter, GrblStatus::unsupported,
+        fmt::format("{}: the tool table has no tool {}; write it into the table", written(letter), number));
 }
 
-/// M70 keeps the modes, M71 forgets them, M72 brings them back, M73 keeps them until the call ends. Spindle and coolant are left alone.
+/// M70 keeps the modes, M71 forgets them, M72 brings them back, M73 keeps them until the call ends. Spindle and coolant
+/// are left alone.
 void Interpreter::keep_modes() {
     const int code = block_.m[m_state];
     if (code == 72) return;
@@ -170,7 +189,8 @@ bool Interpreter::leave_call(std::optional<double> returned) {
 
 /// Whether cutter compensation can stay on when these modes come back.
 bool Interpreter::goes_beside(const Modes& saved) const {
-    return saved.plane == modes_.plane && saved.inch == modes_.inch && saved.system == modes_.system && !saved.inverse_time;
+    return saved.plane == modes_.plane && saved.inch == modes_.inch && saved.system == modes_.system &&
+           !saved.inverse_time;
 }
 
 void Interpreter::straighten() {

@@ -75,11 +75,12 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
     if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
     if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code) || is_probing(code))) {
         return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
-                       is_probing(code) ? fmt::format("{} needs a place to probe towards; write e.g. {} Z-10 F60", name_of_g(code), name_of_g(code))
-                       : is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
-                                                  name_of_g(code), name_of_g(code))
-                                    : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2",
-                                                  name_of_g(code), name_of_g(code)));
+                       is_probing(code) ? fmt::format("{} needs a place to probe towards; write e.g. {} Z-10 F60",
+                                                      name_of_g(code), name_of_g(code))
+                       : is_arc(code)   ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
+                                                      name_of_g(code), name_of_g(code))
+                                        : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2",
+                                                      name_of_g(code), name_of_g(code)));
     }
     return true;
 }
@@ -110,7 +111,8 @@ bool Interpreter::targets_turned() {
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
     Point program = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < axis_count; ++axis)
-        if ((block_.words & letter_bit(axis_letters[axis])) != 0) program[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
+        if ((block_.words & letter_bit(axis_letters[axis])) != 0)
+            program[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
     const Point by = frame.turned_by(program), to = frame.to_machine(program);
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t own = letter_bit(axis_letters[axis]);
@@ -123,7 +125,8 @@ bool Interpreter::targets_turned() {
         end_[axis] = target;
     }
     // A rounding is no move: beside a contour it would have a direction.
-    if (!next_.incremental && std::fabs(end_[0] - position_[0]) < turned_slack && std::fabs(end_[1] - position_[1]) < turned_slack) {
+    if (!next_.incremental && std::fabs(end_[0] - position_[0]) < turned_slack &&
+        std::fabs(end_[1] - position_[1]) < turned_slack) {
         end_[0] = position_[0];
         end_[1] = position_[1];
     }
@@ -157,10 +160,15 @@ bool Interpreter::by_itself(std::int16_t code) {
     for (int axis = 0; axis < axis_count; ++axis)
         if (end_[axis] != position_[axis]) moving += (moving.empty() ? "" : ", ") + std::string(1, axis_letters[axis]);
     if (moving.size() <= 1 && !is_arc(code)) return true;
-    return fail_at(blame(), GrblStatus::unsupported,
-                   is_arc(code) ? fmt::format("{} is an arc, but the axes of this rack position one by one; write straight moves", name_of_g(code))
-                                : fmt::format("{} moves {} together, but the axes of this rack position one by one; write a line for each, or G0, "
-                                              "where each goes at its own speed", name_of_g(code), moving));
+    return fail_at(
+        blame(), GrblStatus::unsupported,
+        is_arc(code)
+            ? fmt::format("{} is an arc, but the axes of this rack position one by one; write straight moves",
+                          name_of_g(code))
+            : fmt::format(
+                  "{} moves {} together, but the axes of this rack position one by one; write a line for each, or G0, "
+                  "where each goes at its own speed",
+                  name_of_g(code), moving));
 }
 
 /// A move of the line being read, with what the modes say of it, to where the words lead.
@@ -185,8 +193,9 @@ bool Interpreter::feed_of(Move& move) {
         return true;
     }
     if (next_.feed == 0) return no_feed();
-    const bool rotary_only = !(astray_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] && end_[1] == position_[1] && end_[2] == position_[2] &&
-                             (block_.words & rotary_words) != 0 && move.kind == MoveKind::feed;
+    const bool rotary_only = !(astray_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] &&
+                             end_[1] == position_[1] && end_[2] == position_[2] && (block_.words & rotary_words) != 0 &&
+                             move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
     move.feed = rotary_only ? next_.feed_rotary : next_.feed;
     return true;

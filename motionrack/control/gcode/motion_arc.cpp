@@ -50,15 +50,18 @@ bool Interpreter::arc(std::int16_t code) {
     motion_ = Motion::single;
     todo_ |= todo_motion;
     if (compensates()) return compensate();
-    return arc_within_limits({position_[axes[0]], position_[axes[1]]}, {end_[axes[0]], end_[axes[1]]}, centre, move.turns);
+    return arc_within_limits({position_[axes[0]], position_[axes[1]]}, {end_[axes[0]], end_[axes[1]]}, centre,
+                             move.turns);
 }
 
 /// In a turned work system an arc of G18 or G19 would lie in no plane of two axes; a cycle would drill aslant.
 bool Interpreter::in_turned_plane(std::int16_t code) {
     if (!frame_now().turned || next_.plane == 0) return true;
-    return fail_at(blame(), GrblStatus::unsupported,
-                   fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and cycles go in G17 only", name_of_g(code),
-                               plane_names[next_.plane], frame_now().turn[next_.system]));
+    return fail_at(
+        blame(), GrblStatus::unsupported,
+        fmt::format(
+            "{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and cycles go in G17 only",
+            name_of_g(code), plane_names[next_.plane], frame_now().turn[next_.system]));
 }
 
 /// Finds the centre from R or from I J K.
@@ -167,8 +170,7 @@ bool Interpreter::arc_within_limits(Planar start, Planar end, Planar centre, std
     for (int i = 0; i < 4; ++i) inside = inside && extremes[i] >= low_[axis[i]] && extremes[i] <= high_[axis[i]];
     if (inside) return true;
     const bool full = std::abs(turns) > 1 || (from.first == to.first && from.second == to.second);
-    const auto passed =
-        full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
+    const auto passed = full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
     for (int i = 0; i < 4; ++i) {
         if (passed[i] && !reach(axis[i], extremes[i], blame())) {
             problem_.message = "on its way this arc goes too far: " + problem_.message;

@@ -24,10 +24,11 @@ bool Interpreter::cutter() {
         return true;
     }
     if (next_.cutter != CutterSide::off) {
-        return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
-                                   "move before it",
-                                   name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
+        return fail_at(
+            column, GrblStatus::unsupported,
+            fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
+                        "move before it",
+                        name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
     }
     if (settings_.point_to_point) {
         return fail_at(column, GrblStatus::unsupported,
@@ -49,57 +50,69 @@ bool Interpreter::cutter_diameter(double& diameter) {
     used_ |= letter_bit('D');
     if (code % 10 != 0) {
         if (!block_.has('D')) {
-            return fail_at(column, GrblStatus::word_missing,
-                           fmt::format("D word missing: {0} needs the cutter's diameter; write e.g. {0} D6", name_of_g(code)));
+            return fail_at(
+                column, GrblStatus::word_missing,
+                fmt::format("D word missing: {0} needs the cutter's diameter; write e.g. {0} D6", name_of_g(code)));
         }
         diameter = scaled('D');
     } else {
         if (tools_.empty()) {
             return fail_at(column, GrblStatus::unsupported,
-                           fmt::format("{0}: there is no tool table to take the diameter from; give the program one (--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
+                           fmt::format("{0}: there is no tool table to take the diameter from; give the program one "
+                                       "(--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
                                        name_of_g(code)));
         }
         if (block_.has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;
         const bool of_spindle = !block_.has('D') || block_['D'] == 0;
         const std::int32_t number = of_spindle ? next_.tool_loaded : static_cast<std::int32_t>(block_['D']);
         if (number <= 0) {
-            return fail_at(column, GrblStatus::word_missing,
-                           fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
+            return fail_at(
+                column, GrblStatus::word_missing,
+                fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
         }
         const Tool* tool = tool_of_table(number, 'D', g_cutter);
         if (!tool) return false;
         diameter = tool->diameter_mm;
     }
     if (std::fabs(diameter) <= largest_cutter_mm) return true;
-    return fail_at(block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::value_too_large,
-                   fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
+    return fail_at(
+        block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::value_too_large,
+        fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
 }
 
 /// What must stay as it is while compensation is on.
 bool Interpreter::cutter_allows() {
     const auto forbid = [&](std::size_t column, std::string_view what) {
-        return fail_at(column, GrblStatus::axis_conflict,
-                       fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
+        return fail_at(
+            column, GrblStatus::axis_conflict,
+            fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
     };
     const bool was_on = modes_.cutter != CutterSide::off;
     // M72 brings modes back, too.
     const auto column_of = [&](GroupG group) -> std::size_t {
-        return block_.has_g(group) ? block_.g_column[group] : block_.has_m(m_state) ? block_.m_column[m_state] : block_.has_g(g_cutter) ? block_.g_column[g_cutter] : 0;
+        return block_.has_g(group)      ? block_.g_column[group]
+               : block_.has_m(m_state)  ? block_.m_column[m_state]
+               : block_.has_g(g_cutter) ? block_.g_column[g_cutter]
+                                        : 0;
     };
     if (was_on && next_.plane != modes_.plane) return forbid(column_of(g_plane), "the plane cannot change");
     if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
     if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
     if (frame_now().turned && next_.plane != 0) {
-        return fail_at(column_of(g_cutter), GrblStatus::unsupported,
-                       fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation goes in G17 only", frame_now().turn[next_.system]));
+        return fail_at(
+            column_of(g_cutter), GrblStatus::unsupported,
+            fmt::format(
+                "the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation goes in G17 only",
+                frame_now().turn[next_.system]));
     }
     if (was_on && block_.has_g(g_tool_length) && frame_now().tool != frame_.tool)
         return forbid(block_.g_column[g_tool_length], "the tool length cannot change");
     if (next_.inverse_time) {
-        return forbid(column_of(g_feed_mode),
-                      "G93 (inverse time) cannot be used");
+        return forbid(column_of(g_feed_mode), "G93 (inverse time) cannot be used");
     }
-    if (was_on && block_.has_m(m_tool)) return forbid(block_.m_column[m_tool], block_.m[m_tool] == 61 ? "M61 cannot tell of another tool" : "M6 cannot change the tool");
+    if (was_on && block_.has_m(m_tool))
+        return forbid(block_.m_column[m_tool],
+                      block_.m[m_tool] == 61 ? "M61 cannot tell of another tool" : "M6 cannot change the tool");
     const std::int16_t once = block_.has_g(g_nonmodal) ? block_.g[g_nonmodal] : std::int16_t{40};
     if (once == 40) return true;
     return forbid(block_.g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
@@ -113,11 +126,12 @@ bool Interpreter::end_waiting_path() {
 }
 
 bool Interpreter::gouges(std::int32_t line) {
-    return fail_at(blame(), GrblStatus::bad_target,
-                   fmt::format("the cutter (radius {:.6g} mm) would have to go backwards along the move of line {}, which is "
-                               "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
-                               "leave the move out",
-                               modes_.cutter_radius_mm, line));
+    return fail_at(
+        blame(), GrblStatus::bad_target,
+        fmt::format("the cutter (radius {:.6g} mm) would have to go backwards along the move of line {}, which is "
+                    "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
+                    "leave the move out",
+                    modes_.cutter_radius_mm, line));
 }
 
 /// The path beside the move that straight() or arc() has prepared.
@@ -128,24 +142,27 @@ bool Interpreter::path_beside(Planar from, Planar to, CutterPath& path) {
     const Planar centre = {move.centre_first, move.centre_second};
     const bool is_arc = move.kind == MoveKind::arc;
     if (!beside_ && length({to.first - from.first, to.second - from.second}) <= radius) {
-        return fail_at(blame(), GrblStatus::bad_target,
-                       fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
-                                   "radius of {:.6g} mm; begin farther away",
-                                   radius));
+        return fail_at(
+            blame(), GrblStatus::bad_target,
+            fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
+                        "radius of {:.6g} mm; begin farther away",
+                        radius));
     }
     if (!is_arc) {
         path = beside_ ? beside_line(from, to, offset) : onto_line(from, to, offset);
         return true;
     }
-    if (beside_ ? beside_arc(from, to, centre, move.turns, offset, path) : onto_arc(from, to, centre, move.turns, offset, path))
+    if (beside_ ? beside_arc(from, to, centre, move.turns, offset, path)
+                : onto_arc(from, to, centre, move.turns, offset, path))
         return true;
     const double arc_radius = length({from.first - centre.first, from.second - centre.second});
-    return fail_at(blame(), GrblStatus::bad_radius,
-                   arc_radius <= radius
-                       ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
-                                     "smaller cutter",
-                                     radius, arc_radius)
-                       : std::string("no arc leads from here beside the end of this one; begin with a straight move"));
+    return fail_at(
+        blame(), GrblStatus::bad_radius,
+        arc_radius <= radius
+            ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
+                          "smaller cutter",
+                          radius, arc_radius)
+            : std::string("no arc leads from here beside the end of this one; begin with a straight move"));
 }
 
 /// From the programmed move to that of the cutter, which waits until the next one is known.
@@ -193,10 +210,11 @@ bool Interpreter::join(Planar corner) {
     const CutterPath& path = cutter_plan_.path;
     const JointPlace joint = joint_of(cutter_path_, path, corner, offset);
     if (joint.kind == CutterJoint::none) {
-        return fail_at(blame(), GrblStatus::bad_target,
-                       fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
-                                   "take a smaller cutter",
-                                   next_.cutter_radius_mm, cutter_line_));
+        return fail_at(
+            blame(), GrblStatus::bad_target,
+            fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
+                        "take a smaller cutter",
+                        next_.cutter_radius_mm, cutter_line_));
     }
     cutter_plan_.joins = true;
     cutter_plan_.last = cutter_path_;
@@ -217,7 +235,8 @@ bool Interpreter::join(Planar corner) {
     arc.end = position_;
     arc.end[axes[0]] = path.start.first;
     arc.end[axes[1]] = path.start.second;
-    if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns)) return off_limits();
+    if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns))
+        return off_limits();
     return (reach(axes[0], path.start.first, blame()) && reach(axes[1], path.start.second, blame())) || off_limits();
 }
 
@@ -240,7 +259,8 @@ bool Interpreter::may_wait() {
     const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
     if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
     return fail_at(0, GrblStatus::unsupported,
-                   fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, and no more can; nothing of this line was done; "
+                   fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, "
+                               "and no more can; nothing of this line was done; "
                                "write that move before it, or G40",
                                HeldSteps::most, cutter_line_));
 }

@@ -49,30 +49,38 @@ bool Interpreter::cycle_words(std::int16_t code) {
                    fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
 }
 
-/// Tapping turns the spindle back at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and tapping the right way.
+/// Tapping turns the spindle back at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and tapping
+/// the right way.
 bool Interpreter::spindle_turns(std::int16_t code) {
     const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next_.spindle;
     if (code != 740 && code != 840 && code != 860) return true;
     if (next_.spindle != Spindle::off && next_.spindle == needed) return true;
     return fail_at(blame(), GrblStatus::unsupported,
                    fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
-                               code == 740 ? " counter-clockwise" : code == 840 ? " clockwise" : "", code == 740 ? "M4" : "M3"));
+                               code == 740   ? " counter-clockwise"
+                               : code == 840 ? " clockwise"
+                                             : "",
+                               code == 740 ? "M4" : "M3"));
 }
 
 /// A peck that is too thin for its hole would go on for ever.
 bool Interpreter::pecks_go(const CyclePlan& plan) {
-    if (!is_pecking(plan.code) || (plan.peck * most_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0)) return true;
-    return fail_at(block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
-                   fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
-                               "pecks of one line",
-                               plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats), plan.r - plan.bottom));
+    if (!is_pecking(plan.code) || (plan.peck * most_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
+        return true;
+    return fail_at(
+        block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
+        fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
+                    "pecks of one line",
+                    plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats),
+                    plan.r - plan.bottom));
 }
 
 bool Interpreter::cycle(std::int16_t code) {
     if (next_.cutter != CutterSide::off) {
-        return fail_at(blame(), GrblStatus::axis_conflict,
-                       fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
-                                   name_of_g(code)));
+        return fail_at(
+            blame(), GrblStatus::axis_conflict,
+            fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
+                        name_of_g(code)));
     }
     if (!leaves_straight(code)) return false;
     if ((block_.words & rotary_words) != 0) {

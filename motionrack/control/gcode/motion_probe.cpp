@@ -10,12 +10,14 @@ bool Interpreter::may_probe(std::int16_t code) {
     const std::string name = name_of_g(code);
     const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(blame(), status, name + why); };
     if (!settings_.probe) {
-        return refuse(GrblStatus::unsupported,
-                      " probes, but this machine has no probe input; take the probing out of the program and set the work "
-                      "offset with G10 L20 instead");
+        return refuse(
+            GrblStatus::unsupported,
+            " probes, but this machine has no probe input; take the probing out of the program and set the work "
+            "offset with G10 L20 instead");
     }
     if (next_.cutter != CutterSide::off)
-        return refuse(GrblStatus::axis_conflict, " cannot probe while cutter compensation is on; write G40 and a straight move before it");
+        return refuse(GrblStatus::axis_conflict,
+                      " cannot probe while cutter compensation is on; write G40 and a straight move before it");
     if (!leaves_straight(code)) return false;
     if (next_.inverse_time)
         return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
@@ -27,8 +29,10 @@ bool Interpreter::probing(std::int16_t code) {
     const std::string name = name_of_g(code);
     const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(blame(), status, name + why); };
     for (int axis = 3; axis < axis_count; ++axis)
-        if (end_[axis] != position_[axis]) return refuse(GrblStatus::unused_word, " does not turn axes; put the turn on a line before it");
-    if (end_ == position_) return refuse(GrblStatus::bad_target, " has no way to go; its end is where the machine stands");
+        if (end_[axis] != position_[axis])
+            return refuse(GrblStatus::unused_word, " does not turn axes; put the turn on a line before it");
+    if (end_ == position_)
+        return refuse(GrblStatus::bad_target, " has no way to go; its end is where the machine stands");
     constexpr std::array<Probe, 4> kinds = {Probe::contact, Probe::contact_if, Probe::release, Probe::release_if};
     moving_.probe = kinds[static_cast<std::size_t>(code - 382)];
     moving_.move.path = PathControl::exact_stop;
@@ -39,7 +43,8 @@ bool Interpreter::probing(std::int16_t code) {
 void Interpreter::tell_probe(bool hit, const Point& at) {
     constexpr int first = 5061, success = 5070;
     const Point place = frame_.to_program(at);
-    for (int axis = 0; axis < axis_count; ++axis) parameters_.set(first + axis, place[axis] / (axis < 3 && modes_.inch ? 25.4 : 1.0));
+    for (int axis = 0; axis < axis_count; ++axis)
+        parameters_.set(first + axis, place[axis] / (axis < 3 && modes_.inch ? 25.4 : 1.0));
     for (int other = first + axis_count; other < success; ++other) parameters_.set(other, 0);
     parameters_.set(success, hit ? 1 : 0);
 }

@@ -15,7 +15,8 @@ bool Interpreter::spline(std::int16_t code) {
     if (!(code == 50 ? cubic_of_words(start, end, curve) : quadratic_of_words(start, end, curve))) return false;
     if (curve.is_point()) {
         return fail_at(blame(), GrblStatus::bad_target,
-                       fmt::format("{}: the curve has no length; its end and control points are where it starts", name_of_g(code)));
+                       fmt::format("{}: the curve has no length; its end and control points are where it starts",
+                                   name_of_g(code)));
     }
     for (const int axis : {0, 1}) {
         double least = 0, greatest = 0;
@@ -37,12 +38,16 @@ bool Interpreter::spline_allowed(std::int16_t code) {
     const std::string name = name_of_g(code);
     const auto refuse = [&](GrblStatus status, const std::string& why) { return fail_at(blame(), status, name + why); };
     if (settings_.point_to_point)
-        return refuse(GrblStatus::unsupported, " is a curve, but the axes of this rack position one by one; write straight moves");
+        return refuse(GrblStatus::unsupported,
+                      " is a curve, but the axes of this rack position one by one; write straight moves");
     if (next_.cutter != CutterSide::off)
-        return refuse(GrblStatus::axis_conflict, " cannot go beside a contour while cutter compensation is on; write G40 and a straight move before it");
+        return refuse(
+            GrblStatus::axis_conflict,
+            " cannot go beside a contour while cutter compensation is on; write G40 and a straight move before it");
     if (!leaves_straight(code)) return false;
     if (next_.plane != 0) return refuse(GrblStatus::no_plane_axis, " is a curve in X and Y; write G17 before it");
-    if (next_.inverse_time) return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
+    if (next_.inverse_time)
+        return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
     constexpr std::uint32_t in_plane = letter_bit('X') | letter_bit('Y');
     if ((block_.words & in_plane) == 0) {
         return refuse(GrblStatus::no_plane_axis, code == 50 ? " needs its end; write e.g. G5 X20 Y0 I5 J10 P-5 Q10"
@@ -50,8 +55,9 @@ bool Interpreter::spline_allowed(std::int16_t code) {
     }
     for (const char letter : {'Z', 'A', 'B', 'C'}) {
         if (!block_.has(letter)) continue;
-        return fail_word(letter, GrblStatus::unused_word,
-                         fmt::format("{}: {} moves X and Y only; put the other axes on a line of their own", written(letter), name));
+        return fail_word(
+            letter, GrblStatus::unused_word,
+            fmt::format("{}: {} moves X and Y only; put the other axes on a line of their own", written(letter), name));
     }
     return true;
 }
@@ -59,21 +65,28 @@ bool Interpreter::spline_allowed(std::int16_t code) {
 /// I J from the start to the first control point, P Q from the end to the second one.
 bool Interpreter::cubic_of_words(Planar start, Planar end, Cubic& curve) {
     if (!block_.has('P') || !block_.has('Q') || (used_ & (letter_bit('P') | letter_bit('Q'))) != 0) {
-        return fail_at(blame(), GrblStatus::word_missing,
-                       "G5 needs P and Q, the way from its end to its second control point; write e.g. G5 X20 Y0 I5 J10 P-5 Q10");
+        return fail_at(
+            blame(), GrblStatus::word_missing,
+            "G5 needs P and Q, the way from its end to its second control point; write e.g. G5 X20 Y0 I5 J10 P-5 Q10");
     }
     if (block_.has('I') != block_.has('J')) {
         const char missing = block_.has('I') ? 'J' : 'I';
-        return fail_at(blame(), GrblStatus::no_offsets,
-                       fmt::format("{} word missing: G5 takes both I and J, or neither to go on in the direction of the G5 before it", missing));
+        return fail_at(
+            blame(), GrblStatus::no_offsets,
+            fmt::format(
+                "{} word missing: G5 takes both I and J, or neither to go on in the direction of the G5 before it",
+                missing));
     }
-    Planar handle = {-modes_.spline_end.first, -modes_.spline_end.second};  // as written: not turned with the work system
-    const bool goes_on = modes_.motion == 50 && modes_.spline_at.first == start.first && modes_.spline_at.second == start.second;
+    Planar handle = {-modes_.spline_end.first,
+                     -modes_.spline_end.second};  // as written: not turned with the work system
+    const bool goes_on =
+        modes_.motion == 50 && modes_.spline_at.first == start.first && modes_.spline_at.second == start.second;
     if (block_.has('I')) {
         handle = {scaled('I'), scaled('J')};
     } else if (!goes_on) {
         return fail_at(blame(), GrblStatus::no_offsets,
-                       "G5 needs I and J, the way from its start to its first control point; only a G5 right after another goes on without them");
+                       "G5 needs I and J, the way from its start to its first control point; only a G5 right after "
+                       "another goes on without them");
     }
     used_ |= letter_bit('I') | letter_bit('J') | letter_bit('P') | letter_bit('Q');
     const Planar written_back = {scaled('P'), scaled('Q')};
@@ -91,8 +104,9 @@ bool Interpreter::quadratic_of_words(Planar start, Planar end, Cubic& curve) {
     used_ |= letter_bit('I') | letter_bit('J');
     const Planar handle = {block_.has('I') ? scaled('I') : 0.0, block_.has('J') ? scaled('J') : 0.0};
     if (handle.first == 0 && handle.second == 0) {
-        return fail_at(blame(), GrblStatus::no_offsets,
-                       "G5.1 needs I or J, the way from its start to its control point; write e.g. G5.1 X20 Y0 I10 J10");
+        return fail_at(
+            blame(), GrblStatus::no_offsets,
+            "G5.1 needs I or J, the way from its start to its control point; write e.g. G5.1 X20 Y0 I10 J10");
     }
     const Planar by = turned_handle(handle);
     curve = quadratic(start, {start.first + by.first, start.second + by.second}, end);
@@ -108,7 +122,8 @@ Planar Interpreter::turned_handle(Planar handle) const {
 /// P and Q may be below 0 where they are a way, not a time, a tolerance or a depth.
 bool Interpreter::negative_handles() const {
     const std::int16_t code = block_.has_g(g_motion) ? block_.g[g_motion] : modes_.motion;
-    return code == 50 && !block_.has_g(g_nonmodal) && !block_.has_g(g_path) && !block_.has_m(m_tool) && !block_.has_m(m_override);
+    return code == 50 && !block_.has_g(g_nonmodal) && !block_.has_g(g_path) && !block_.has_m(m_tool) &&
+           !block_.has_m(m_override);
 }
 
 /// The next arc of the curve. Its joints may lie beside it, but not beyond the travel.

@@ -37,32 +37,52 @@ bool Interpreter::turning(std::int16_t code) {
 
 bool Interpreter::turning_allowed(std::int16_t code) {
     const std::string name = name_of_g(code);
-    const auto refuse = [&](GrblStatus status, const std::string& why) { return fail_at(block_.g_column[g_motion], status, name + why); };
-    if (language_ != Language::program) return refuse(GrblStatus::unsupported, ": a line by itself has no contour to turn; run the program as a file");
-    if (block_.has_g(g_nonmodal) || axis_words_taken_) return refuse(GrblStatus::axis_conflict, " stands without other codes that use its words; put it on a line of its own");
-    if (block_.has_m(m_stop) || block_.has_m(m_port)) return refuse(GrblStatus::unsupported, " goes before a stop, an end or an output; put that on a line of its own");
-    if (next_.plane != 1) return refuse(GrblStatus::no_plane_axis, " turns in the plane of X and Z; write G18 before it");
-    if (settings_.point_to_point) return refuse(GrblStatus::unsupported, " moves two axes together, but the axes of this rack position one by one");
-    if (next_.cutter != CutterSide::off) return refuse(GrblStatus::axis_conflict, " cannot be done while cutter compensation is on; write G40 and a straight move before it");
-    if (next_.inverse_time) return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
+    const auto refuse = [&](GrblStatus status, const std::string& why) {
+        return fail_at(block_.g_column[g_motion], status, name + why);
+    };
+    if (language_ != Language::program)
+        return refuse(GrblStatus::unsupported, ": a line by itself has no contour to turn; run the program as a file");
+    if (block_.has_g(g_nonmodal) || axis_words_taken_)
+        return refuse(GrblStatus::axis_conflict,
+                      " stands without other codes that use its words; put it on a line of its own");
+    if (block_.has_m(m_stop) || block_.has_m(m_port))
+        return refuse(GrblStatus::unsupported,
+                      " goes before a stop, an end or an output; put that on a line of its own");
+    if (next_.plane != 1)
+        return refuse(GrblStatus::no_plane_axis, " turns in the plane of X and Z; write G18 before it");
+    if (settings_.point_to_point)
+        return refuse(GrblStatus::unsupported,
+                      " moves two axes together, but the axes of this rack position one by one");
+    if (next_.cutter != CutterSide::off)
+        return refuse(GrblStatus::axis_conflict,
+                      " cannot be done while cutter compensation is on; write G40 and a straight move before it");
+    if (next_.inverse_time)
+        return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
     if (!leaves_straight(code) || !in_turned_plane(code)) return false;
     for (const char letter : {'Y', 'A', 'B', 'C'}) {
-        if (block_.has(letter)) return fail_word(letter, GrblStatus::unused_word, fmt::format("{}: {} moves X and Z only; put the other axes on a line of their own", written(letter), name));
+        if (block_.has(letter))
+            return fail_word(letter, GrblStatus::unused_word,
+                             fmt::format("{}: {} moves X and Z only; put the other axes on a line of their own",
+                                         written(letter), name));
     }
     return true;
 }
 
 bool Interpreter::turning_words(std::int16_t code, TurningPlan& plan) {
     if (!block_.has('Q')) {
-        return fail_at(block_.g_column[g_motion], GrblStatus::word_missing,
-                       fmt::format("Q word missing: {} needs the number of the sub that draws the contour; write e.g. {} Q100 X30 Z2", name_of_g(code), name_of_g(code)));
+        return fail_at(
+            block_.g_column[g_motion], GrblStatus::word_missing,
+            fmt::format(
+                "Q word missing: {} needs the number of the sub that draws the contour; write e.g. {} Q100 X30 Z2",
+                name_of_g(code), name_of_g(code)));
     }
     if (!need_integer('Q', 0, 1e9, "the number of the sub that draws the contour")) return false;
     contour_label_ = fmt::format("{:.0f}", block_['Q']);
     used_ |= letter_bit('Q') | letter_bit('D');
     for (const char letter : {'D', 'E', 'R'}) {
         if (block_.has(letter) && block_[letter] < 0)
-            return fail_word(letter, GrblStatus::negative_value, fmt::format("{} is negative; it is a distance, 0 or more", written(letter)));
+            return fail_word(letter, GrblStatus::negative_value,
+                             fmt::format("{} is negative; it is a distance, 0 or more", written(letter)));
     }
     if (block_.has('D')) plan.distance = scaled('D');
     if (code == finishing) {
@@ -77,7 +97,9 @@ bool Interpreter::turning_words(std::int16_t code, TurningPlan& plan) {
     plan.depth = block_.has('I') ? scaled('I') : unit;
     plan.retract = block_.has('R') ? scaled('R') : 0.5 * unit;
     if (plan.depth >= least_depth) return true;
-    return fail_word('I', GrblStatus::bad_target, fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", written('I'), least_depth));
+    return fail_word(
+        'I', GrblStatus::bad_target,
+        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", written('I'), least_depth));
 }
 
 Interpreter Interpreter::draws_contour() const {

@@ -1,5 +1,5 @@
-// What moves program coordinates about: work offsets and their turn (G10 L2, L20), the tool table (G10 L1, L10, L11) and tool lengths
-// (G43, G43.1, G43.2, G49).
+// What moves program coordinates about: work offsets and their turn (G10 L2, L20), the tool table (G10 L1, L10, L11)
+// and tool lengths (G43, G43.1, G43.2, G49).
 #include <fmt/format.h>
 
 #include <bit>
@@ -32,9 +32,10 @@ bool Interpreter::set_offsets() {
     }
     if (!need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
     if (block_['P'] > (by_sender ? grbl_work_system_count : work_system_count)) {
-        return fail_word('P', GrblStatus::no_such_system,
-                         fmt::format("{}: there are {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one", written('P'),
-                                     by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
+        return fail_word(
+            'P', GrblStatus::no_such_system,
+            fmt::format("{}: there are {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one",
+                        written('P'), by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
     }
     used_ |= letter_bit('L') | letter_bit('P');
     const int number = static_cast<int>(block_['P']);
@@ -69,7 +70,8 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
     return true;
 }
 
-/// How far an offset moves, along the axes of the frame, for the position there to be as the words say; in machine coordinates.
+/// How far an offset moves, along the axes of the frame, for the position there to be as the words say; in machine
+/// coordinates.
 Point Interpreter::shift_to_words(const Frame& frame) const {
     const Point now = frame.to_program(position_);
     Point by = {};
@@ -87,8 +89,8 @@ void Interpreter::shift_turned(Frame& frame, int system) {
     for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
 }
 
-/// G10 L1 sets a tool's offsets as written; L10 and L11 so that the tool, as it stands, is at the place written: in the active system,
-/// or in G59.3.
+/// G10 L1 sets a tool's offsets as written; L10 and L11 so that the tool, as it stands, is at the place written: in the
+/// active system, or in G59.3.
 bool Interpreter::edit_tool(int what) {
     if (!need_integer('P', 1, largest_tool, "the number of a tool")) return false;
     used_ |= letter_bit('L') | letter_bit('P');
@@ -97,11 +99,13 @@ bool Interpreter::edit_tool(int what) {
     if (const Tool* known = tools_.find(tool.number)) {
         tool = *known;
     } else if (tools_.tools().size() >= most_tools) {
-        return fail_word('P', GrblStatus::unsupported, fmt::format("{}: the tool table has {} tools already", written('P'), most_tools));
+        return fail_word('P', GrblStatus::unsupported,
+                         fmt::format("{}: the tool table has {} tools already", written('P'), most_tools));
     }
     if (what == 1) {
         for (int axis = 0; axis < axis_count; ++axis)
-            if ((block_.words & letter_bit(axis_letters[axis])) != 0) tool.offset[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
+            if ((block_.words & letter_bit(axis_letters[axis])) != 0)
+                tool.offset[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
     } else {
         Frame with = frame_now();
         with.tool = tool.offset;
@@ -124,7 +128,8 @@ bool Interpreter::edit_tool_shape(Tool& tool) {
         used_ |= letter_bit(letter);
     };
     if (block_.has('R') && block_['R'] < 0)
-        return fail_word('R', GrblStatus::negative_value, fmt::format("{}: the radius of a tool is 0 or more", written('R')));
+        return fail_word('R', GrblStatus::negative_value,
+                         fmt::format("{}: the radius of a tool is 0 or more", written('R')));
     take('R', tool.diameter_mm, 2 * scale_of(0));
     take('I', tool.front_angle, 1);
     take('J', tool.back_angle, 1);
@@ -159,9 +164,10 @@ bool Interpreter::tool_length_of_words(bool adds) {
                         written(letter)));
     }
     if ((block_.words & axis_words) == 0) {
-        return fail_at(block_.g_column[g_tool_length], GrblStatus::no_axis_words,
-                       adds ? "H word missing: G43.2 needs the number of a tool, or the length to add; write e.g. G43.2 H3"
-                            : "Z word missing: G43.1 needs the length of the tool; write e.g. G43.1 Z12.5");
+        return fail_at(
+            block_.g_column[g_tool_length], GrblStatus::no_axis_words,
+            adds ? "H word missing: G43.2 needs the number of a tool, or the length to add; write e.g. G43.2 H3"
+                 : "Z word missing: G43.1 needs the length of the tool; write e.g. G43.1 Z12.5");
     }
     Frame& frame = edit_frame();
     for (int axis = 0; axis < axis_count; ++axis) {
@@ -175,13 +181,15 @@ bool Interpreter::tool_length_of_words(bool adds) {
     return true;
 }
 
-/// Null: it was told that there is none. To blame is the word that names it or, where the tool in the spindle is meant, the code.
+/// Null: it was told that there is none. To blame is the word that names it or, where the tool in the spindle is meant,
+/// the code.
 const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG code) {
     const Tool* tool = tools_.find(number);
     const bool named = block_.has(letter);
     if (!tool) {
         fail_at(named ? block_.column[letter_index(letter)] : block_.g_column[code], GrblStatus::unsupported,
-                fmt::format("{}: the tool table has no tool {}; write it into the table", named ? written(letter) : name_of_g(block_.g[code]), number));
+                fmt::format("{}: the tool table has no tool {}; write it into the table",
+                            named ? written(letter) : name_of_g(block_.g[code]), number));
     }
     return tool;
 }
@@ -197,14 +205,16 @@ bool Interpreter::tool_length_of_table(bool adds) {
     }
     if (number != 0 && tools_.empty()) {
         return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("{}: there is no tool table; give the program one (--tools FILE, tools= in Python), or write the tool's length itself, e.g. G43.1 Z12.5",
+                       fmt::format("{}: there is no tool table; give the program one (--tools FILE, tools= in Python), "
+                                   "or write the tool's length itself, e.g. G43.1 Z12.5",
                                    name_of_g(block_.g[g_tool_length])));
     }
     const Tool* tool = number == 0 ? nullptr : tool_of_table(number, 'H', g_tool_length);
     if (number != 0 && !tool) return false;
     Frame& frame = edit_frame();
     const Point length = tool ? tool->offset : Point{};
-    for (int axis = 0; axis < axis_count; ++axis) frame.tool[axis] = adds ? frame.tool[axis] + length[axis] : length[axis];
+    for (int axis = 0; axis < axis_count; ++axis)
+        frame.tool[axis] = adds ? frame.tool[axis] + length[axis] : length[axis];
     frame.activate(next_.system);
     return true;
 }

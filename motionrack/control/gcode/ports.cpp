@@ -1,4 +1,5 @@
-// M62 .. M68: outputs and inputs by number. Nothing is connected to them here: inputs are 0 and stay so, as LinuxCNC's do.
+// M62 .. M68: outputs and inputs by number. Nothing is connected to them here: inputs are 0 and stay so, as LinuxCNC's
+// do.
 #include <fmt/format.h>
 
 #include <bit>
@@ -27,10 +28,13 @@ bool Interpreter::ports() {
     const int code = block_.m[m_port];
     if (code == wait_on_input) return read_input();
     const bool analog = is_analog_output(code);
-    if (!own_words(analog ? letter_bit('E') | letter_bit('Q') : letter_bit('P')) || !port_number(analog ? 'E' : 'P', '\0')) return false;
+    if (!own_words(analog ? letter_bit('E') | letter_bit('Q') : letter_bit('P')) ||
+        !port_number(analog ? 'E' : 'P', '\0'))
+        return false;
     if (analog && !block_.has('Q')) {
-        return fail_at(block_.m_column[m_port], GrblStatus::word_missing,
-                       fmt::format("Q word missing: M{} needs the value for its output; write e.g. M{} E0 Q2.5", code, code));
+        return fail_at(
+            block_.m_column[m_port], GrblStatus::word_missing,
+            fmt::format("Q word missing: M{} needs the value for its output; write e.g. M{} E0 Q2.5", code, code));
     }
     port_value_ = analog ? block_['Q'] : code == 62 || code == 64 ? 1 : 0;
     todo_ |= todo_port;
@@ -39,15 +43,21 @@ bool Interpreter::ports() {
 
 /// M66 P or E, L how to wait, Q for how long.
 bool Interpreter::read_input() {
-    if (!own_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E')) return false;
-    if (block_.has('L') && !need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)")) return false;
+    if (!own_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E'))
+        return false;
+    if (block_.has('L') && !need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)"))
+        return false;
     const Wait wait = block_.has('L') ? static_cast<Wait>(block_['L']) : at_once;
     if (block_.has('E') && wait != at_once)
-        return fail_word('L', GrblStatus::unsupported, fmt::format("{}: nobody can wait for an analog input; write L0, or P and a digital one", written('L')));
+        return fail_word(
+            'L', GrblStatus::unsupported,
+            fmt::format("{}: nobody can wait for an analog input; write L0, or P and a digital one", written('L')));
     if (wait != at_once && !(block_.has('Q') && block_['Q'] > 0)) {
-        constexpr const char* why = "M66 waits for at most Q seconds, which must be above 0; write e.g. M66 P0 L3 Q5, or L0 to look and go on";
-        return block_.has('Q') ? fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", written('Q'), why))
-                               : fail_at(block_.m_column[m_port], GrblStatus::word_missing, fmt::format("Q word missing: {}", why));
+        constexpr const char* why =
+            "M66 waits for at most Q seconds, which must be above 0; write e.g. M66 P0 L3 Q5, or L0 to look and go on";
+        return block_.has('Q')
+                   ? fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", written('Q'), why))
+                   : fail_at(block_.m_column[m_port], GrblStatus::word_missing, fmt::format("Q word missing: {}", why));
     }
     const bool comes = wait == at_once || wait == low;
     port_value_ = comes ? 0 : -1;
@@ -62,13 +72,18 @@ bool Interpreter::port_number(char letter, char other) {
     const int code = block_.m[m_port];
     const bool second = other != '\0' && block_.has(other);
     if (block_.has(letter) && second)
-        return fail_word(other, GrblStatus::unsupported, fmt::format("{}: M{} looks at one input, a digital one (P) or an analog one (E); leave one out", written(other), code));
+        return fail_word(
+            other, GrblStatus::unsupported,
+            fmt::format("{}: M{} looks at one input, a digital one (P) or an analog one (E); leave one out",
+                        written(other), code));
     if (!block_.has(letter) && !second) {
         return fail_at(block_.m_column[m_port], GrblStatus::word_missing,
-                       fmt::format("{} word missing: M{} needs the number of its {}; write e.g. M{} {}0{}", letter, code, code == wait_on_input ? "input" : "output", code,
-                                   letter, is_analog_output(code) ? " Q2.5" : ""));
+                       fmt::format("{} word missing: M{} needs the number of its {}; write e.g. M{} {}0{}", letter,
+                                   code, code == wait_on_input ? "input" : "output", code, letter,
+                                   is_analog_output(code) ? " Q2.5" : ""));
     }
-    return need_integer(second ? other : letter, 0, most_ports - 1, code == wait_on_input ? "the number of an input" : "the number of an output");
+    return need_integer(second ? other : letter, 0, most_ports - 1,
+                        code == wait_on_input ? "the number of an input" : "the number of an output");
 }
 
 /// Words that are the port's, and that nothing else on the line has taken.
@@ -78,7 +93,8 @@ bool Interpreter::own_words(std::uint32_t words) {
     if (taken == 0) return true;
     const char letter = static_cast<char>('A' + std::countr_zero(taken));
     return fail_word(letter, GrblStatus::axis_conflict,
-                     fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines", written(letter), block_.m[m_port], letter));
+                     fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines",
+                                 written(letter), block_.m[m_port], letter));
 }
 
 void Interpreter::fill_port() {

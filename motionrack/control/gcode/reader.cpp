@@ -22,8 +22,10 @@ Outcome<const Step*> Reader::next_from_lines() {
         if (!within_budget()) {
             Problem problem;
             set_problem(problem, text, 0, GrblStatus::unsupported,
-                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, and the program is not over; does a loop drill without "
-                                    "end? No more of it was read", further_steps_));
+                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, and the "
+                                    "program is not over; does a loop drill without "
+                                    "end? No more of it was read",
+                                    further_steps_));
             walk_.refused(text, problem);
             walk_.end();
             return tl::unexpected<Problem>(std::move(problem));

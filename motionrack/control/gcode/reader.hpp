@@ -19,8 +19,8 @@ namespace motionrack::control::gcode {
 ///         if ((*step)->kind == StepKind::move) planner.push((*step)->move);
 ///     }
 ///
-/// After a problem the line has had no effect, and next() goes on with the line after it; see Walk for O words, and for where the
-/// program is over.
+/// After a problem the line has had no effect, and next() goes on with the line after it; see Walk for O words, and for
+/// where the program is over.
 class Reader {
   public:
     /// `text` must stay where it is as long as the Reader and the texts of its steps are used.

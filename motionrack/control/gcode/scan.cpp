@@ -9,8 +9,9 @@ namespace motionrack::control::gcode {
 namespace {
 
 constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('D') | letter_bit('F') | letter_bit('L') |
-                                       letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
-                                       letter_bit('T') | letter_bit('G') | letter_bit('M') | letter_bit('H') | letter_bit('E');
+                                       letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') |
+                                       letter_bit('S') | letter_bit('T') | letter_bit('G') | letter_bit('M') |
+                                       letter_bit('H') | letter_bit('E');
 
 /// The code in tenths, or -1 where it has more decimals or is out of the table.
 int tenths_of(const Number& number) {
@@ -61,10 +62,13 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     constexpr int last_of_senders = 30;
     const bool beyond_senders = options_.language == Language::words && code > last_of_senders;
     if (group == m_unknown || beyond_senders) {
-        return fail_at(column, GrblStatus::unsupported,
-                       group != m_unknown ? fmt::format("M{}: lines from a sender know M0 to M{}; run the program as a file", code, last_of_senders)
-                       : code >= 0 ? why_not_m(code)
-                                 : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));
+        return fail_at(
+            column, GrblStatus::unsupported,
+            group != m_unknown ? fmt::format("M{}: lines from a sender know M0 to M{}; run the program as a file", code,
+                                             last_of_senders)
+            : code >= 0
+                ? why_not_m(code)
+                : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));
     }
     constexpr std::uint32_t coolants = 1u << m_mist | 1u << m_flood;
     const bool clash = (group == m_coolant_off && (block_.m_groups & coolants) != 0) ||
@@ -110,7 +114,8 @@ bool Scanner::slash() {
         return fail_at(here(), GrblStatus::unsupported,
                        options_.language == Language::words
                            ? "'/' (block delete) must be the first character of the line"
-                           : "'/' is block delete only as the first character of the line; a division stands in brackets, e.g. X[#1 / 2]");
+                           : "'/' is block delete only as the first character of the line; a division stands in "
+                             "brackets, e.g. X[#1 / 2]");
     }
     ++at_;
     if (options_.block_delete) {
@@ -159,12 +164,16 @@ bool Scanner::comment() {
             const std::size_t column = here();
             ++at_;
             while (at_ < end_ && is_blank(*at_)) ++at_;
-            if ((letter_bit(letter) & word_letters) == 0 || ((letter == 'H' || letter == 'E') && options_.language == Language::words)) {
-                if (letter == 'O' && options_.language == Language::program ? flow(column) : bad_letter(letter, column)) continue;
+            if ((letter_bit(letter) & word_letters) == 0 ||
+                ((letter == 'H' || letter == 'E') && options_.language == Language::words)) {
+                if (letter == 'O' && options_.language == Language::program ? flow(column) : bad_letter(letter, column))
+                    continue;
                 return false;
             }
             const Number number = scan_number(at_, end_);
-            if (number.fault == NumberFault::none ? !take(letter, column, number) : !word_of_language(letter, column, number)) return false;
+            if (number.fault == NumberFault::none ? !take(letter, column, number)
+                                                  : !word_of_language(letter, column, number))
+                return false;
         } else if (is_blank(c)) {
             ++at_;
         } else if (!other()) {

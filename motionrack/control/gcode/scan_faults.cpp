@@ -23,10 +23,11 @@ bool Scanner::bad_number(const Number& number, char letter, std::size_t column) 
                        fmt::format("{}: the number is too large; the largest is 1000000000", written));
     }
     if (at_ < end_ && (*at_ == '#' || *at_ == '[')) {
-        return fail_at(column, GrblStatus::bad_number,
-                       fmt::format("{}{}: lines from a sender take no parameters and expressions; run the program as a file, or "
-                                   "write the number out, e.g. {}12.5",
-                                   letter, *at_, letter));
+        return fail_at(
+            column, GrblStatus::bad_number,
+            fmt::format("{}{}: lines from a sender take no parameters and expressions; run the program as a file, or "
+                        "write the number out, e.g. {}12.5",
+                        letter, *at_, letter));
     }
     return fail_at(
         column, GrblStatus::bad_number,
@@ -43,11 +44,12 @@ bool Scanner::bad_letter(char letter, std::size_t column) {
                                    text_.substr(begin, column - begin), word_at(text_, column)));
     }
     if (letter == 'O') {
-        return fail_at(column, GrblStatus::unsupported,
-                       "lines from a sender take no O words (subprograms, loops, conditions); run the program as a file, or write "
-                       "the lines out");
+        return fail_at(
+            column, GrblStatus::unsupported,
+            "lines from a sender take no O words (subprograms, loops, conditions); run the program as a file, or write "
+            "the lines out");
     }
-    const char* hint = letter == 'E'                                   ? "; there is no extruder"
+    const char* hint = letter == 'E'                                     ? "; there is no extruder"
                        : letter == 'U' || letter == 'V' || letter == 'W' ? "; axes are X Y Z A B C"
                                                                          : "";
     return fail_at(column, GrblStatus::unsupported,
@@ -58,13 +60,14 @@ bool Scanner::bad_character() {
     const auto c = static_cast<unsigned char>(*at_);
     const std::size_t column = here();
     if (c == '#' || c == '[' || c == ']' || c == '=' || c == '<' || c == '>') {
-        return fail_at(
-            column, GrblStatus::unsupported,
-            options_.language == Language::words
-                ? fmt::format("'{}': lines from a sender take no parameters and expressions; run the program as a file, or write the numbers out",
-                              static_cast<char>(c))
-                : fmt::format("'{}' is not expected here; an expression stands behind a letter, e.g. X[#1 + 2], and #1 = 2 gives a value to #1",
-                              static_cast<char>(c)));
+        return fail_at(column, GrblStatus::unsupported,
+                       options_.language == Language::words
+                           ? fmt::format("'{}': lines from a sender take no parameters and expressions; run the "
+                                         "program as a file, or write the numbers out",
+                                         static_cast<char>(c))
+                           : fmt::format("'{}' is not expected here; an expression stands behind a letter, e.g. X[#1 + "
+                                         "2], and #1 = 2 gives a value to #1",
+                                         static_cast<char>(c)));
     }
     if (c == '$') {
         return fail_at(column, GrblStatus::system_command,

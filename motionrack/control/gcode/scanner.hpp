@@ -18,7 +18,12 @@ inline char upper(char c) {
 class Scanner {
   public:
     Scanner(std::string_view text, const ScanOptions& options, Block& block, Problem& problem)
-        : text_(text), at_(text.data()), end_(text.data() + text.size()), options_(options), block_(block), problem_(problem) {}
+        : text_(text),
+          at_(text.data()),
+          end_(text.data() + text.size()),
+          options_(options),
+          block_(block),
+          problem_(problem) {}
 
     bool scan();
 
@@ -50,7 +55,9 @@ class Scanner {
         return false;
     }
     std::size_t here() const { return static_cast<std::size_t>(at_ - text_.data()); }
-    bool nothing_yet() const { return (block_.words | block_.g_groups | block_.m_groups) == 0 && block_.assignments.empty(); }
+    bool nothing_yet() const {
+        return (block_.words | block_.g_groups | block_.m_groups) == 0 && block_.assignments.empty();
+    }
 
     std::string_view text_;
     const char* at_;

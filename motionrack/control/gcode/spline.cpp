@@ -169,8 +169,8 @@ Move SplineMoves::half(std::size_t which) const {
     if (move.kind == MoveKind::arc) {
         move.first = 0;
         move.second = 1;
-        // Both radii have the sign of the sense in which the arc turns: seen from `to`, the chord and so the height are reversed,
-        // and their quotient is not.
+        // Both radii have the sign of the sense in which the arc turns: seen from `to`, the chord and so the height are
+        // reversed, and their quotient is not.
         move.turns = biarc_.radius[which] > 0 ? 1 : -1;
         move.centre_first = biarc_.centre[which].first;
         move.centre_second = biarc_.centre[which].second;

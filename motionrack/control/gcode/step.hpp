@@ -44,18 +44,19 @@ constexpr bool probe_must(Probe probe) {
 
 struct Step {
     StepKind kind = StepKind::move;
-    Probe probe = Probe::none;  ///< of a move; the lines after it begin where the machine stands then: Interpreter::probed()
+    Probe probe =
+        Probe::none;  ///< of a move; the lines after it begin where the machine stands then: Interpreter::probed()
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
-    bool overridable = true;   ///< the operator's overrides count (M48, M50 P1); of the end: until there
-    bool analog = false;       ///< of an output or input: E, not P
-    bool with_motion = false;  ///< of an output: at the beginning of the next move (M62, M63, M67), without a stop
-    bool awaits_input = false; ///< of a dwell: it is M66 that waits
-    std::int32_t line = 0;  ///< line of the source, from 1
+    bool overridable = true;    ///< the operator's overrides count (M48, M50 P1); of the end: until there
+    bool analog = false;        ///< of an output or input: E, not P
+    bool with_motion = false;   ///< of an output: at the beginning of the next move (M62, M63, M67), without a stop
+    bool awaits_input = false;  ///< of a dwell: it is M66 that waits
+    std::int32_t line = 0;      ///< line of the source, from 1
     std::int32_t tool = 0;
     std::int32_t port = 0;  ///< of an output or input, from 0
-    double value = 0;       ///< of an output: 0 or 1 where it is not analog; of an input: -1 where it did not come in time
+    double value = 0;  ///< of an output: 0 or 1 where it is not analog; of an input: -1 where it did not come in time
     double speed_rpm = 0;
     std::string_view text;  ///< into the program's text
     Move move;
@@ -63,8 +64,8 @@ struct Step {
 
 /// Whether the machine stands still for it.
 constexpr bool needs_rest(const Step& step) {
-    return step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end || step.kind == StepKind::input ||
-           (step.kind == StepKind::output && !step.with_motion);
+    return step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end ||
+           step.kind == StepKind::input || (step.kind == StepKind::output && !step.with_motion);
 }
 
 }  // namespace motionrack::control::gcode

@@ -24,16 +24,24 @@ struct Slot {
 
 Slot slot_of(char letter, Tool& tool) {
     switch (letter) {
-        case 'T': return {nullptr, &tool.number, largest_tool};
-        case 'P': return {nullptr, &tool.pocket, largest_tool};
-        case 'Q': return {nullptr, &tool.orientation, 9};
-        case 'D': return {&tool.diameter_mm};
-        case 'I': return {&tool.front_angle};
-        case 'J': return {&tool.back_angle};
-        default: break;
+        case 'T':
+            return {nullptr, &tool.number, largest_tool};
+        case 'P':
+            return {nullptr, &tool.pocket, largest_tool};
+        case 'Q':
+            return {nullptr, &tool.orientation, 9};
+        case 'D':
+            return {&tool.diameter_mm};
+        case 'I':
+            return {&tool.front_angle};
+        case 'J':
+            return {&tool.back_angle};
+        default:
+            break;
     }
     const auto* axis = std::find(axis_letters.begin(), axis_letters.end(), letter);
-    return axis == axis_letters.end() ? Slot{} : Slot{&tool.offset[static_cast<std::size_t>(axis - axis_letters.begin())]};
+    return axis == axis_letters.end() ? Slot{}
+                                      : Slot{&tool.offset[static_cast<std::size_t>(axis - axis_letters.begin())]};
 }
 
 /// One line; `problem` is empty where it is good.
@@ -60,12 +68,17 @@ bool LineReader::word(const char*& at, const char* end) {
     const Slot slot = slot_of(letter, tool);
     const bool absent_axis = letter == 'U' || letter == 'V' || letter == 'W';
     if (!slot.value && !slot.whole && !absent_axis)
-        return wrong(begin, fmt::format("'{}' is no word of a tool table; they are T P X Y Z A B C D I J Q, and ';' begins a remark", *begin));
+        return wrong(
+            begin,
+            fmt::format("'{}' is no word of a tool table; they are T P X Y Z A B C D I J Q, and ';' begins a remark",
+                        *begin));
     if (is_letter && (seen >> (letter - 'A') & 1) != 0) return wrong(begin, fmt::format("{} is there twice", letter));
     seen |= std::uint32_t{1} << (letter - 'A');
     const Number number = scan_number(at, end);
-    if (number.fault != NumberFault::none) return wrong(begin, fmt::format("{} needs a number, e.g. {}1", letter, letter));
-    if (absent_axis) return number.value == 0 || wrong(begin, fmt::format("{} must be 0: axes are X Y Z A B C", letter));
+    if (number.fault != NumberFault::none)
+        return wrong(begin, fmt::format("{} needs a number, e.g. {}1", letter, letter));
+    if (absent_axis)
+        return number.value == 0 || wrong(begin, fmt::format("{} must be 0: axes are X Y Z A B C", letter));
     if (slot.value) {
         *slot.value = number.value;
         return true;
@@ -85,14 +98,16 @@ bool LineReader::read() {
         if (!word(at, end)) return false;
     }
     if (seen == 0) return true;
-    if ((seen >> ('T' - 'A') & 1) == 0 || tool.number == 0) return wrong(text.data(), "the line has no tool number (T1 to T99999)");
+    if ((seen >> ('T' - 'A') & 1) == 0 || tool.number == 0)
+        return wrong(text.data(), "the line has no tool number (T1 to T99999)");
     return true;
 }
 
 }  // namespace
 
 const Tool* ToolTable::find(std::int32_t number) const {
-    const auto found = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) { return tool.number == number; });
+    const auto found =
+        std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) { return tool.number == number; });
     return found == tools_.end() ? nullptr : &*found;
 }
 
@@ -114,11 +129,13 @@ Result<ToolTable> read_tool_table(std::string_view text, const std::string& file
         const bool good = reader.read();
         if (good && reader.seen == 0) continue;
         if (good && table.find(reader.tool.number))
-            reader.wrong(line.data(), fmt::format("there is a tool T{} already; each has a number of its own", reader.tool.number));
+            reader.wrong(line.data(),
+                         fmt::format("there is a tool T{} already; each has a number of its own", reader.tool.number));
         else if (good && !table.put(reader.tool))
             reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", most_tools));
         if (!reader.problem.empty())
-            return fail(Trouble::bad_input, fmt::format("{}; the tool table was not taken", reader.problem), {lines.number(), static_cast<int>(reader.column)}, file);
+            return fail(Trouble::bad_input, fmt::format("{}; the tool table was not taken", reader.problem),
+                        {lines.number(), static_cast<int>(reader.column)}, file);
     }
     return table;
 }

@@ -3,7 +3,8 @@
 //     T1 P1 Z42.5 D3.175   ;end mill
 //     T2 P2 X0.1 Z38 D6 I90 J30 Q2
 //
-// T number, P pocket, X Y Z A B C offsets (mm, degrees), D diameter (mm), I J angles of a lathe tool (degrees), Q its orientation.
+// T number, P pocket, X Y Z A B C offsets (mm, degrees), D diameter (mm), I J angles of a lathe tool (degrees), Q its
+// orientation.
 #pragma once
 
 #include <cstdint>

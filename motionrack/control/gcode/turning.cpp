@@ -20,7 +20,8 @@ enum class Part : std::uint8_t { whole, without_pockets, pockets };
 /// The moves, in the plane as it is; what leads nowhere is left out.
 class Path {
   public:
-    Path(const TurningView& view, Planar at, std::vector<TurningMove>& moves) : view_(view), at_(view.in(at)), moves_(moves) {}
+    Path(const TurningView& view, Planar at, std::vector<TurningMove>& moves)
+        : view_(view), at_(view.in(at)), moves_(moves) {}
 
     Planar at() const { return at_; }
     bool full() const { return moves_.size() > most_turning_moves; }
@@ -34,8 +35,8 @@ class Path {
         }
         rapid(to);
     }
-    /// To the start, and where that lies behind the contour's begin along it and up there to above the begin: not aslant through the work
-    /// piece, nor through a part of it that is higher than the start.
+    /// To the start, and where that lies behind the contour's begin along it and up there to above the begin: not
+    /// aslant through the work piece, nor through a part of it that is higher than the start.
     Planar before(Planar start, Planar begin, double highest) {
         rapid(start);
         if (begin.first < start.first) over(highest, {begin.first, start.second});
@@ -45,7 +46,9 @@ class Path {
     /// Along a piece, up to a place on it. `on`: it goes on along the arc that the move before was on.
     void along(const ContourPiece& piece, Planar to, bool on) {
         if (!piece.arc()) return feed(to);
-        if (on && !moves_.empty() && moves_.back().kind == MoveKind::arc && length(view_.in(moves_.back().centre) - piece.centre) < same) moves_.pop_back();
+        if (on && !moves_.empty() && moves_.back().kind == MoveKind::arc &&
+            length(view_.in(moves_.back().centre) - piece.centre) < same)
+            moves_.pop_back();
         add(MoveKind::arc, to, piece.centre, piece.turns);
     }
 
@@ -88,7 +91,12 @@ double highest_of(const std::vector<ContourPiece>& contour) {
 class Rougher {
   public:
     Rougher(const TurningPlan& plan, Part part, Planar start, const std::vector<ContourPiece>& contour, Path& path)
-        : plan_(plan), part_(part), start_(start), top_(part == Part::pockets ? lowest_ever : start.second), contour_(contour), path_(path) {}
+        : plan_(plan),
+          part_(part),
+          start_(start),
+          top_(part == Part::pockets ? lowest_ever : start.second),
+          contour_(contour),
+          path_(path) {}
 
     void cut();
 
@@ -212,7 +220,8 @@ void Rougher::pass_over(std::size_t& piece) {
 }
 
 void Rougher::follow(On& from, On to, bool on) {
-    for (std::size_t i = from.piece; i <= to.piece; ++i) path_.along(contour_[i], i == to.piece ? to.at : contour_[i].to, on && i == from.piece);
+    for (std::size_t i = from.piece; i <= to.piece; ++i)
+        path_.along(contour_[i], i == to.piece ? to.at : contour_[i].to, on && i == from.piece);
     from = to;
 }
 
@@ -234,7 +243,8 @@ bool find_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour
     if (std::fabs(along) < same) return false;
     view.along = along > 0 ? 1 : -1;
     double highest = lowest_ever;
-    for (const ContourPiece& piece : contour) highest = std::max({highest, view.in(piece.from).second, view.in(piece.to).second});
+    for (const ContourPiece& piece : contour)
+        highest = std::max({highest, view.in(piece.from).second, view.in(piece.to).second});
     const double start = view.in(plan.start).second, begin = view.in(contour.front().from).second;
     const bool above = start > begin + same || (start > begin - same && start >= highest - same);
     view.away = above ? 1 : -1;
@@ -252,9 +262,10 @@ std::vector<ContourPiece> seen(const std::vector<ContourPiece>& contour, const T
     return out;
 }
 
-/// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part that is higher
-/// than one of the two.
-std::string finish(const TurningPlan& plan, const TurningView& view, const std::vector<ContourPiece>& contour, Path& path) {
+/// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part
+/// that is higher than one of the two.
+std::string finish(const TurningPlan& plan, const TurningView& view, const std::vector<ContourPiece>& contour,
+                   Path& path) {
     Planar start = view.in(plan.start);
     double highest = lowest_ever;
     for (std::int32_t left = plan.passes - 1; left >= 0 && !path.full(); --left) {
@@ -271,7 +282,8 @@ std::string finish(const TurningPlan& plan, const TurningView& view, const std::
 }
 
 /// The contour in the view in which it goes one way; G70 takes either.
-std::string in_its_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour, TurningView& view, std::vector<ContourPiece>& out) {
+std::string in_its_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour, TurningView& view,
+                        std::vector<ContourPiece>& out) {
     std::string fault;
     for (const bool swapped : {false, true}) {
         const bool wanted = plan.code == 700 || swapped == (plan.code >= 720);
@@ -292,7 +304,8 @@ std::string in_its_view(const TurningPlan& plan, const std::vector<ContourPiece>
 
 }  // namespace
 
-std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Planar from, std::vector<TurningMove>& moves) {
+std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Planar from,
+                 std::vector<TurningMove>& moves) {
     moves.clear();
     if (std::string fault = round_corners(contour); !fault.empty()) return fault;
     TurningView view;
@@ -302,7 +315,8 @@ std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Pla
     if (plan.code == 700) {
         if (std::string fault = finish(plan, view, seen(contour, view), path); !fault.empty()) return fault;
     } else {
-        if (std::string fault = beside_contour(seen(contour, view), plan.distance, beside); !fault.empty()) return fault;
+        if (std::string fault = beside_contour(seen(contour, view), plan.distance, beside); !fault.empty())
+            return fault;
         if (std::string fault = make_monotone(beside, plan.code >= 720 ? 'X' : 'Z'); !fault.empty()) return fault;
         const Planar start = view.in(plan.start);
         close(beside, start.second);

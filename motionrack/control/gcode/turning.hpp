@@ -1,4 +1,5 @@
-// Turning cycles G70 .. G72.2: from the contour of a work piece to the moves that cut it, in one plane; no words and no modes.
+// Turning cycles G70 .. G72.2: from the contour of a work piece to the moves that cut it, in one plane; no words and no
+// modes.
 //
 //     G71, seen with Z to the right:                    G72 is the same with X and Z exchanged.
 //
@@ -30,20 +31,22 @@ struct ContourPiece {
     Planar from, to;
     std::int32_t turns = 0;  ///< arc: 1 counter-clockwise, -1 clockwise, as Move::turns of G18; 0: line
     Planar centre;           ///< arc
-    double corner = 0;       ///< at its end: radius of a fillet (A), or of the fillet whose chord is a chamfer (C); 0: neither
+    double corner =
+        0;  ///< at its end: radius of a fillet (A), or of the fillet whose chord is a chamfer (C); 0: neither
     bool chamfer = false;
-    std::int32_t line = 0;   ///< of the source
+    std::int32_t line = 0;  ///< of the source
     bool arc() const { return turns != 0; }
 };
 
 struct TurningPlan {
-    std::int16_t code = 710;    ///< in tenths: 700, 710 711 712, 720 721 722
-    Planar start;               ///< from where it cuts
-    double distance = 0;        ///< D: what is left on the contour; of G70 that of the first pass would be, were there one more
-    double end_distance = 0;    ///< E of G70: of the last pass
-    std::int32_t passes = 1;    ///< P of G70
-    double depth = 1;           ///< I: between two levels, > 0
-    double retract = 0.5;       ///< R: up and back after a cut, >= 0
+    std::int16_t code = 710;  ///< in tenths: 700, 710 711 712, 720 721 722
+    Planar start;             ///< from where it cuts
+    double distance =
+        0;  ///< D: what is left on the contour; of G70 that of the first pass would be, were there one more
+    double end_distance = 0;  ///< E of G70: of the last pass
+    std::int32_t passes = 1;  ///< P of G70
+    double depth = 1;         ///< I: between two levels, > 0
+    double retract = 0.5;     ///< R: up and back after a cut, >= 0
 };
 
 struct TurningMove {
@@ -56,11 +59,12 @@ struct TurningMove {
 /// Moves that one cycle may make.
 inline constexpr std::size_t most_turning_moves = 1'000'000;
 
-/// `contour`: one piece or more, each from the end of the one before; the machine stands at `from`. Gives the moves; a sentence if
-/// there are none, and nothing is of use then.
-std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Planar from, std::vector<TurningMove>& moves);
+/// `contour`: one piece or more, each from the end of the one before; the machine stands at `from`. Gives the moves; a
+/// sentence if there are none, and nothing is of use then.
+std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Planar from,
+                 std::vector<TurningMove>& moves);
 
-// ---- what it is made of -------------------------------------------------------------------------------------------------------------
+// ---- what it is made of
 
 /// The plane as the cycle sees it: `first` along the cut, `second` away from the work piece.
 struct TurningView {
@@ -68,8 +72,12 @@ struct TurningView {
     double along = 1;      ///< or -1
     double away = 1;
 
-    Planar in(Planar p) const { return swapped ? Planar{p.second * along, p.first * away} : Planar{p.first * along, p.second * away}; }
-    Planar out(Planar p) const { return swapped ? Planar{p.second * away, p.first * along} : Planar{p.first * along, p.second * away}; }
+    Planar in(Planar p) const {
+        return swapped ? Planar{p.second * along, p.first * away} : Planar{p.first * along, p.second * away};
+    }
+    Planar out(Planar p) const {
+        return swapped ? Planar{p.second * away, p.first * along} : Planar{p.first * along, p.second * away};
+    }
     std::int32_t turns(std::int32_t seen) const { return (along * away > 0) != swapped ? seen : -seen; }
 };
 
@@ -80,6 +88,7 @@ std::string round_corners(std::vector<ContourPiece>& contour);
 std::string make_monotone(std::vector<ContourPiece>& contour, char axis);
 
 /// The contour at a distance >= 0 left of it: with arcs about corners that it turns away from.
-std::string beside_contour(const std::vector<ContourPiece>& contour, double distance, std::vector<ContourPiece>& beside);
+std::string beside_contour(const std::vector<ContourPiece>& contour, double distance,
+                           std::vector<ContourPiece>& beside);
 
 }  // namespace motionrack::control::gcode

@@ -38,12 +38,15 @@ ContourPiece piece_of(const CutterPath& path, std::int32_t line) {
 
 /// The fillet between two pieces: it touches both. Its centre lies on the parallels of both at its radius.
 std::string round_corner(ContourPiece& before, ContourPiece& after, ContourPiece& fillet) {
-    const std::string too_large = fmt::format("the corner at the end of line {} has no room for its {} of {:.6g}; make that smaller", before.line,
-                                              before.chamfer ? "chamfer" : "fillet", before.corner);
+    const std::string too_large =
+        fmt::format("the corner at the end of line {} has no room for its {} of {:.6g}; make that smaller", before.line,
+                    before.chamfer ? "chamfer" : "fillet", before.corner);
     bool fits_before = false, fits_after = false;
     const CutterPath plain_before = path_of(before, 0, fits_before), plain_after = path_of(after, 0, fits_after);
     const double sine = cross(plain_before.direction_out, plain_after.direction_in);
-    if (std::fabs(sine) < no_corner) return fmt::format("the contour does not turn at the end of line {}, so there is no corner for A or C", before.line);
+    if (std::fabs(sine) < no_corner)
+        return fmt::format("the contour does not turn at the end of line {}, so there is no corner for A or C",
+                           before.line);
     const double side = sine > 0 ? before.corner : -before.corner;
     CutterPath left = path_of(before, side, fits_before), right = path_of(after, side, fits_after);
     if (!fits_before || !fits_after) return too_large;
@@ -75,7 +78,9 @@ std::string round_corners(std::vector<ContourPiece>& contour) {
     std::vector<ContourPiece> out;
     for (std::size_t i = 0; i < contour.size(); ++i) {
         ContourPiece& piece = contour[i];
-        if (piece.corner > 0 && i + 1 == contour.size()) return fmt::format("line {} is the contour's last one: it ends in no corner, so A and C have no place there", piece.line);
+        if (piece.corner > 0 && i + 1 == contour.size())
+            return fmt::format(
+                "line {} is the contour's last one: it ends in no corner, so A and C have no place there", piece.line);
         ContourPiece fillet;
         if (piece.corner > 0)
             if (std::string fault = round_corner(piece, contour[i + 1], fillet); !fault.empty()) return fault;
@@ -92,7 +97,10 @@ std::string make_monotone(std::vector<ContourPiece>& contour, char axis) {
     std::vector<ContourPiece> out;
     for (const ContourPiece& piece : contour) {
         const auto goes_back = [&] {
-            return fmt::format("the contour goes back along {} in line {}, but it must go one way; split it, or cut this part by lines of its own", axis, piece.line);
+            return fmt::format(
+                "the contour goes back along {} in line {}, but it must go one way; split it, or cut this part by "
+                "lines of its own",
+                axis, piece.line);
         };
         if (piece.to.first < piece.from.first - same_place) return goes_back();
         if (!piece.arc()) {
@@ -103,7 +111,9 @@ std::string make_monotone(std::vector<ContourPiece>& contour, char axis) {
         const double radius = length(a);
         const std::array<bool, 4> passed = extremes_passed(a, b, piece.turns > 0);
         const std::array<Planar, 4> at = {Planar{radius, 0}, Planar{0, radius}, Planar{-radius, 0}, Planar{0, -radius}};
-        const auto inside = [&](std::size_t i) { return passed[i] && length(at[i] - a) > same_place && length(at[i] - b) > same_place; };
+        const auto inside = [&](std::size_t i) {
+            return passed[i] && length(at[i] - a) > same_place && length(at[i] - b) > same_place;
+        };
         if (length(a - b) < same_place || inside(0) || inside(2)) return goes_back();
         ContourPiece part = piece;
         for (const std::size_t i : {1u, 3u}) {
@@ -119,14 +129,18 @@ std::string make_monotone(std::vector<ContourPiece>& contour, char axis) {
     return {};
 }
 
-std::string beside_contour(const std::vector<ContourPiece>& contour, double distance, std::vector<ContourPiece>& beside) {
+std::string beside_contour(const std::vector<ContourPiece>& contour, double distance,
+                           std::vector<ContourPiece>& beside) {
     beside.clear();
     if (distance == 0) {
         beside = contour;
         return {};
     }
     const auto no_room = [&](const ContourPiece& piece) {
-        return fmt::format("at {:.6g} beside the contour there is no room in line {}; make the distance smaller, or the contour wider there", distance, piece.line);
+        return fmt::format(
+            "at {:.6g} beside the contour there is no room in line {}; make the distance smaller, or the contour wider "
+            "there",
+            distance, piece.line);
     };
     std::vector<CutterPath> paths;
     for (const ContourPiece& piece : contour) {
@@ -137,7 +151,8 @@ std::string beside_contour(const std::vector<ContourPiece>& contour, double dist
     Planar from = paths.front().start;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const bool last = i + 1 == paths.size();
-        const JointPlace joint = last ? JointPlace{CutterJoint::straight_on, paths[i].end} : joint_of(paths[i], paths[i + 1], contour[i].to, distance);
+        const JointPlace joint = last ? JointPlace{CutterJoint::straight_on, paths[i].end}
+                                      : joint_of(paths[i], paths[i + 1], contour[i].to, distance);
         if (joint.kind == CutterJoint::none) return no_room(contour[i]);
         const Planar to = joint.kind == CutterJoint::around ? paths[i].end : joint.at;
         if (!trim(paths[i], from, to)) return no_room(contour[i]);

@@ -1,11 +1,10 @@
-// What two neighbouring squares of speed may be is a convex polygon with the corner (0, 0): no axis minds being slower. So the squares from
-// which one can go on are an interval from 0, and taking the greatest each time is the quickest.
-#include <motionrack/control/ride/accel_bound.hpp>
-
+// What two neighbouring squares of speed may be is a convex polygon with the corner (0, 0): no axis minds being slower.
+// So the squares from which one can go on are an interval from 0, and taking the greatest each time is the quickest.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <motionrack/control/curve/corner.hpp>
+#include <motionrack/control/ride/accel_bound.hpp>
 #include <vector>
 
 namespace motionrack::control {
@@ -46,7 +45,10 @@ struct Grid {
   private:
     void add(const CurvePiece& piece, const MachineLimits& limits, double curve_length) {
         const bool straight = is_straight(piece);
-        const int count = straight ? 1 : static_cast<int>(std::clamp(std::ceil(cells_of_curve * piece.length / curve_length), least_cells, most_cells));
+        const int count = straight
+                              ? 1
+                              : static_cast<int>(std::clamp(std::ceil(cells_of_curve * piece.length / curve_length),
+                                                            least_cells, most_cells));
         const double length = piece.length / count;
         for (int k = 0; k < count; ++k) {
             const double begin = length * k;
@@ -131,7 +133,8 @@ double ahead_over(const Cell& cell, double square, double cap, const MachineLimi
     return std::max(cap, 0.0);
 }
 
-/// Within a straight cell one may speed up and brake. So it is taken, too, where a bent cell is so long that speeds change much in it.
+/// Within a straight cell one may speed up and brake. So it is taken, too, where a bent cell is so long that speeds
+/// change much in it.
 double seconds_over(const Cell& cell, double from, double to) {
     const double begin = std::sqrt(from), end = std::sqrt(to);
     if (!cell.straight && std::fabs(to - from) < much * std::max(from, to)) return 2 * cell.length / (begin + end);
@@ -148,7 +151,8 @@ double accel_bound(std::span<const CurvePiece> curve, const MachineLimits& limit
     if (curve.empty()) return 0;
     const Grid grid(curve, limits);
     std::vector<double> squares = grid.caps;
-    for (std::size_t i = grid.cells.size(); i-- > 0;) squares[i] = back_over(grid.cells[i], grid.caps[i], squares[i + 1], limits);
+    for (std::size_t i = grid.cells.size(); i-- > 0;)
+        squares[i] = back_over(grid.cells[i], grid.caps[i], squares[i + 1], limits);
     double seconds = 0;
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         squares[i + 1] = ahead_over(grid.cells[i], squares[i], squares[i + 1], limits);

@@ -1,9 +1,8 @@
-#include <motionrack/control/ride/overlap.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <motionrack/control/curve/corner.hpp>
+#include <motionrack/control/ride/overlap.hpp>
 
 namespace motionrack::control {
 
@@ -19,14 +18,18 @@ constexpr int halvings = 14;
 constexpr double shorter = 0.96;
 constexpr int tries = 12;
 
-bool is_constant_jerk(const FeedPiece& piece) { return piece.phase != FeedPhase::cell; }
+bool is_constant_jerk(const FeedPiece& piece) {
+    return piece.phase != FeedPhase::cell;
+}
 
 bool speeds_up(const FeedPiece& piece) {
     const double begin = piece.at(0).accel, end = piece.last().accel;
     return begin >= 0 && end >= 0 && begin + end > 0;
 }
 
-bool are_one_line(const CurvePiece& a, const CurvePiece& b) { return is_straight(a) && a.tangent == b.tangent && a.feed == b.feed; }
+bool are_one_line(const CurvePiece& a, const CurvePiece& b) {
+    return is_straight(a) && a.tangent == b.tangent && a.feed == b.feed;
+}
 
 struct Times {
     double before = 0, after = 0;
@@ -61,8 +64,8 @@ double seconds_gone(std::span<const FeedPiece> feed, double room) {
     return seconds;
 }
 
-// From any instant of the overlap on, either the one before has no more than the room to go, or until then the next one has gone no more than
-// that. The path is no farther from one side than it has gone along the other.
+// From any instant of the overlap on, either the one before has no more than the room to go, or until then the next one
+// has gone no more than that. The path is no farther from one side than it has gone along the other.
 double longest_within(std::span<const FeedPiece> in, std::span<const FeedPiece> out, double room_mm) {
     return seconds_to_go(in, room_mm) + seconds_gone(out, room_mm);
 }
@@ -95,7 +98,8 @@ struct Moment {
 
 /// The greatest of |a x + b y|, each of x and y between its two values.
 double greatest_sum(double a, double x0, double x1, double b, double y0, double y1) {
-    const double ax0 = std::min(a * x0, a * x1), ax1 = std::max(a * x0, a * x1), by0 = std::min(b * y0, b * y1), by1 = std::max(b * y0, b * y1);
+    const double ax0 = std::min(a * x0, a * x1), ax1 = std::max(a * x0, a * x1), by0 = std::min(b * y0, b * y1),
+                 by1 = std::max(b * y0, b * y1);
     return std::max(std::fabs(ax0 + by0), std::fabs(ax1 + by1));
 }
 
@@ -104,8 +108,10 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
     if (in == 0 || out == 0) return true;
     const auto [in0, in1] = moment.in;
     const auto [out0, out1] = moment.out;
-    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_speed * (1 + rounding)) return false;
-    const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel), std::fabs(in * in1.accel + out * out1.accel))
+    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_speed * (1 + rounding))
+        return false;
+    const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel),
+                                                     std::fabs(in * in1.accel + out * out1.accel))
                                           : greatest_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
     if (accel > limits.max_accel * (1 + rounding)) return false;
     return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= jerk_of(limits) * (1 + rounding);
@@ -124,7 +130,9 @@ bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, cons
     for (double left = seconds; left > 0;) {
         const double step = std::min({ending.left(), beginning.left(), left});
         if (!(step > 0)) break;
-        const Moment moment{{ending.at(0), ending.at(step)}, {beginning.at(0), beginning.at(step)}, is_constant_jerk(ending.piece()) && is_constant_jerk(beginning.piece())};
+        const Moment moment{{ending.at(0), ending.at(step)},
+                            {beginning.at(0), beginning.at(step)},
+                            is_constant_jerk(ending.piece()) && is_constant_jerk(beginning.piece())};
         if (!keeps_feed(moment, feed, cosine)) return false;
         for (std::size_t i = 0; i < limits.size(); ++i)
             if (!keeps(moment, a[i], b[i], limits[i])) return false;
@@ -170,7 +178,8 @@ void KeptEnd::keep(const StretchEnd& end) {
     feed_.assign(end.feed.begin(), end.feed.end());
 }
 
-double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm, const MachineLimits& limits) {
+double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm,
+                  const MachineLimits& limits) {
     if (!(room_mm > 0 && most_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
     double seconds = std::min({most_seconds, in.seconds(), out.seconds(), longest_within(in.feed, out.feed, room_mm)});
     for (int i = 0; i < tries; ++i, seconds *= shorter)

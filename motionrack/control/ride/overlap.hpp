@@ -1,4 +1,5 @@
-// A corner where one stretch ends and the next begins: within a tolerance the next one may begin a little before the one before it has ended.
+// A corner where one stretch ends and the next begins: within a tolerance the next one may begin a little before the
+// one before it has ended.
 //
 //   speed  ╲               ╱            each axis' speed, acceleration and jerk is the sum of both
 //     in    ╲▁           ▁╱  out        ──►  ╲▁╱▔   the corner is cut by at most the tolerance
@@ -13,8 +14,8 @@
 
 namespace motionrack::control {
 
-/// How a stretch ends or begins: the part of its feed in which it only slows down, or only speeds up, on one line; a piece of this line.
-/// Without feed where the curve is bent there.
+/// How a stretch ends or begins: the part of its feed in which it only slows down, or only speeds up, on one line; a
+/// piece of this line. Without feed where the curve is bent there.
 struct StretchEnd {
     CurvePiece curve;
     std::span<const FeedPiece> feed;
@@ -36,8 +37,9 @@ class KeptEnd {
     std::vector<FeedPiece> feed_;
 };
 
-/// Seconds by which the next one may begin earlier, 0 .. `most_seconds`; 0: none, as on curved ends, or where an axis of both would get too
-/// much. `room_mm`: how far the path may be from the corner's sides.
-double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm, const MachineLimits& limits);
+/// Seconds by which the next one may begin earlier, 0 .. `most_seconds`; 0: none, as on curved ends, or where an axis
+/// of both would get too much. `room_mm`: how far the path may be from the corner's sides.
+double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm,
+                  const MachineLimits& limits);
 
 }  // namespace motionrack::control

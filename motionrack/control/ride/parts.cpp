@@ -1,7 +1,6 @@
-#include <motionrack/control/ride/parts.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/ride/parts.hpp>
 #include <motionrack/control/ride/piece_limits.hpp>
 
 namespace motionrack::control {

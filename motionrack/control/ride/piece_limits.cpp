@@ -1,9 +1,8 @@
-#include <motionrack/control/ride/piece_limits.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/curve/corner.hpp>
 #include <motionrack/control/profile.hpp>
+#include <motionrack/control/ride/piece_limits.hpp>
 
 namespace motionrack::control {
 
@@ -64,7 +63,9 @@ PieceLimits::PieceLimits(const CurvePiece& piece, const MachineLimits& limits) :
     }
 }
 
-double PieceLimits::most_speed(double jerk_share) const { return twist > 0 ? std::min(speed, cube_root(jerk_share / twist)) : speed; }
+double PieceLimits::most_speed(double jerk_share) const {
+    return twist > 0 ? std::min(speed, cube_root(jerk_share / twist)) : speed;
+}
 
 double PieceLimits::jerk_share_beside(double at_speed, double accel, double jerk) const {
     double share = most_jerk_of_bend;
@@ -80,14 +81,18 @@ FeedSpan PieceLimits::up_to(double top, double length) const {
     const double square = out.speed * out.speed;
     for (std::size_t i = 0; i < count; ++i) {
         const AxisOnPiece& axis = axes[i];
-        const double bent = axis.bend > 0 ? share_of_bend * (1 - axis.jerk_twist * square * out.speed) / (3 * axis.jerk_bend * out.speed) : no_limit;
+        const double bent = axis.bend > 0 ? share_of_bend * (1 - axis.jerk_twist * square * out.speed) /
+                                                (3 * axis.jerk_bend * out.speed)
+                                          : no_limit;
         out.accel = std::min({out.accel, bent, (1 - axis.bend_up * square) / axis.tangent});
         out.brake = std::min({out.brake, bent, (1 - axis.bend_down * square) / axis.tangent});
     }
     const double accel = std::max(out.accel, out.brake);
     for (std::size_t i = 0; i < count; ++i) {
         const AxisOnPiece& axis = axes[i];
-        out.jerk = std::min(out.jerk, (1 - axis.jerk_twist * square * out.speed - 3 * axis.jerk_bend * out.speed * accel) / axis.jerk_tangent);
+        out.jerk =
+            std::min(out.jerk, (1 - axis.jerk_twist * square * out.speed - 3 * axis.jerk_bend * out.speed * accel) /
+                                   axis.jerk_tangent);
     }
     return out;
 }
@@ -95,7 +100,8 @@ FeedSpan PieceLimits::up_to(double top, double length) const {
 /// From w0 to w1, the greater one: w1 - w0 = 2 length (1 - bend w1) / tangent, for the axis that has least.
 double PieceLimits::reach(double square, double length, double AxisOnPiece::*bend) const {
     double most = no_limit;
-    for (std::size_t i = 0; i < count; ++i) most = std::min(most, (axes[i].tangent * square + 2 * length) / (axes[i].tangent + 2 * length * axes[i].*bend));
+    for (std::size_t i = 0; i < count; ++i)
+        most = std::min(most, (axes[i].tangent * square + 2 * length) / (axes[i].tangent + 2 * length * axes[i].*bend));
     return most;
 }
 

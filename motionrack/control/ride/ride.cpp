@@ -1,7 +1,6 @@
-#include <motionrack/control/ride/ride.hpp>
-
 #include <algorithm>
 #include <motionrack/control/ride/parts.hpp>
+#include <motionrack/control/ride/ride.hpp>
 #include <utility>
 
 namespace motionrack::control {
@@ -17,7 +16,8 @@ RideState StretchView::at(double seconds) {
     return out;
 }
 
-Ride::Ride(const MachineLimits& limits, const Point& start, OnStretch on_stretch) : limits_(limits), on_stretch_(std::move(on_stretch)), builder_(limits, start), planner_(limits) {}
+Ride::Ride(const MachineLimits& limits, const Point& start, OnStretch on_stretch)
+    : limits_(limits), on_stretch_(std::move(on_stretch)), builder_(limits, start), planner_(limits) {}
 
 void Ride::push(const Move& move) {
     if (!builder_.has_room()) take();

@@ -1,9 +1,10 @@
-// A program driven along its curve: moves go in, stretches from rest to rest come out, each with its place and its time.
+// A program driven along its curve: moves go in, stretches from rest to rest come out, each with its place and its
+// time.
 //
 //   moves ──CurveBuilder──► cubic pieces ──StretchPlanner──► feed profile        place(t) = curve(u(t))
 //
-// Along a stretch each axis keeps its speed, acceleration and jerk at every instant, the path stays within its tolerance, and the programmed
-// feed is not exceeded.
+// Along a stretch each axis keeps its speed, acceleration and jerk at every instant, the path stays within its
+// tolerance, and the programmed feed is not exceeded.
 #pragma once
 
 #include <functional>
@@ -21,11 +22,11 @@ namespace motionrack::control {
 struct Stretch {
     std::span<const CurvePiece> curve;  ///< empty: a dwell
     std::span<const FeedPiece> feed;
-    double seconds = 0;      ///< of the motion
-    double overlap = 0;      ///< s by which it begins before the stretch before it has ended
-    StretchEnd before;       ///< where there is an overlap: how that one ends
+    double seconds = 0;       ///< of the motion
+    double overlap = 0;       ///< s by which it begins before the stretch before it has ended
+    StretchEnd before;        ///< where there is an overlap: how that one ends
     double rest_seconds = 0;  ///< of the dwell behind it
-    std::int32_t line = 0;   ///< of the move that ends here
+    std::int32_t line = 0;    ///< of the move that ends here
     Point end = {};
 };
 
@@ -33,7 +34,8 @@ struct Stretch {
 class StretchView {
   public:
     explicit StretchView(const Stretch& stretch) : stretch_(stretch) {}
-    /// `seconds` from the stretch's begin, not before the last ones; from 0 to its end. With what is left of the stretch before.
+    /// `seconds` from the stretch's begin, not before the last ones; from 0 to its end. With what is left of the
+    /// stretch before.
     RideState at(double seconds);
 
   private:

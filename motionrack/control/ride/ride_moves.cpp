@@ -1,20 +1,22 @@
-#include <motionrack/control/ride/ride_moves.hpp>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <motionrack/control/ride/ride_moves.hpp>
 
 namespace motionrack::control {
 
 namespace {
 
-/// Of what an axis may jump by at a corner, so much at each end of a move; and so much by rounding to pulses is nothing.
+/// Of what an axis may jump by at a corner, so much at each end of a move; and so much by rounding to pulses is
+/// nothing.
 constexpr double jump_share = 0.3, least_noise = 0.1;
-/// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be beside its path.
+/// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be
+/// beside its path.
 constexpr double off_pulses = 0.4;
 constexpr double shortest = 0.0002;
-/// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near enough.
+/// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near
+/// enough.
 constexpr double earliest = 0.35, near_enough = 0.05;
 constexpr int tries = 16;
 /// So much of half a pulse is left then.
@@ -46,7 +48,12 @@ double turn_of(const RideState& state, const Point& way, double length, std::siz
 }  // namespace
 
 RideMoves::RideMoves(const MachineLimits& limits, const Point& start, RideMovesSettings settings)
-    : limits_(limits), path_limits_(limits), settings_(settings), rider_(limits, start, settings.rider), position_(start), place_(start) {}
+    : limits_(limits),
+      path_limits_(limits),
+      settings_(settings),
+      rider_(limits, start, settings.rider),
+      position_(start),
+      place_(start) {}
 
 Result<void> RideMoves::push(const Move& move, bool overridable) {
     MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, path_limits_));
@@ -76,11 +83,14 @@ std::uint8_t RideMoves::axes_of(const Geometry& path) const {
 bool RideMoves::has_to_rest(const Geometry& path, std::uint8_t axes) const {
     if (!settings_.drive || path.shape == PathShape::nothing || last_.shape == PathShape::nothing) return false;
     const bool alike = axes == last_axes_ && axes == run_axes_;
-    return (!alike && steers(static_cast<std::uint8_t>(run_axes_ | axes))) || settings_.drive->joint_speed(last_, path) <= 0;
+    return (!alike && steers(static_cast<std::uint8_t>(run_axes_ | axes))) ||
+           settings_.drive->joint_speed(last_, path) <= 0;
 }
 
 /// More axes than the card draws together.
-bool RideMoves::steers(std::uint8_t axes) const { return settings_.drive && std::popcount(axes) > settings_.drive->most_drawn(); }
+bool RideMoves::steers(std::uint8_t axes) const {
+    return settings_.drive && std::popcount(axes) > settings_.drive->most_drawn();
+}
 
 bool RideMoves::pull(PlannedMove& planned, bool early) {
     planned = {};
@@ -91,7 +101,8 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
         planned.number = rider_.move_of_rest();
         planned.move = rider_.move(planned.number).move;
         planned.move.end = place_;
-        planned.move.seconds = settings_.cut_dwells ? std::min(settings_.most_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
+        planned.move.seconds =
+            settings_.cut_dwells ? std::min(settings_.most_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
         rider_.pass_dwell(planned.move.seconds);
         return true;
     }
@@ -114,7 +125,8 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     planned.entry = speed_in;
     planned.cruise = std::max(speed_in, speed_out);
     planned.exit = speed_out;
-    planned.accel = std::max(std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, smallest_length)), least_accel);
+    planned.accel = std::max(
+        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, smallest_length)), least_accel);
     planned.even = true;
     planned.move.feed = planned.cruise;
     place_ = end.place;
@@ -122,11 +134,12 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     return true;
 }
 
-/// The longest that is even enough. Its ends are on whole pulses, so that its speeds are wrong by half a pulse a move: no shorter than this
-/// matters.
+/// The longest that is even enough. Its ends are on whole pulses, so that its speeds are wrong by half a pulse a move:
+/// no shorter than this matters.
 double RideMoves::seconds_of_next() const {
     const RideState begin = rider_.at(0);
-    const double least = steers(rider_.move(rider_.move_of(begin)).axes) ? settings_.drive->steering_seconds() : shortest;
+    const double least =
+        steers(rider_.move(rider_.move_of(begin)).axes) ? settings_.drive->steering_seconds() : shortest;
     double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
     for (; seconds >= 2 * shortest; seconds *= shorter) {
         const Roughness is = roughness_of(begin, seconds);
@@ -144,7 +157,8 @@ double RideMoves::near_whole_pulses(const RideState& begin, double seconds) cons
     if (roughness_of(begin, seconds).half_pulse <= least_noise) return seconds;
     double best = seconds, least_off = 1;
     for (int k = 0; k < tries && least_off > near_enough; ++k) {
-        const double time = seconds * (1 - earliest * k / tries), off = off_whole_pulses(begin.place, rider_.at(time).place);
+        const double time = seconds * (1 - earliest * k / tries),
+                     off = off_whole_pulses(begin.place, rider_.at(time).place);
         if (off >= least_off) continue;
         best = time;
         least_off = off;
@@ -152,7 +166,8 @@ double RideMoves::near_whole_pulses(const RideState& begin, double seconds) cons
     return best;
 }
 
-/// The longest axis' pulses are as far apart as its speed says. Those of the others share its time: half a pulse more or less is a jump.
+/// The longest axis' pulses are as far apart as its speed says. Those of the others share its time: half a pulse more
+/// or less is a jump.
 double RideMoves::off_whole_pulses(const Point& begin, const Point& end) const {
     std::array<double, axis_count> way = {};
     for (std::size_t i = 0; i < way.size(); ++i)
@@ -181,7 +196,8 @@ RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seco
     for (std::size_t i = 0; i < way.size(); ++i) {
         if (!limits_[i].present) continue;
         const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].start_speed;
-        const double beside = std::fabs(gone[i] - along * per_square * way[i]), ahead = std::fabs((along - even) * per_square * way[i]);
+        const double beside = std::fabs(gone[i] - along * per_square * way[i]),
+                     ahead = std::fabs((along - even) * per_square * way[i]);
         out.off = std::max({out.off, beside * pulses, ahead * pulses});
         out.turn = std::max({out.turn, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
         if (way[i] != 0) out.half_pulse = std::max(out.half_pulse, 0.5 / (pulses * seconds * jump));

@@ -60,11 +60,11 @@ class RideMoves final : public PathPlanner {
     PathLimits path_limits_;
     RideMovesSettings settings_;
     Rider rider_;
-    Geometry last_;   ///< of the moves that were pushed
+    Geometry last_;                              ///< of the moves that were pushed
     std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< of the last one, and of all since the path was to rest
     Point position_;
     double last_seconds_ = 0.005;
-    Point place_;     ///< where the last planned move ends
+    Point place_;  ///< where the last planned move ends
 };
 
 }  // namespace motionrack::control

@@ -1,6 +1,5 @@
-#include <motionrack/control/ride/ride_state.hpp>
-
 #include <algorithm>
+#include <motionrack/control/ride/ride_state.hpp>
 
 namespace motionrack::control {
 

@@ -1,10 +1,9 @@
 // Moves to pieces to plans, and the way along them.
-#include <motionrack/control/ride/rider.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <motionrack/control/ride/parts.hpp>
+#include <motionrack/control/ride/rider.hpp>
 #include <utility>
 
 namespace motionrack::control {
@@ -40,7 +39,7 @@ void Rider::Part::clear() {
 Rider::Rider(const MachineLimits& limits, const Point& start, RiderSettings settings)
     : limits_(limits), settings_(settings), builder_(limits, start), planner_(limits) {}
 
-// ---- moves and pieces ---------------------------------------------------------------------------------------------------------------
+// ---- moves and pieces
 
 void Rider::push(const RideMove& move) {
     Move tagged = move.move;
@@ -112,7 +111,9 @@ void Rider::set_feed(Part& part, std::size_t i, double at_least) const {
 
 void Rider::drop_passed() {
     if (piece_ < least_drop) return;
-    const auto drop = [this](auto& column) { column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(piece_)); };
+    const auto drop = [this](auto& column) {
+        column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(piece_));
+    };
     drop(now_.curve);
     drop(now_.programmed);
     drop(now_.use);
@@ -147,7 +148,7 @@ void Rider::set_overrides(double feed, double rapid) {
     for (std::size_t i = 0; i < then_.curve.size(); ++i) set_feed(then_, i);
 }
 
-// ---- what comes next ----------------------------------------------------------------------------------------------------------------
+// ---- what comes next
 
 RideNext Rider::next(bool early) {
     for (gather(settings_.window);;) {
@@ -210,7 +211,8 @@ void Rider::meet_next(bool early) {
     if (!planner_.plan({}, then_.curve, then_.use, 0, then_.known())) return;
     then_.feed.assign(planner_.feed().begin(), planner_.feed().end());
     then_.planned_to = then_.known();
-    reach_ = overlap_of(slowing_end(now_.curve, now_.feed), rising_begin(then_.curve, then_.feed), left_ - before_left_, now_.rest.room_mm, limits_);
+    reach_ = overlap_of(slowing_end(now_.curve, now_.feed), rising_begin(then_.curve, then_.feed), left_ - before_left_,
+                        now_.rest.room_mm, limits_);
 }
 
 /// It does not after all.
@@ -220,11 +222,12 @@ void Rider::part_from_next() {
     then_.feed.clear();
 }
 
-// ---- along the plan -----------------------------------------------------------------------------------------------------------------
+// ---- along the plan
 
 Rider::Spot Rider::spot_at(double seconds) const {
     Spot out{feed_, piece_, on_feed_ + seconds, {}};
-    while (out.feed + 1 < now_.feed.size() && out.on_feed > now_.feed[out.feed].seconds) out.on_feed -= now_.feed[out.feed++].seconds;
+    while (out.feed + 1 < now_.feed.size() && out.on_feed > now_.feed[out.feed].seconds)
+        out.on_feed -= now_.feed[out.feed++].seconds;
     out.along = now_.feed[out.feed].at(std::clamp(out.on_feed, 0.0, now_.feed[out.feed].seconds));
     if (seconds >= left_) out.along = {now_.planned_to, 0, out.along.accel, out.along.jerk};
     out.piece = piece_at(out.along.place, out.piece);

@@ -1,11 +1,12 @@
-// A program driven along its curve while it still comes: moves go in, the motion comes out bit by bit, and can be held, slowed and let go.
+// A program driven along its curve while it still comes: moves go in, the motion comes out bit by bit, and can be held,
+// slowed and let go.
 //
 //   push ──► | known, without speeds | planned, to a rest | passed ──► at(), pass()
 //                                    ^ planned anew from where the motion is: when more is known, on hold, on other overrides
 //
-// What is planned always ends at rest, so that whatever happens next the motion can stop on its path. It is planned further before it has to
-// slow down for that end. Each plan goes on from the speed and the acceleration of the one before; where none is found that keeps the limits,
-// the one before goes on for a little, and another is sought.
+// What is planned always ends at rest, so that whatever happens next the motion can stop on its path. It is planned
+// further before it has to slow down for that end. Each plan goes on from the speed and the acceleration of the one
+// before; where none is found that keeps the limits, the one before goes on for a little, and another is sought.
 #pragma once
 
 #include <deque>
@@ -22,12 +23,13 @@ namespace motionrack::control {
 /// A move, and what its driver wants to know of it later.
 struct RideMove {
     Move move;
-    bool overridable = true;   ///< otherwise it goes at its own feed
-    std::uint8_t axes = 0;     ///< that move, a bit each
+    bool overridable = true;  ///< otherwise it goes at its own feed
+    std::uint8_t axes = 0;    ///< that move, a bit each
 };
 
 struct RiderSettings {
-    std::size_t window = 32'768;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
+    std::size_t window =
+        32'768;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
 };
 
 enum class RideNext : std::uint8_t {
@@ -43,7 +45,8 @@ class Rider {
     Rider(const MachineLimits& limits, const Point& start, RiderSettings settings = {});
 
     bool has_room() const { return builder_.has_room(); }
-    /// Ask has_room() first. A move that begins where the last one ended; all its numbers are finite, and feeds above 0.
+    /// Ask has_room() first. A move that begins where the last one ended; all its numbers are finite, and feeds above
+    /// 0.
     void push(const RideMove& move);
     /// The path ends here at rest, for now.
     void flush();
@@ -51,7 +54,7 @@ class Rider {
     /// What comes next. `early`: what is known is driven although there may be more.
     RideNext next(bool early);
 
-    // ---- a motion, from here on ----------------------------------------------------------------------------------------------------------
+    // ---- a motion, from here on
     /// s that can be told and passed before next() is asked again.
     double left() const { return left_ - reach_; }
     /// s until it stands, if nothing more comes.
@@ -61,14 +64,15 @@ class Rider {
     /// The motion has gone on for so long, 0 .. left().
     void pass(double seconds);
 
-    // ---- a dwell -------------------------------------------------------------------------------------------------------------------------
+    // ---- a dwell
     /// What is left of it.
     double dwell_seconds() const { return now_.rest.seconds - dwelt_; }
     /// So much of it was waited, 0 .. dwell_seconds().
     void pass_dwell(double seconds) { dwelt_ += seconds; }
 
-    // ---- wishes --------------------------------------------------------------------------------------------------------------------------
-    /// Parts of the programmed feed, and of the axes' greatest speed in rapids: above 0. Felt as soon as the limits allow.
+    // ---- wishes
+    /// Parts of the programmed feed, and of the axes' greatest speed in rapids: above 0. Felt as soon as the limits
+    /// allow.
     void set_overrides(double feed, double rapid);
     /// Slows down and stands on the path as soon as the limits allow; then next() tells nothing until resume().
     void hold() { held_ = true; }
@@ -77,7 +81,7 @@ class Rider {
     /// s until it has to slow down for the end of what is known.
     double brakes_in() const { return left_ - braking_; }
 
-    // ---- which move ----------------------------------------------------------------------------------------------------------------------
+    // ---- which move
     /// How many were pushed.
     std::int64_t pushed() const { return pushed_; }
     /// The move, in the order of push from 0, on which this state is; of several that became one line, the first.
@@ -95,9 +99,9 @@ class Rider {
         std::vector<CurvePiece> curve;
         std::vector<double> programmed;  ///< feeds without overrides
         std::vector<PieceUse> use;
-        std::vector<FeedPiece> feed;     ///< the plan
-        double planned_to = 0;           ///< u, how far it goes
-        bool whole = false;              ///< its rest is known
+        std::vector<FeedPiece> feed;  ///< the plan
+        double planned_to = 0;        ///< u, how far it goes
+        bool whole = false;           ///< its rest is known
         CurveItem rest;
         double known() const { return curve.empty() ? 0 : curve.back().begin + curve.back().length; }
         void clear();
@@ -153,7 +157,7 @@ class Rider {
     double patience_ = 0;               ///< s until another plan is sought
     bool held_ = false, holding_ = false, new_feeds_ = false, met_ = false;
     static constexpr double least_ease = 1.2;
-    double ease_ = least_ease;          ///< how much longer than a stop a way into lower feeds may be
+    double ease_ = least_ease;  ///< how much longer than a stop a way into lower feeds may be
     double feed_override_ = 1, rapid_override_ = 1;
 
     std::vector<PieceUse> stop_use_;

@@ -12,9 +12,11 @@ namespace {
 constexpr int halvings = 5, steps_out = 40;
 /// The first try is about as hard as one may brake at this part of the speed.
 constexpr double part_of_speed = 0.7;
-/// On the way of a stop a bend need hardly be driven faster than it would be without: what is not needed for its speed is left to slow down.
+/// On the way of a stop a bend need hardly be driven faster than it would be without: what is not needed for its speed
+/// is left to slow down.
 constexpr double above_plan = 1.003;
-/// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by this much more.
+/// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by
+/// this much more.
 constexpr double faster = 1.01, most_ease = 16, ease_grows = 1.3;
 
 FeedStart start_of(const FeedState& along) {
@@ -23,7 +25,8 @@ FeedStart start_of(const FeedState& along) {
 
 }  // namespace
 
-/// The plan just found is driven, from a spot that is reached in `seconds`; until then the one before, which launches there.
+/// The plan just found is driven, from a spot that is reached in `seconds`; until then the one before, which launches
+/// there.
 void Rider::take(const Spot& from, double seconds, double to) {
     if (seconds > 0) {
         now_.feed.erase(now_.feed.begin(), now_.feed.begin() + static_cast<std::ptrdiff_t>(feed_));
@@ -55,11 +58,12 @@ void Rider::measure() {
 /// From a motion on this piece to rest at the end of what is known.
 bool Rider::plan_to_end(std::size_t piece, const FeedState& along) {
     const auto first = static_cast<std::ptrdiff_t>(piece);
-    return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()}, {now_.use.begin() + first, now_.use.end()}, along.place,
-                         now_.known());
+    return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()},
+                         {now_.use.begin() + first, now_.use.end()}, along.place, now_.known());
 }
 
-/// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not known how fast they are.
+/// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not
+/// known how fast they are.
 bool Rider::go_on() {
     const Spot from = spot_at(before_left_);
     const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.place;
@@ -80,7 +84,8 @@ bool Rider::slow_down() {
     return true;
 }
 
-/// What is known of a piece, for a stop on it; `k`: the first part of the feed that is looked at, then the first that reaches there.
+/// What is known of a piece, for a stop on it; `k`: the first part of the feed that is looked at, then the first that
+/// reaches there.
 PieceUse Rider::use_for_stop(std::size_t piece, std::size_t& k) const {
     const CurvePiece& on = now_.curve[piece];
     PieceUse use = now_.use[piece];
@@ -106,7 +111,8 @@ std::optional<double> Rider::find_stop(const Spot& from) {
         const auto first = static_cast<std::ptrdiff_t>(from.piece), past = static_cast<std::ptrdiff_t>(last + 1);
         while (use.size() <= last - from.piece) use.push_back(use_for_stop(from.piece + use.size(), k));
         stop_use_.assign(use.begin(), use.begin() + (past - first));
-        const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_use_, begin, begin + distance);
+        const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_use_,
+                                         begin, begin + distance);
         planned = found ? distance : -1;
         return found;
     };
@@ -154,8 +160,8 @@ bool Rider::ease_into_feeds() {
     return true;
 }
 
-/// What is known from a spot on, with the present feeds. The pieces on the way of a stop, drawn out by ease_, are cut where it changes, and
-/// each may be as fast as it is there; up to where the stop is fastest, as fast as that.
+/// What is known from a spot on, with the present feeds. The pieces on the way of a stop, drawn out by ease_, are cut
+/// where it changes, and each may be as fast as it is there; up to where the stop is fastest, as fast as that.
 Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop) const {
     Part out;
     double at = from.along.place;
@@ -172,7 +178,8 @@ Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop)
     const auto slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
     const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
-        const double speed = faster * stop[std::max(k, fastest)].at(0).speed, to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
+        const double speed = faster * stop[std::max(k, fastest)].at(0).speed,
+                     to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
         for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
             if (end_of() > at) add(end_of(), speed);
         if (to > at && to < end_of()) add(to, speed);

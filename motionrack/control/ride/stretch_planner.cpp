@@ -1,7 +1,6 @@
-#include <motionrack/control/ride/stretch_planner.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/ride/stretch_planner.hpp>
 
 namespace motionrack::control {
 
@@ -19,7 +18,8 @@ constexpr double reserve = 1.3;
 
 }  // namespace
 
-bool StretchPlanner::plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<PieceUse> use, double from, double to) {
+bool StretchPlanner::plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<PieceUse> use,
+                          double from, double to) {
     feed_.clear();
     seconds_ = 0;
     if (curve.empty() || !(to > from)) return false;
@@ -27,7 +27,8 @@ bool StretchPlanner::plan(const FeedStart& start, std::span<const CurvePiece> cu
     reach(start);
     double slack = 1 + first_slack;
     for (int round = 0; round < most_rounds; ++round) {
-        const std::span<const FeedPiece> found = round == 0 ? planner_.sketch_from(start, spans_) : planner_.sketch_again(spans_);
+        const std::span<const FeedPiece> found =
+            round == 0 ? planner_.sketch_from(start, spans_) : planner_.sketch_again(spans_);
         double seconds = 0;
         for (const FeedPiece& piece : found) seconds += piece.seconds;
         const bool much = seconds < worth_another * seconds_;
@@ -73,7 +74,8 @@ void StretchPlanner::reach(const FeedStart& start) {
     for (std::size_t i = 0; i < n; ++i) {
         const double length = spans_[i].length, up = pieces_[i].square_after(squares_[i], length);
         squares_[i + 1] = std::min(squares_[i + 1], up);
-        spans_[i] = pieces_[i].up_to(pieces_[i].straight ? most_[i] : std::min(most_[i], std::sqrt(top_of(i, up))), length);
+        spans_[i] =
+            pieces_[i].up_to(pieces_[i].straight ? most_[i] : std::min(most_[i], std::sqrt(top_of(i, up))), length);
     }
 }
 
@@ -89,12 +91,14 @@ FeedState StretchPlanner::most_found(double end, std::size_t& k) const {
     FeedState most;
     for (;; ++k) {
         for (const FeedState& state : {feed_[k].at(0), feed_[k].last()})
-            most = FeedState{0, std::max(most.speed, state.speed), std::max(most.accel, std::fabs(state.accel)), std::max(most.jerk, std::fabs(state.jerk))};
+            most = FeedState{0, std::max(most.speed, state.speed), std::max(most.accel, std::fabs(state.accel)),
+                             std::max(most.jerk, std::fabs(state.jerk))};
         if (k + 1 == feed_.size() || feed_[k].begin + feed_[k].length >= end) return most;
     }
 }
 
-/// No piece much faster than it was found to be; more of the jerk for the bends that are held back by it. False: that is no news.
+/// No piece much faster than it was found to be; more of the jerk for the bends that are held back by it. False: that
+/// is no news.
 bool StretchPlanner::narrow(double slack) {
     bool news = false;
     std::size_t k = 0;

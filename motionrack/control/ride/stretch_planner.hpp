@@ -23,17 +23,19 @@ inline constexpr double no_speed_limit = 1e300;
 
 /// What plans have found out about a piece.
 struct PieceUse {
-    double speed = no_speed_limit;         ///< more would leave less for changing it than it can be changed
-    double jerk_share = share_of_a_bend;   ///< of the axes' jerk, that the bend may take
+    double speed = no_speed_limit;        ///< more would leave less for changing it than it can be changed
+    double jerk_share = share_of_a_bend;  ///< of the axes' jerk, that the bend may take
 };
 
 class StretchPlanner {
   public:
     explicit StretchPlanner(const MachineLimits& limits) : limits_(limits) {}
 
-    /// From `from`, a place on the first of the pieces, to rest at `to`, on the last. `use`: what is known of the pieces, and then what this plan
-    /// is by. False if nothing was found that goes on from `start`; then it is as it was.
-    bool plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<PieceUse> use, double from, double to);
+    /// From `from`, a place on the first of the pieces, to rest at `to`, on the last. `use`: what is known of the
+    /// pieces, and then what this plan is by. False if nothing was found that goes on from `start`; then it is as it
+    /// was.
+    bool plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<PieceUse> use, double from,
+              double to);
 
     /// What was found, by places on the curve; valid until the next plan.
     std::span<const FeedPiece> feed() const { return feed_; }

@@ -1,4 +1,5 @@
-// The programs of tests/golden/canon: what LinuxCNC's rs274 -g printed for them lies beside, and rs274 itself can be asked.
+// The programs of tests/golden/canon: what LinuxCNC's rs274 -g printed for them lies beside, and rs274 itself can be
+// asked.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -42,7 +43,9 @@ inline bool has_tools(const std::string& name) {
 inline Settings settings_of(const std::string& name) {
     Settings settings = machine("XYZABC", 1e5);
     if (has_tools(name)) settings.tools = *read_tool_table(file_text(folder() + "tools.tbl"));
-    settings.subprogram = [](const std::string& sub) -> Result<std::string> { return file_text(folder() + sub + ".ngc"); };
+    settings.subprogram = [](const std::string& sub) -> Result<std::string> {
+        return file_text(folder() + sub + ".ngc");
+    };
     return settings;
 }
 
@@ -51,7 +54,8 @@ inline std::string motion_lines(const std::string& canon) {
     std::string out;
     std::istringstream lines(canon);
     for (std::string line; std::getline(lines, line);) {
-        for (const char* start : {"STRAIGHT_", "ARC_FEED", "DWELL", "SET_MOTION_OUTPUT", "CLEAR_MOTION_OUTPUT", "SET_AUX_OUTPUT", "CLEAR_AUX_OUTPUT"}) {
+        for (const char* start : {"STRAIGHT_", "ARC_FEED", "DWELL", "SET_MOTION_OUTPUT", "CLEAR_MOTION_OUTPUT",
+                                  "SET_AUX_OUTPUT", "CLEAR_AUX_OUTPUT"}) {
             const std::size_t at = line.find(start);
             if (at == std::string::npos || line.find("COMMENT") != std::string::npos) continue;
             std::string call = line.substr(at);
@@ -76,7 +80,8 @@ inline std::string that_lead_on(const std::string& lines) {
         std::vector<std::string> n;
         std::istringstream numbers(line.substr(open + 1));
         for (std::string one; std::getline(numbers, one, ',');) n.push_back(one.substr(one.find_first_not_of(' ')));
-        const std::string to = line.starts_with("ARC") ? n.at(1) + ' ' + n.at(0) : n.at(0) + ' ' + n.at(2);  // of G18: X Z
+        const std::string to =
+            line.starts_with("ARC") ? n.at(1) + ' ' + n.at(0) : n.at(0) + ' ' + n.at(2);  // of G18: X Z
         if (to != last) out += line + '\n';
         last = to;
     }
@@ -87,7 +92,8 @@ inline std::string compared(const std::string& name, const std::string& canon) {
     return turns(name) ? that_lead_on(motion_lines(canon)) : motion_lines(canon);
 }
 
-inline std::string printed(const std::string& program, CanonOptions options = {}, const Settings& settings = machine("XYZABC", 1e5)) {
+inline std::string printed(const std::string& program, CanonOptions options = {},
+                           const Settings& settings = machine("XYZABC", 1e5)) {
     std::string out;
     const auto done = print_canon(program, settings, options, [&](std::string_view line) { out += line; });
     EXPECT_TRUE(done) << done.error().text();

@@ -61,7 +61,8 @@ std::vector<Spot> star() {
     for (int i = 0; i < corners; ++i) {
         const double radius = *rc::gen::inRange(400, 900) / 10.0;
         const double angle = 2 * M_PI * (i + *rc::gen::inRange(0, 400) / 1000.0) / corners;
-        out.push_back({std::round(radius * std::cos(angle) * 1e4) / 1e4, std::round(radius * std::sin(angle) * 1e4) / 1e4});
+        out.push_back(
+            {std::round(radius * std::cos(angle) * 1e4) / 1e4, std::round(radius * std::sin(angle) * 1e4) / 1e4});
     }
     return out;
 }
@@ -134,9 +135,10 @@ RC_GTEST_PROP(GcodeCutter, LeftOfAContourIsRightOfItsMirrorImage, ()) {
 }
 
 TEST(GcodeCutter, AWholeTurnInsideAndOutsideKeepsItsCentre) {
-    const auto program = read(std::string(preamble) +
-                              "G0 X50 Y-40\nG41.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 Z4 P3\nG1 X50 Y20\nG40 G1 X0 Y0\n"
-                              "G0 X50 Y-40\nG42.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 P2\nG1 X50 Y20\nG40 G1 X0 Y0\n");
+    const auto program =
+        read(std::string(preamble) +
+             "G0 X50 Y-40\nG41.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 Z4 P3\nG1 X50 Y20\nG40 G1 X0 Y0\n"
+             "G0 X50 Y-40\nG42.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 P2\nG1 X50 Y20\nG40 G1 X0 Y0\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     std::vector<Move> arcs;
     for (const Move& move : program.moves())
@@ -158,7 +160,10 @@ TEST(GcodeCutter, EventsStayInOrderWithTheMoves) {
         if (step.kind == StepKind::move)
             order += step.move.kind == MoveKind::dwell ? 'd' : step.move.kind == MoveKind::arc ? 'a' : 'm';
         else
-            order += step.kind == StepKind::coolant ? 'c' : step.kind == StepKind::pause ? 'p' : step.kind == StepKind::end ? 'e' : 's';
+            order += step.kind == StepKind::coolant ? 'c'
+                     : step.kind == StepKind::pause ? 'p'
+                     : step.kind == StepKind::end   ? 'e'
+                                                    : 's';
     }
     EXPECT_EQ(order, "mmcdmpamse");
 }
@@ -171,7 +176,8 @@ TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
     const auto one_more = read(program + "M9\nY20\nM8\nG40\n");
     ASSERT_EQ(one_more.problems.size(), 1u);
     EXPECT_EQ(one_more.problems[0].place.line, 10'003);
-    EXPECT_THAT(one_more.problems[0].message, HasSubstr("10000 steps wait already for the move beside the contour that follows the one of line 3"));
+    EXPECT_THAT(one_more.problems[0].message,
+                HasSubstr("10000 steps wait already for the move beside the contour that follows the one of line 3"));
     EXPECT_EQ(one_more.steps.size(), 9'999u + 3) << "X20, Y20 and M8 with them";
     EXPECT_EQ(read(program + "G40\nM9\n").steps.size(), 9'999u + 2) << "what ends the contour lets them go";
 }
@@ -202,13 +208,16 @@ TEST(GcodeCutter, NearlyTangentJointsGetNoTinyArcs) {
 TEST(GcodeCutter, TakesTheDiameterOfATool) {
     Settings settings = testing::machine();
     settings.tools = *read_tool_table("T7 D8\nT3 D2\n");
-    for (const char* way : {"G41 D7\n", "T7 M6\nG41\n", "T7 M6 G41 D0\n", "T3 M6\nG10 L1 P7 R4\nG41 D7\n", "M61 Q7\nG41\n"}) {
+    for (const char* way :
+         {"G41 D7\n", "T7 M6\nG41\n", "T7 M6 G41 D0\n", "T3 M6\nG10 L1 P7 R4\nG41 D7\n", "M61 Q7\nG41\n"}) {
         const auto program = read(std::string(preamble) + way + "G1 X20\nG40\n", settings);
         ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
         EXPECT_EQ(program.moves().back().end[1], 4);
     }
-    EXPECT_THAT(read(std::string(preamble) + "G41 D8\n", settings).problems.at(0).message, HasSubstr("the tool table has no tool 8"));
-    EXPECT_THAT(read(std::string(preamble) + "G42\n", settings).problems.at(0).message, HasSubstr("no tool is in the spindle"));
+    EXPECT_THAT(read(std::string(preamble) + "G41 D8\n", settings).problems.at(0).message,
+                HasSubstr("the tool table has no tool 8"));
+    EXPECT_THAT(read(std::string(preamble) + "G42\n", settings).problems.at(0).message,
+                HasSubstr("no tool is in the spindle"));
 }
 
 TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
@@ -220,7 +229,8 @@ TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
 }
 
 TEST(GcodeCutter, ARefusedLineLeavesTheMoveBeforeItWaiting) {
-    const auto program = read(std::string(preamble) + "G41.1 D6\nG1 X20\nG1 X22 Y0.5\nG18\nG1 X22 Y30 Q1\nG1 X60 Y0\nG40\n");
+    const auto program =
+        read(std::string(preamble) + "G41.1 D6\nG1 X20\nG1 X22 Y0.5\nG18\nG1 X22 Y30 Q1\nG1 X60 Y0\nG40\n");
     ASSERT_EQ(program.problems.size(), 2u);
     EXPECT_EQ(program.problems[0].place.line, 6);
     EXPECT_EQ(program.problems[1].place.line, 7);

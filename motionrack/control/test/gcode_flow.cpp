@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <rapidcheck/gtest.h>
 
 #include "gcode_support.hpp"
@@ -24,8 +23,9 @@ std::vector<Problem> problems(const std::string& program, const Settings& settin
 
 TEST(GcodeFlow, BranchesGoWhereTheFirstConditionHolds) {
     const auto branch = [](int value) {
-        return xs("#1=" + std::to_string(value) +
-                  "\no1 if [#1 EQ 1]\nX1\no1 elseif [#1 EQ 2]\nX2\no1 elseif [#1 EQ 3]\nX3\no1 else\nX4\no1 endif\nX9\n");
+        return xs(
+            "#1=" + std::to_string(value) +
+            "\no1 if [#1 EQ 1]\nX1\no1 elseif [#1 EQ 2]\nX2\no1 elseif [#1 EQ 3]\nX3\no1 else\nX4\no1 endif\nX9\n");
     };
     EXPECT_THAT(branch(1), ElementsAre(1, 9));
     EXPECT_THAT(branch(2), ElementsAre(2, 9));
@@ -43,40 +43,61 @@ TEST(GcodeFlow, LoopsGoOnAsLongAsTheyShould) {
     EXPECT_THAT(xs("G91\no1 repeat [3]\nX1\no1 endrepeat\n"), ElementsAre(1, 2, 3));
     EXPECT_THAT(xs("o1 repeat [0]\nX1\no1 endrepeat\nX2"), ElementsAre(2));
     EXPECT_THAT(xs("o1 repeat [-3]\nX1\no1 endrepeat\nX2"), ElementsAre(2));
-    EXPECT_THAT(xs("G91\no1 repeat [2]\no2 repeat [3]\nX1\no2 endrepeat\nX10\no1 endrepeat\n"), ElementsAre(1, 2, 3, 13, 14, 15, 16, 26));
+    EXPECT_THAT(xs("G91\no1 repeat [2]\no2 repeat [3]\nX1\no2 endrepeat\nX10\no1 endrepeat\n"),
+                ElementsAre(1, 2, 3, 13, 14, 15, 16, 26));
 }
 
 TEST(GcodeFlow, BreakAndContinueMeanTheLoopWithTheirLabel) {
-    EXPECT_THAT(xs("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 elseif [#1 EQ 5]\no1 break\no2 endif\nX#1\no1 endwhile\nX9"),
+    EXPECT_THAT(xs("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 elseif [#1 EQ 5]\no1 break\no2 "
+                   "endif\nX#1\no1 endwhile\nX9"),
                 ElementsAre(1, 3, 4, 9));
-    EXPECT_THAT(xs("#1=0\no1 do\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\nX#1\no1 while [#1 LT 4]\nX9"), ElementsAre(1, 3, 4, 9));
-    EXPECT_THAT(xs("#1=0\no1 repeat [4]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\nX#1\no1 endrepeat\nX9"), ElementsAre(1, 3, 4, 9));
-    EXPECT_THAT(xs("#1=0\no1 repeat [2]\n#1=[#1+1]\no2 repeat [5]\no3 if [1]\no1 continue\no3 endif\no2 endrepeat\no1 endrepeat\nX#1"), ElementsAre(2))
+    EXPECT_THAT(xs("#1=0\no1 do\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\nX#1\no1 while [#1 LT 4]\nX9"),
+                ElementsAre(1, 3, 4, 9));
+    EXPECT_THAT(xs("#1=0\no1 repeat [4]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\nX#1\no1 endrepeat\nX9"),
+                ElementsAre(1, 3, 4, 9));
+    EXPECT_THAT(xs("#1=0\no1 repeat [2]\n#1=[#1+1]\no2 repeat [5]\no3 if [1]\no1 continue\no3 endif\no2 endrepeat\no1 "
+                   "endrepeat\nX#1"),
+                ElementsAre(2))
         << "leaving an inner repeat by an outer continue forgets the inner one";
-    EXPECT_THAT(xs("o1 repeat [2]\no2 repeat [5]\no1 break\no2 endrepeat\no1 endrepeat\nG91\no2 repeat [2]\nX1\no2 endrepeat"), ElementsAre(1, 2))
+    EXPECT_THAT(
+        xs("o1 repeat [2]\no2 repeat [5]\no1 break\no2 endrepeat\no1 endrepeat\nG91\no2 repeat [2]\nX1\no2 endrepeat"),
+        ElementsAre(1, 2))
         << "a label may be used again later";
 }
 
 TEST(GcodeFlow, CallsHaveArgumentsAndReturnValues) {
-    EXPECT_THAT(xs("o100 sub\nX#1\nX#2\nX#3\no100 endsub [#1 + #2]\n#1=7 #3=8\no100 call [1] [2]\nX#<_value>\nX#1\nX#3\n"), ElementsAre(1, 2, 0, 3, 7, 8))
+    EXPECT_THAT(
+        xs("o100 sub\nX#1\nX#2\nX#3\no100 endsub [#1 + #2]\n#1=7 #3=8\no100 call [1] [2]\nX#<_value>\nX#1\nX#3\n"),
+        ElementsAre(1, 2, 0, 3, 7, 8))
         << "#1 to #30 are the call's own";
-    EXPECT_THAT(xs("o<a> sub\n#31=5\nX[#<_value_returned>]\no<a> endsub\no<a> call\nX#31\nX#<_value_returned>\n"), ElementsAre(0, 5, 0));
-    EXPECT_THAT(xs("o<A b> sub\no1 if [#1 GT 2]\no<ab> return [#1]\no1 endif\nX1\no<ab> endsub [0]\no<AB> call [5]\nX#<_value>\no<ab> call [1]\nX#<_value>"),
+    EXPECT_THAT(xs("o<a> sub\n#31=5\nX[#<_value_returned>]\no<a> endsub\no<a> call\nX#31\nX#<_value_returned>\n"),
+                ElementsAre(0, 5, 0));
+    EXPECT_THAT(xs("o<A b> sub\no1 if [#1 GT 2]\no<ab> return [#1]\no1 endif\nX1\no<ab> endsub [0]\no<AB> call "
+                   "[5]\nX#<_value>\no<ab> call [1]\nX#<_value>"),
                 ElementsAre(5, 1, 0));
-    EXPECT_THAT(xs("X1\nO100 CALL [2]\nX3\nM2\no100 sub\nX#1\no100 endsub\n"), ElementsAre(1, 2, 3)) << "subs may follow the end";
-    EXPECT_THAT(xs("#5=100\no#5 call [4]\no[#5 + 1] call\no100 sub\nX#1\no100 endsub\no101 sub\nX5\no101 endsub\n"), ElementsAre(4, 5));
+    EXPECT_THAT(xs("X1\nO100 CALL [2]\nX3\nM2\no100 sub\nX#1\no100 endsub\n"), ElementsAre(1, 2, 3))
+        << "subs may follow the end";
+    EXPECT_THAT(xs("#5=100\no#5 call [4]\no[#5 + 1] call\no100 sub\nX#1\no100 endsub\no101 sub\nX5\no101 endsub\n"),
+                ElementsAre(4, 5));
     EXPECT_THAT(xs("o0100 sub\nX1\no100 endsub\no100 call"), ElementsAre(1));
 }
 
 TEST(GcodeFlow, NamesOfACallAreItsOwn) {
-    EXPECT_THAT(xs("o1 sub\nX[EXISTS[#<a>]]\n#<a>=5 #<_g>=6\nX#<a>\no1 endsub\n#<a>=1\no1 call\nX#<a>\nX#<_g>"), ElementsAre(0, 5, 1, 6));
-    EXPECT_THAT(xs("o1 sub\nX#<_call_level>\no2 if [#1 GT 1]\no1 call [#1 - 1]\no2 endif\no1 endsub\no1 call [3]\nX#<_call_level>"), ElementsAre(1, 2, 3, 0));
+    EXPECT_THAT(xs("o1 sub\nX[EXISTS[#<a>]]\n#<a>=5 #<_g>=6\nX#<a>\no1 endsub\n#<a>=1\no1 call\nX#<a>\nX#<_g>"),
+                ElementsAre(0, 5, 1, 6));
+    EXPECT_THAT(xs("o1 sub\nX#<_call_level>\no2 if [#1 GT 1]\no1 call [#1 - 1]\no2 endif\no1 endsub\no1 call "
+                   "[3]\nX#<_call_level>"),
+                ElementsAre(1, 2, 3, 0));
 }
 
 TEST(GcodeFlow, RecursionHasItsOwnLoops) {
     // Towers: the sub calls itself from within a repeat.
-    EXPECT_THAT(xs("G91\no1 sub\no2 if [#1 GT 0]\no3 repeat [2]\no1 call [#1 - 1]\no3 endrepeat\no2 else\nX1\no2 endif\no1 endsub\no1 call [3]"), ::testing::SizeIs(8));
-    EXPECT_THAT(xs("G91\no1 sub\no3 repeat [5]\nX1\no1 return\no3 endrepeat\no1 endsub\no9 repeat [3]\no1 call\no9 endrepeat"), ElementsAre(1, 2, 3));
+    EXPECT_THAT(xs("G91\no1 sub\no2 if [#1 GT 0]\no3 repeat [2]\no1 call [#1 - 1]\no3 endrepeat\no2 else\nX1\no2 "
+                   "endif\no1 endsub\no1 call [3]"),
+                ::testing::SizeIs(8));
+    EXPECT_THAT(
+        xs("G91\no1 sub\no3 repeat [5]\nX1\no1 return\no3 endrepeat\no1 endsub\no9 repeat [3]\no1 call\no9 endrepeat"),
+        ElementsAre(1, 2, 3));
 }
 
 TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
@@ -84,13 +105,15 @@ TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
     std::vector<std::string> asked;
     settings.subprogram = [&asked](const std::string& name) -> Result<std::string> {
         asked.push_back(name);
-        if (name == "hole") return std::string("%\no<hole> sub\nX#1\no<deeper> call [#1 + 1]\nX[#1 + 2]\no<hole> endsub\n%\n");
+        if (name == "hole")
+            return std::string("%\no<hole> sub\nX#1\no<deeper> call [#1 + 1]\nX[#1 + 2]\no<hole> endsub\n%\n");
         if (name == "deeper") return std::string("(a comment)\no<deeper> sub\nX#1\nX1e9\no<deeper> endsub\n");
         if (name == "empty") return std::string("X1\n");
         return fail(Trouble::bad_input, "there is no such file");
     };
     settings.start_in_g0 = true;
-    const auto read = testing::read("X0\no<hole> call [5]\no<HOLE> call [7]\nX1\no<none> call\no<empty> call\no<../up> call\n", settings);
+    const auto read = testing::read(
+        "X0\no<hole> call [5]\no<HOLE> call [7]\nX1\no<none> call\no<empty> call\no<../up> call\n", settings);
     std::vector<double> at;
     std::vector<int> lines;
     for (const Step& step : read.steps) at.push_back(step.move.end[0]), lines.push_back(step.line);
@@ -132,8 +155,10 @@ TEST(GcodeFlow, ThatDoesNotFitTogetherIsToldWithItsPlace) {
 }
 
 TEST(GcodeFlow, ThatCannotBeDoneIsPassedOver) {
-    const auto read = testing::read("G0\no1 if [1 / 0]\nX1\no1 else\nX2\no1 endif\no2 while [#<no>]\nX3\no2 endwhile\no3 call\no4 repeat []\nX4\no4 endrepeat\no5 if\no5 endif\n"
-                                    "o6 if [1] [2]\no6 endif\no7 if [1] 2\no7 endif\nX9");
+    const auto read = testing::read(
+        "G0\no1 if [1 / 0]\nX1\no1 else\nX2\no1 endif\no2 while [#<no>]\nX3\no2 endwhile\no3 call\no4 repeat "
+        "[]\nX4\no4 endrepeat\no5 if\no5 endif\n"
+        "o6 if [1] [2]\no6 endif\no7 if [1] 2\no7 endif\nX9");
     ASSERT_EQ(read.problems.size(), 7u);
     EXPECT_THAT(read.problems[0].message, HasSubstr("division by zero"));
     EXPECT_EQ(read.problems[0].place.line, 2);
@@ -150,7 +175,8 @@ TEST(GcodeFlow, ThatCannotBeDoneIsPassedOver) {
 TEST(GcodeFlow, ThatNeverEndsIsStopped) {
     Settings settings = testing::machine();
     settings.most_lines = 1000;
-    for (const char* program : {"o1 while [1]\no1 endwhile", "o1 do\no1 while [1]", "o1 repeat [1000000000]\no1 endrepeat", "o1 while [1]\nX1\nX2\no1 endwhile"}) {
+    for (const char* program : {"o1 while [1]\no1 endwhile", "o1 do\no1 while [1]",
+                                "o1 repeat [1000000000]\no1 endrepeat", "o1 while [1]\nX1\nX2\no1 endwhile"}) {
         const auto found = problems(program, settings);
         ASSERT_EQ(found.size(), 1u) << program;
         EXPECT_THAT(found[0].message, ::testing::ContainsRegex("gone through 100[0-9] lines"));
@@ -192,18 +218,21 @@ TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
 }
 
 TEST(GcodeFlow, MayStandBehindLineNumbersAndSlashes) {
-    EXPECT_THAT(xs("N10 o1 if [1] (comment)\nX1\nN20 o1 endif ; over\n/o2 repeat [2]\nX2\n/o2 endrepeat\n"), ElementsAre(1, 2, 2));
+    EXPECT_THAT(xs("N10 o1 if [1] (comment)\nX1\nN20 o1 endif ; over\n/o2 repeat [2]\nX2\n/o2 endrepeat\n"),
+                ElementsAre(1, 2, 2));
     EXPECT_THAT(xs("(pocket) o1 repeat [2] (twice)\nX1\n(so much)N5(for that) o1 endrepeat\n"), ElementsAre(1, 1));
     Settings settings = testing::machine();
     settings.block_delete = true;
     EXPECT_THAT(xs("/o2 repeat [2]\nX2\n/o2 endrepeat\n", settings), ElementsAre(2));
-    EXPECT_THAT(xs("%\nX1\no1 if [1]\nX2\no1 endif\n%\no1 endif\n"), ElementsAre(1, 2)) << "what is behind the closing % is no program";
+    EXPECT_THAT(xs("%\nX1\no1 if [1]\nX2\no1 endif\n%\no1 endif\n"), ElementsAre(1, 2))
+        << "what is behind the closing % is no program";
 }
 
 /// Lines of a program whose problems are told, in their order.
 std::vector<std::int32_t> refused_lines(const std::string& text) {
     std::vector<std::int32_t> lines;
-    for (const Problem& problem : check_program(text, testing::machine(), 100, "f").problems) lines.push_back(problem.place.line);
+    for (const Problem& problem : check_program(text, testing::machine(), 100, "f").problems)
+        lines.push_back(problem.place.line);
     return lines;
 }
 

@@ -19,10 +19,12 @@ class GcodeGolden : public ::testing::TestWithParam<std::string> {};
 TEST_P(GcodeGolden, MovesAreThoseOfRs274) {
     const std::string expected = compared(GetParam(), file_text(folder() + GetParam() + ".canon"));
     ASSERT_GT(expected.size(), 50u);
-    EXPECT_EQ(compared(GetParam(), printed(file_text(folder() + GetParam() + ".ngc"), {}, settings_of(GetParam()))), expected);
+    EXPECT_EQ(compared(GetParam(), printed(file_text(folder() + GetParam() + ".ngc"), {}, settings_of(GetParam()))),
+              expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden, ::testing::ValuesIn(names()), [](const auto& parameter) { return parameter.param; });
+INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden, ::testing::ValuesIn(names()),
+                         [](const auto& parameter) { return parameter.param; });
 
 TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
     EXPECT_GE(names().size(), 50u);
@@ -44,13 +46,16 @@ TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
         all += text;
     }
     for (int tenths = 0; tenths < 1000; ++tenths)
-        EXPECT_TRUE(group_of_g(tenths) >= g_group_count || tenths == 50 || tenths == 51 || g.contains(tenths)) << name_of_g(tenths);  // curves are arcs here
+        EXPECT_TRUE(group_of_g(tenths) >= g_group_count || tenths == 50 || tenths == 51 || g.contains(tenths))
+            << name_of_g(tenths);  // curves are arcs here
     for (int code = 0; code < 100; ++code)
         EXPECT_TRUE(group_of_m(code) == m_unknown || code == 61 || m.contains(code)) << "M" << code;
-    for (const char* word : {"sub", "endsub", "return", "call", "if", "elseif", "else", "endif", "while", "endwhile", "do", "repeat", "endrepeat", "break", "continue"})
+    for (const char* word : {"sub", "endsub", "return", "call", "if", "elseif", "else", "endif", "while", "endwhile",
+                             "do", "repeat", "endrepeat", "break", "continue"})
         EXPECT_NE(all.find(std::string(" ") + word), std::string::npos) << word;
-    for (const char* word : {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "MOD", "EQ", "NE",
-                             "GT", "GE", "LT", "LE", "AND", "OR", "XOR", "**", "DEBUG", "PRINT", "MSG"})
+    for (const char* word :
+         {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP", "LN",  "ROUND", "SIN",   "SQRT",  "TAN",
+          "MOD", "EQ",   "NE",   "GT",   "GE",  "LT",     "LE",  "AND", "OR",  "XOR", "**",    "DEBUG", "PRINT", "MSG"})
         EXPECT_NE(all.find(word), std::string::npos) << word;
 }
 
@@ -97,7 +102,8 @@ std::string mode_lines(const std::string& canon) {
     std::string out;
     std::istringstream lines(canon);
     for (std::string line; std::getline(lines, line);)
-        for (const char* call : {"USE_LENGTH_UNITS", "SET_FEED_RATE", "SELECT_PLANE", "SET_G5X_OFFSET", "SET_G92_OFFSET", "SET_XY_ROTATION", "FEED_OVERRIDE", "SPEED_OVERRIDE", "FEED_HOLD"})
+        for (const char* call : {"USE_LENGTH_UNITS", "SET_FEED_RATE", "SELECT_PLANE", "SET_G5X_OFFSET",
+                                 "SET_G92_OFFSET", "SET_XY_ROTATION", "FEED_OVERRIDE", "SPEED_OVERRIDE", "FEED_HOLD"})
             if (line.find(call) != std::string::npos) out += line.substr(line.rfind(' ', line.find(call)) + 1) + '\n';
     return out;
 }
@@ -106,12 +112,16 @@ std::string mode_lines(const std::string& canon) {
 
 TEST(GcodeCanon, TellsModesThatAreBroughtBackAsRs274Does) {
     // Up to there rs274 leaves out a G54 that changes nothing.
-    for (const auto& [name, from] : {std::pair("overrides", "USE_LENGTH_UNITS"), std::pair("modes_kept", "SET_FEED_RATE(5.0000)")}) {
-        const std::string ours = mode_lines(printed(file_text(folder() + name + ".ngc"))), theirs = mode_lines(file_text(folder() + name + ".canon"));
+    for (const auto& [name, from] :
+         {std::pair("overrides", "USE_LENGTH_UNITS"), std::pair("modes_kept", "SET_FEED_RATE(5.0000)")}) {
+        const std::string ours = mode_lines(printed(file_text(folder() + name + ".ngc"))),
+                          theirs = mode_lines(file_text(folder() + name + ".canon"));
         EXPECT_EQ(ours.substr(ours.find(from)), theirs.substr(theirs.find(from))) << name;
     }
-    const std::string out = mode_lines(printed("G21 F60\no1 call\nG1 X1\nM2\no1 sub\nM73 G20 G18 F5 M49\nG1 X2\no1 endsub\n", {Coordinates::program, false}));
-    EXPECT_NE(out.find("USE_LENGTH_UNITS(CANON_UNITS_INCHES)\nUSE_LENGTH_UNITS(CANON_UNITS_MM)\nSET_FEED_RATE(60.0000)\nENABLE_FEED_OVERRIDE()\n"
+    const std::string out = mode_lines(printed(
+        "G21 F60\no1 call\nG1 X1\nM2\no1 sub\nM73 G20 G18 F5 M49\nG1 X2\no1 endsub\n", {Coordinates::program, false}));
+    EXPECT_NE(out.find("USE_LENGTH_UNITS(CANON_UNITS_INCHES)\nUSE_LENGTH_UNITS(CANON_UNITS_MM)\nSET_FEED_RATE(60.0000)"
+                       "\nENABLE_FEED_OVERRIDE()\n"
                        "ENABLE_SPEED_OVERRIDE(0)\nSELECT_PLANE(CANON_PLANE_XY)\n"),
               std::string::npos)
         << out;

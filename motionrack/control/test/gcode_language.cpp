@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
 #include <motionrack/control/gcode/canon.hpp>
-#include <rapidcheck/gtest.h>
 
 #include "gcode_support.hpp"
 
@@ -77,9 +77,11 @@ TEST(GcodeExpressions, KnowTheFunctions) {
 }
 
 TEST(GcodeExpressions, GiveWordsOfAllKindsTheirValues) {
-    const auto read = testing::read("#1 = 1\nG#1 X[2] F[60 * 2]\nG[61 + .1]\nG91 G[#1 - 1] X-#1\nM[2 + #1] S[1e0]", testing::machine());
+    const auto read = testing::read("#1 = 1\nG#1 X[2] F[60 * 2]\nG[61 + .1]\nG91 G[#1 - 1] X-#1\nM[2 + #1] S[1e0]",
+                                    testing::machine());
     ASSERT_EQ(read.problems.size(), 1u) << "1e0 is no number of G-code";
-    const auto good = testing::read("#1 = 1\nG#1 X[2] F[60 * 2]\nG[61 + .1]\nG91 G[#1 - 1] X-#1\nM[2 + #1] S[10 * 10]", testing::machine());
+    const auto good = testing::read("#1 = 1\nG#1 X[2] F[60 * 2]\nG[61 + .1]\nG91 G[#1 - 1] X-#1\nM[2 + #1] S[10 * 10]",
+                                    testing::machine());
     ASSERT_TRUE(good.problems.empty()) << good.problems.front().text();
     const auto moves = good.moves();
     ASSERT_EQ(moves.size(), 2u);
@@ -177,7 +179,9 @@ TEST(GcodeParameters, NestOnlySoFar) {
 }
 
 TEST(GcodeParameters, AreShownByDebugAndPrint) {
-    const auto read = testing::read("#1=2.5 #<hole>=7\n(DEBUG, at #1 and #<hole>, #<none>)\n(PRINT,%d#1 %.2f#1)\n(MSG,#1)\n(LOG,#1)", testing::machine());
+    const auto read =
+        testing::read("#1=2.5 #<hole>=7\n(DEBUG, at #1 and #<hole>, #<none>)\n(PRINT,%d#1 %.2f#1)\n(MSG,#1)\n(LOG,#1)",
+                      testing::machine());
     ASSERT_TRUE(read.problems.empty());
     ASSERT_EQ(read.steps.size(), 4u);
     EXPECT_EQ(read.steps[0].kind, StepKind::message);
@@ -185,8 +189,8 @@ TEST(GcodeParameters, AreShownByDebugAndPrint) {
     EXPECT_EQ(read.steps[2].text, "#1");
     EXPECT_EQ(read.steps[3].kind, StepKind::comment);
     std::string out;
-    const auto done = print_canon("#1=2.5 #<hole>=7\n(DEBUG, at #1 and #<hole>, #<none>)\n(PRINT,%d#1 %.2f#1)\n", testing::machine(), {},
-                                  [&](std::string_view line) { out += line; });
+    const auto done = print_canon("#1=2.5 #<hole>=7\n(DEBUG, at #1 and #<hole>, #<none>)\n(PRINT,%d#1 %.2f#1)\n",
+                                  testing::machine(), {}, [&](std::string_view line) { out += line; });
     ASSERT_TRUE(done);
     EXPECT_THAT(out, HasSubstr("MESSAGE(\" at 2.500000 and 7.000000, ######\")"));
     EXPECT_THAT(out, HasSubstr("MESSAGE(\"2 2.50\")"));
@@ -194,7 +198,8 @@ TEST(GcodeParameters, AreShownByDebugAndPrint) {
 
 TEST(GcodeParameters, AreShownAsBeforeTheMoveOfTheirLine) {
     std::string out;
-    ASSERT_TRUE(print_canon("G21 F100\nG1 X3\n#1=7 G1 X5 (PRINT,%d#5420 #1) (PRINT,#<_x>)\n(PRINT,#5420)\n", testing::machine(), {}, [&](std::string_view line) { out += line; }));
+    ASSERT_TRUE(print_canon("G21 F100\nG1 X3\n#1=7 G1 X5 (PRINT,%d#5420 #1) (PRINT,#<_x>)\n(PRINT,#5420)\n",
+                            testing::machine(), {}, [&](std::string_view line) { out += line; }));
     EXPECT_THAT(out, HasSubstr("MESSAGE(\"3 7\")"));
     EXPECT_THAT(out, HasSubstr("MESSAGE(\"3.000000\")"));
     EXPECT_THAT(out, HasSubstr("MESSAGE(\"5.000000\")"));
@@ -203,7 +208,9 @@ TEST(GcodeParameters, AreShownAsBeforeTheMoveOfTheirLine) {
 TEST(GcodeParameters, OfALineAreAllSetOrNone) {
     std::string names;
     for (int i = 0; i < 999; ++i) names += "#<n" + std::to_string(i) + ">=1\n";
-    const auto read = testing::read(names + "#5=4 #<n3>=2 #<last>=3 #<too_many>=4\n#<last>=9\n#<_global>=1\n#<n3>=5\nG0 X[#5] Y[#<n3>] Z[#<last>]", testing::machine());
+    const auto read = testing::read(
+        names + "#5=4 #<n3>=2 #<last>=3 #<too_many>=4\n#<last>=9\n#<_global>=1\n#<n3>=5\nG0 X[#5] Y[#<n3>] Z[#<last>]",
+        testing::machine());
     ASSERT_EQ(read.problems.size(), 1u);
     EXPECT_EQ(read.problems[0].place.line, 1000);
     EXPECT_THAT(read.problems[0].message, HasSubstr("#<too_many> is one named parameter too many; there may be 1000"));
@@ -259,13 +266,20 @@ Bracketed random_expression(int depth) {
     }
     const Bracketed a = random_expression(depth - 1), b = random_expression(depth - 1);
     switch (kind) {
-        case 1: return {"[" + a.text + " + " + b.text + "]", a.value + b.value};
-        case 2: return {"[" + a.text + "-" + b.text + "]", a.value - b.value};
-        case 3: return {"[" + a.text + "*" + b.text + "]", a.value * b.value};
-        case 4: return {"[" + a.text + " LT " + b.text + "]", a.value < b.value ? 1.0 : 0.0};
-        case 5: return {"ABS[" + a.text + "]", std::fabs(a.value)};
-        case 6: return {"[" + a.text + " AND " + b.text + "]", a.value != 0 && b.value != 0 ? 1.0 : 0.0};
-        default: return {"FIX[" + a.text + " / 7]", std::floor(a.value / 7)};
+        case 1:
+            return {"[" + a.text + " + " + b.text + "]", a.value + b.value};
+        case 2:
+            return {"[" + a.text + "-" + b.text + "]", a.value - b.value};
+        case 3:
+            return {"[" + a.text + "*" + b.text + "]", a.value * b.value};
+        case 4:
+            return {"[" + a.text + " LT " + b.text + "]", a.value < b.value ? 1.0 : 0.0};
+        case 5:
+            return {"ABS[" + a.text + "]", std::fabs(a.value)};
+        case 6:
+            return {"[" + a.text + " AND " + b.text + "]", a.value != 0 && b.value != 0 ? 1.0 : 0.0};
+        default:
+            return {"FIX[" + a.text + " / 7]", std::floor(a.value / 7)};
     }
 }
 

@@ -215,7 +215,8 @@ TEST(GcodeArc, PassesTheExtremesBetweenItsEnds) {
 TEST(GcodeProbing, IsAMoveThatStopsAtItsEnd) {
     const auto program = testing::read("G90 G64 F60\nG38.2 Z-10\nG38.3 Z-5\nG38.4 X4 Z0\nG38.5 X0\nY1\nG1 X5\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
-    const Probe kinds[] = {Probe::contact, Probe::contact_if, Probe::release, Probe::release_if, Probe::release_if, Probe::none};
+    const Probe kinds[] = {Probe::contact,    Probe::contact_if, Probe::release,
+                           Probe::release_if, Probe::release_if, Probe::none};
     ASSERT_EQ(program.steps.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(program.steps[i].probe, kinds[i]) << i;

@@ -27,18 +27,25 @@ TEST(GcodeNumbered, RunAsOftenAsTheyAreCalled) {
     EXPECT_THAT(xs("G91\nM98 P100 L3\nX10\nM2\nO0100\nX1\nM99"), ElementsAre(1, 2, 3, 13));
     EXPECT_THAT(xs("M98 P100 L0\nX1\nM2\nO100\nX5\nM99"), ElementsAre(1));
     EXPECT_THAT(xs("G91\nM98 P[50 * 2] L[1 + 1]\nM2\nN5 O100 (twice)\nX1\nN6 M99 (back)"), ElementsAre(1, 2));
-    EXPECT_THAT(xs("G91\nM98 P1 L2\nM2\nO1\nX10\nM98 P2 L3\nM99\nO2\nX1\nM99"), ElementsAre(10, 11, 12, 13, 23, 24, 25, 26));
+    EXPECT_THAT(xs("G91\nM98 P1 L2\nM2\nO1\nX10\nM98 P2 L3\nM99\nO2\nX1\nM99"),
+                ElementsAre(10, 11, 12, 13, 23, 24, 25, 26));
 }
 
 TEST(GcodeNumbered, MayBeLeftFromWithinLoopsAndConditions) {
-    EXPECT_THAT(xs("G91\nM98 P1 L2\nX100\nM2\nO1\no2 repeat [5]\nX1\no3 if [#5420 GT 2]\nM99\no3 endif\no2 endrepeat\nM99"), ElementsAre(1, 2, 3, 4, 104));
-    EXPECT_THAT(xs("G91\no9 repeat [2]\nM98 P1\no9 endrepeat\nM2\nO1\no2 repeat [5]\nX1\nM99\no2 endrepeat\nM99"), ElementsAre(1, 2));
+    EXPECT_THAT(
+        xs("G91\nM98 P1 L2\nX100\nM2\nO1\no2 repeat [5]\nX1\no3 if [#5420 GT 2]\nM99\no3 endif\no2 endrepeat\nM99"),
+        ElementsAre(1, 2, 3, 4, 104));
+    EXPECT_THAT(xs("G91\no9 repeat [2]\nM98 P1\no9 endrepeat\nM2\nO1\no2 repeat [5]\nX1\nM99\no2 endrepeat\nM99"),
+                ElementsAre(1, 2));
 }
 
 TEST(GcodeNumbered, ShareTheNumbersOfTheirCallerButNotItsNames) {
     EXPECT_THAT(xs("#1=4\nM98 P1\nX#1\nM2\nO1\nX#1\n#1=9\nM99"), ElementsAre(4, 9));
-    EXPECT_THAT(xs("#<a>=4 #<_kept>=1\nM98 P1\nX#<a>\nX#<_kept>\nX#<_call_level>\nM2\nO1\n#<a>=7\n#<_kept>=8\nX#<_call_level>\nM99"), ElementsAre(1, 4, 8, 0));
-    EXPECT_THAT(xs("o5 call [50]\nX#1\nM2\no5 sub\nM98 P1\nX#1\no5 endsub\nO1\n#1=[#1+1]\nM99"), ElementsAre(51, 0)) << "the numbers are those of the sub that calls";
+    EXPECT_THAT(xs("#<a>=4 #<_kept>=1\nM98 "
+                   "P1\nX#<a>\nX#<_kept>\nX#<_call_level>\nM2\nO1\n#<a>=7\n#<_kept>=8\nX#<_call_level>\nM99"),
+                ElementsAre(1, 4, 8, 0));
+    EXPECT_THAT(xs("o5 call [50]\nX#1\nM2\no5 sub\nM98 P1\nX#1\no5 endsub\nO1\n#1=[#1+1]\nM99"), ElementsAre(51, 0))
+        << "the numbers are those of the sub that calls";
     EXPECT_THAT(xs("G90\nM98 P1\nX2\nM2\nO1\nM73 G91\nX1\nM99"), ElementsAre(1, 2)) << "M73 ends with the program";
 }
 
@@ -60,10 +67,12 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
     settings.start_in_g0 = true;
     const auto read = testing::read("X1\nM98 P2000 L2\nX2\n", settings);
     std::vector<std::string> moves;
-    for (const Step& step : read.steps) moves.push_back(std::to_string(static_cast<int>(step.move.end[0])) + "@" + std::to_string(step.line));
+    for (const Step& step : read.steps)
+        moves.push_back(std::to_string(static_cast<int>(step.move.end[0])) + "@" + std::to_string(step.line));
     EXPECT_THAT(moves, ElementsAre("1@1", "7@2", "3@2", "7@2", "3@2", "2@3"));
     EXPECT_THAT(problem_of("M98 P4", settings).message, HasSubstr("M98 P4: 4.ngc has no O4"));
-    EXPECT_THAT(problem_of("M98 P5", settings).message, HasSubstr("M98 P5: this program has no O5, and there is no such file"));
+    EXPECT_THAT(problem_of("M98 P5", settings).message,
+                HasSubstr("M98 P5: this program has no O5, and there is no such file"));
     const Problem open = problem_of("M98 P6", settings);
     EXPECT_EQ(open.file, "6.ngc");
     EXPECT_EQ(open.place.line, 2);
@@ -87,7 +96,8 @@ TEST(GcodeNumbered, AreRefusedWithTheirPlace) {
     const RefusedAt wholes[] = {{"M98 P1\nM2\no1 sub\no1 endsub", 1, "M98 P1: o1 sub is a sub; call it by o1 call"},
                                 {"o1 call\nM2\nO1\nM99", 1, "o1 call: O1 is a numbered program; call it by M98 P1"},
                                 {"M98 P1\nM2\nO1\nM99\nO1\nM99", 5, "there is one in line 3 already"},
-                                {"M98 P1\nM2\nO1\no2 if [1]\nO3\no2 endif\nM99", 5, "O3: a numbered program stands by itself, but o2 if of line 4 is open here"},
+                                {"M98 P1\nM2\nO1\no2 if [1]\nO3\no2 endif\nM99", 5,
+                                 "O3: a numbered program stands by itself, but o2 if of line 4 is open here"},
                                 {"M98 P1\nM2\nX1\nO1\nX5\n", 4, "end it with M99"},
                                 {"o1 sub\nM99\no1 endsub\no1 call", 2, "M99 ends a numbered program"},
                                 {"M98 P1\nM2\nO1\nM98 P1\nM99", 4, "100 calls stand in each other"}};

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <rapidcheck/gtest.h>
 
 #include "gcode_support.hpp"
 
@@ -30,7 +30,8 @@ Point last_end(const std::string& program, const Settings& settings = with_tools
 
 std::string problem_of(const std::string& program, const Settings& settings = with_tools()) {
     const auto read = testing::read(program, settings);
-    return read.problems.size() == 1 ? read.problems[0].text() : "there are " + std::to_string(read.problems.size()) + " problems";
+    return read.problems.size() == 1 ? read.problems[0].text()
+                                     : "there are " + std::to_string(read.problems.size()) + " problems";
 }
 
 void expect_near(const Point& got, double x, double y, double z) {
@@ -67,10 +68,11 @@ TEST(GcodeTools, FaultyTablesAreRefusedWithTheirPlace) {
         int line, column;
         const char* says;
     };
-    const Row rows[] = {{"T1 Z1\nP2", 2, 1, "no tool number"}, {"T1 E5", 1, 4, "'E' is no word"}, {"T1\nT1", 2, 1, "already"},
-                        {"T1 Zx", 1, 4, "needs a number"},     {"T1.5", 1, 1, "whole number"},    {"T100000", 1, 1, "whole number"},
-                        {"T1 Z1 Z2", 1, 7, "twice"},           {"T1 U1", 1, 4, "must be 0"},      {"T0", 1, 1, "no tool number"},
-                        {"T1 Q10", 1, 4, "from 0 to 9"},       {"?", 1, 1, "'?' is no word"}};
+    const Row rows[] = {
+        {"T1 Z1\nP2", 2, 1, "no tool number"}, {"T1 E5", 1, 4, "'E' is no word"}, {"T1\nT1", 2, 1, "already"},
+        {"T1 Zx", 1, 4, "needs a number"},     {"T1.5", 1, 1, "whole number"},    {"T100000", 1, 1, "whole number"},
+        {"T1 Z1 Z2", 1, 7, "twice"},           {"T1 U1", 1, 4, "must be 0"},      {"T0", 1, 1, "no tool number"},
+        {"T1 Q10", 1, 4, "from 0 to 9"},       {"?", 1, 1, "'?' is no word"}};
     for (const Row& row : rows) {
         const auto table = read_tool_table(row.text, "tools.tbl");
         ASSERT_FALSE(table) << row.text;
@@ -120,8 +122,10 @@ TEST(GcodeTools, AreSetByG10) {
     expect_near(last_end("G10 L2 P1 Z4\nG53 G0 Z12\nG10 L10 P1 Z2\nG43 H1 Z0"), 0, 0, 10);
     expect_near(last_end("G10 L2 P9 Z3\nG53 G0 Z12\nG10 L11 P1 Z2\nG43 H1 Z0"), 0, 0, 7);
     // In a turned system the offset goes along the system's axes, so that the tool stays where it is.
-    expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2 Y1\nG43 H1\nX2 Y1"), 6.1602540378443873, 9.3301270189221928, 0);
-    expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2\nG43 H1\nX2"), 6.1602540378443873, 9.3301270189221928, 0);
+    expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2 Y1\nG43 H1\nX2 Y1"), 6.1602540378443873,
+                9.3301270189221928, 0);
+    expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2\nG43 H1\nX2"), 6.1602540378443873, 9.3301270189221928,
+                0);
     expect_near(last_end("G10 L2 P9 R90\nG0 X10 Y5\nG10 L11 P1 X2 Y1\nG59.3 G43 H1\nX2 Y1"), 10, 5, 0);
     EXPECT_THAT(problem_of("G10 L1 P0 Z1"), HasSubstr("the number of a tool"));
     EXPECT_THAT(problem_of("G10 L1 Z1"), HasSubstr("P word missing"));
@@ -164,7 +168,8 @@ TEST(GcodeWorkSystems, AreTurnedByR) {
 }
 
 TEST(GcodeWorkSystems, TurnArcsAndCyclesOfTheirPlane) {
-    const auto arc = testing::read("G10 L2 P1 R90\nG1 F9 X10\nG2 X12 Y2 I2 J0\nG90.1 G3 X12 Y-2 I12 J0\nG90.1 G3 X10 Y0 R2", with_tools());
+    const auto arc = testing::read(
+        "G10 L2 P1 R90\nG1 F9 X10\nG2 X12 Y2 I2 J0\nG90.1 G3 X12 Y-2 I12 J0\nG90.1 G3 X10 Y0 R2", with_tools());
     ASSERT_TRUE(arc.problems.empty()) << arc.problems[0].text();
     const auto moves = arc.moves();
     EXPECT_NEAR(moves[1].centre_first, 0, 1e-12);
@@ -208,8 +213,10 @@ TEST(GcodeModes, WhatTheMachineDoesNotHaveIsRefused) {
     for (const char* line : {"M52", "M52 P1"}) EXPECT_THAT(problem_of(line), HasSubstr("adaptive feed")) << line;
     EXPECT_THAT(problem_of("G7"), HasSubstr("X is a radius here, never a diameter"));
     EXPECT_THAT(problem_of("G8"), HasSubstr("X is always a radius here; leave it out"));
-    for (const char* line : {"G33 Z1 K1", "G33.1 Z1 K1", "G76 P1", "G95"}) EXPECT_THAT(problem_of(line), HasSubstr("angle of the spindle")) << line;
-    for (const char* line : {"G87 X1 Z1 R1", "G88 X1 Z1 R1 P1"}) EXPECT_THAT(problem_of(line), HasSubstr("use G8")) << line;
+    for (const char* line : {"G33 Z1 K1", "G33.1 Z1 K1", "G76 P1", "G95"})
+        EXPECT_THAT(problem_of(line), HasSubstr("angle of the spindle")) << line;
+    for (const char* line : {"G87 X1 Z1 R1", "G88 X1 Z1 R1 P1"})
+        EXPECT_THAT(problem_of(line), HasSubstr("use G8")) << line;
     EXPECT_THAT(problem_of("G96 D100 S5"), HasSubstr("rev/min"));
 }
 

@@ -27,7 +27,9 @@ std::vector<std::string> told(const std::string& program) {
         if (step.kind == StepKind::output) out.push_back("out" + port + (step.with_motion ? " moving" : ""));
         if (step.kind == StepKind::input) out.push_back("in" + port);
         if (step.kind == StepKind::move)
-            out.push_back(step.move.kind == MoveKind::dwell ? "wait " + number(step.move.seconds) : "X" + number(step.move.end[0]) + (step.overridable ? "" : " as written"));
+            out.push_back(step.move.kind == MoveKind::dwell
+                              ? "wait " + number(step.move.seconds)
+                              : "X" + number(step.move.end[0]) + (step.overridable ? "" : " as written"));
     }
     return out;
 }
@@ -36,12 +38,15 @@ std::vector<std::string> told(const std::string& program) {
 
 TEST(GcodePorts, OutputsKeepTheirPlaceBetweenTheMoves) {
     EXPECT_THAT(told("M62 P0\nG1 X1\nM63 P63 G1 X2\nM64 P2\nM65 P3 G0 X3\nM67 E0 Q-1.5\nM68 E1 Q2.25\nG1 X4"),
-                ElementsAre("out P0 1 moving", "X1", "out P63 0 moving", "X2", "out P2 1", "out P3 0", "X3", "out E0 -1.5 moving", "out E1 2.25", "X4"));
-    EXPECT_THAT(told("#1 = 5\nM64 P[#1 + 1]\nM68 E#1 Q[-#1 / 4]\nG0 X1"), ElementsAre("out P6 1", "out E5 -1.25", "X1"));
+                ElementsAre("out P0 1 moving", "X1", "out P63 0 moving", "X2", "out P2 1", "out P3 0", "X3",
+                            "out E0 -1.5 moving", "out E1 2.25", "X4"));
+    EXPECT_THAT(told("#1 = 5\nM64 P[#1 + 1]\nM68 E#1 Q[-#1 / 4]\nG0 X1"),
+                ElementsAre("out P6 1", "out E5 -1.25", "X1"));
 }
 
 TEST(GcodePorts, OutputsKeepTheirPlaceBesideAContour) {
-    EXPECT_THAT(told("G41.1 D2\nG1 X10\nM62 P1\nX20\nM65 P1 X30\nG40 G1 X40"), ElementsAre("X10", "out P1 1 moving", "X20", "out P1 0", "X30", "X40"));
+    EXPECT_THAT(told("G41.1 D2\nG1 X10\nM62 P1\nX20\nM65 P1 X30\nG40 G1 X40"),
+                ElementsAre("X10", "out P1 1 moving", "X20", "out P1 0", "X30", "X40"));
 }
 
 TEST(GcodePorts, AnInputThatNothingIsConnectedToIsOff) {
@@ -49,7 +54,9 @@ TEST(GcodePorts, AnInputThatNothingIsConnectedToIsOff) {
     EXPECT_THAT(told("#5399 = 7\nM66 E3 L0 Q9\nG0 X[#5399 + 10]"), ElementsAre("in E3 0", "X10"));
     EXPECT_THAT(told("M66 P1 L4 Q9\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10")) << "it is off already";
     for (const char* wait : {"L1", "L2", "L3"})
-        EXPECT_THAT(told(std::string("M66 P1 Q2.5 ") + wait + "\nG0 X[#5399 + 10]"), ElementsAre("wait 2.5", "in P1 -1", "X9")) << wait;
+        EXPECT_THAT(told(std::string("M66 P1 Q2.5 ") + wait + "\nG0 X[#5399 + 10]"),
+                    ElementsAre("wait 2.5", "in P1 -1", "X9"))
+            << wait;
 }
 
 TEST(GcodePorts, SayWhetherTheMachineStandsStillForThem) {
@@ -61,28 +68,29 @@ TEST(GcodePorts, SayWhetherTheMachineStandsStillForThem) {
 }
 
 TEST(GcodePorts, AreRefusedWithTheirPlace) {
-    const Refused rows[] = {{"M62", 1, "P word missing: M62 needs the number of its output; write e.g. M62 P0"},
-                            {"M65 P64", 5, "the number of an output, from 0 to 63"},
-                            {"M64 P1.5", 5, "an integer"},
-                            {"M63 P-1", 5, "negative"},
-                            {"M62 P1 M63 P1", 8, "exclude each other"},
-                            {"M62 P1 Q3", 8, "nothing on this line uses"},
-                            {"M67 P1 Q1", 1, "E word missing: M67 needs the number of its output; write e.g. M67 E0 Q2.5"},
-                            {"M68 E1", 1, "Q word missing: M68 needs the value"},
-                            {"M67 E-1 Q1", 5, "from 0 to 63"},
-                            {"M66", 1, "P word missing: M66 needs the number of its input"},
-                            {"M66 P1 E1", 8, "one input"},
-                            {"M66 P1 L5 Q1", 8, "from 0 to 4"},
-                            {"M66 P1 L3", 1, "Q word missing: M66 waits for at most Q seconds"},
-                            {"M66 P1 L3 Q0", 11, "which must be above 0"},
-                            {"M66 P1 L3 Q-1", 11, "negative"},
-                            {"M66 E1 L3 Q1", 8, "nobody can wait for an analog input"},
-                            {"G4 P1 M62", 4, "both use the P word"},
-                            {"M62 P1 G64", 5, "both use the P word"},
-                            {"M67 E1 G83 X1 Z-1 R1 Q2 F9", 22, "both use the Q word"},
-                            {"G0 X1 E5", 7, "there is no extruder"},
-                            {"G0 X1e3", 4, "no exponent"},
-                            {"M64 P1 P2", 8, "second P word"}};
+    const Refused rows[] = {
+        {"M62", 1, "P word missing: M62 needs the number of its output; write e.g. M62 P0"},
+        {"M65 P64", 5, "the number of an output, from 0 to 63"},
+        {"M64 P1.5", 5, "an integer"},
+        {"M63 P-1", 5, "negative"},
+        {"M62 P1 M63 P1", 8, "exclude each other"},
+        {"M62 P1 Q3", 8, "nothing on this line uses"},
+        {"M67 P1 Q1", 1, "E word missing: M67 needs the number of its output; write e.g. M67 E0 Q2.5"},
+        {"M68 E1", 1, "Q word missing: M68 needs the value"},
+        {"M67 E-1 Q1", 5, "from 0 to 63"},
+        {"M66", 1, "P word missing: M66 needs the number of its input"},
+        {"M66 P1 E1", 8, "one input"},
+        {"M66 P1 L5 Q1", 8, "from 0 to 4"},
+        {"M66 P1 L3", 1, "Q word missing: M66 waits for at most Q seconds"},
+        {"M66 P1 L3 Q0", 11, "which must be above 0"},
+        {"M66 P1 L3 Q-1", 11, "negative"},
+        {"M66 E1 L3 Q1", 8, "nobody can wait for an analog input"},
+        {"G4 P1 M62", 4, "both use the P word"},
+        {"M62 P1 G64", 5, "both use the P word"},
+        {"M67 E1 G83 X1 Z-1 R1 Q2 F9", 22, "both use the Q word"},
+        {"G0 X1 E5", 7, "there is no extruder"},
+        {"G0 X1e3", 4, "no exponent"},
+        {"M64 P1 P2", 8, "second P word"}};
     expect_refused("", rows);
     EXPECT_FALSE(Interpreter(testing::machine()).line("M62 P1", 1)) << "a sender's line";
     EXPECT_FALSE(Interpreter(testing::machine()).line("G0 X1 E1", 1));
@@ -101,12 +109,15 @@ TEST(GcodeOverrides, CountForTheMovesThatAreNotWithoutThem) {
     EXPECT_THAT(told("M49\nG1 X1\nM2\nG1 X2"), ElementsAre("X1 as written")) << "the end gives them back";
     EXPECT_THAT(told("M70 M49\nG1 X1\nM72\nG1 X2"), ElementsAre("X1 as written", "X2"));
     EXPECT_THAT(told("o1 sub\nM73 M49\nG1 X1\no1 endsub\no1 call\nX2"), ElementsAre("X1 as written", "X2"));
-    EXPECT_THAT(told("M49\nG41.1 D2\nG1 X10\nM48\nX20\nG40 G1 X30"), ElementsAre("X10 as written", "X20", "X30")) << "moves that waited are those of their lines";
-    EXPECT_THAT(told("M49 G81 X1 Z-1 R1"), ElementsAre("X0 as written", "X1 as written", "X1 as written", "X1 as written"));
+    EXPECT_THAT(told("M49\nG41.1 D2\nG1 X10\nM48\nX20\nG40 G1 X30"), ElementsAre("X10 as written", "X20", "X30"))
+        << "moves that waited are those of their lines";
+    EXPECT_THAT(told("M49 G81 X1 Z-1 R1"),
+                ElementsAre("X0 as written", "X1 as written", "X1 as written", "X1 as written"));
 }
 
 TEST(GcodeOverrides, CanBeReadByTheProgram) {
-    const std::string read = "\nG0 X[#<_feed_override> + 2 * #<_speed_override> + 4 * #<_feed_hold> + 8 * #<_adaptive_feed>]";
+    const std::string read =
+        "\nG0 X[#<_feed_override> + 2 * #<_speed_override> + 4 * #<_feed_hold> + 8 * #<_adaptive_feed>]";
     const auto value = [&](const std::string& line) { return told(line + read).back(); };
     EXPECT_EQ(value(""), "X7");
     EXPECT_EQ(value("M49"), "X4 as written");

@@ -14,7 +14,8 @@ TEST(GcodeReferee, Rs274MovesAsWeDoInEveryProgramOfTheCorpus) {
     for (const std::string& name : names()) {
         const std::string theirs = compared(name, of_rs274(at, name, has_tools(name)));
         EXPECT_EQ(compared(name, printed(file_text(folder() + name + ".ngc"), {}, settings_of(name))), theirs) << name;
-        EXPECT_EQ(compared(name, file_text(folder() + name + ".canon")), theirs) << name << ".canon is not what rs274 prints";
+        EXPECT_EQ(compared(name, file_text(folder() + name + ".canon")), theirs)
+            << name << ".canon is not what rs274 prints";
     }
 }
 

@@ -18,7 +18,9 @@ inline bool is_installed() {
 /// A folder that goes when the test ends.
 class Folder {
   public:
-    Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("motionrack-rs274-{}", ::getpid())) { std::filesystem::create_directories(path_); }
+    Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("motionrack-rs274-{}", ::getpid())) {
+        std::filesystem::create_directories(path_);
+    }
     ~Folder() { std::filesystem::remove_all(path_); }
     std::string file(const std::string& name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
@@ -46,7 +48,8 @@ inline std::string table_in_inches() {
 /// What rs274 prints for a file in the folder.
 inline std::string of_rs274(const Folder& at, const std::string& name, bool tools) {
     std::filesystem::remove(at.file("x.var"));
-    const std::string command = fmt::format("cd '{}' && timeout 120 rs274 -g {} -v x.var {}.ngc 2>&1", at.path().string(), tools ? "-t tools.tbl" : "", name);
+    const std::string command = fmt::format("cd '{}' && timeout 120 rs274 -g {} -v x.var {}.ngc 2>&1",
+                                            at.path().string(), tools ? "-t tools.tbl" : "", name);
     std::FILE* pipe = ::popen(command.c_str(), "r");
     std::string out;
     char part[4096];

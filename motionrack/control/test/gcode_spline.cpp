@@ -53,7 +53,8 @@ std::vector<Spot> spots(const std::vector<Move>& moves, Spot from) {
             EXPECT_LT(std::fabs(sweep), M_PI / 2);
             const int count = 2 + static_cast<int>(std::fabs(sweep) * radius / 0.05);
             for (int i = 1; i < count; ++i)
-                out.push_back({c.x + radius * std::cos(begin + sweep * i / count), c.y + radius * std::sin(begin + sweep * i / count)});
+                out.push_back({c.x + radius * std::cos(begin + sweep * i / count),
+                               c.y + radius * std::sin(begin + sweep * i / count)});
         }
         out.push_back(to);
         from = to;
@@ -98,8 +99,8 @@ const char* const preamble = "G17 G21 G90 F600\n";
 RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
     const Spot start = {in_tenths(), in_tenths()}, end = {in_tenths(), in_tenths()};
     const Spot i = {in_tenths(), in_tenths()}, p = {in_tenths(), in_tenths()};
-    const auto program =
-        read(preamble + ("G0" + words("XY", {start.x, start.y})) + "\nG5" + words("XYIJPQ", {end.x, end.y, i.x, i.y, p.x, p.y}));
+    const auto program = read(preamble + ("G0" + words("XY", {start.x, start.y})) + "\nG5" +
+                              words("XYIJPQ", {end.x, end.y, i.x, i.y, p.x, p.y}));
     const std::array<Spot, 4> points = {start, Spot{start.x + i.x, start.y + i.y}, Spot{end.x + p.x, end.y + p.y}, end};
     RC_ASSERT(program.problems.empty());
     auto moves = program.moves();
@@ -115,7 +116,8 @@ RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
     double worst = 0;
     for (std::size_t k = 0; k < fine.size(); k += 29) {
         double best = 1e9;
-        for (std::size_t m = 0; m + 1 < driven.size(); ++m) best = std::min(best, to_segment(fine[k], driven[m], driven[m + 1]));
+        for (std::size_t m = 0; m + 1 < driven.size(); ++m)
+            best = std::min(best, to_segment(fine[k], driven[m], driven[m + 1]));
         worst = std::max(worst, best);
     }
     RC_ASSERT(worst <= spline_tolerance_mm + 1e-4);
@@ -148,7 +150,8 @@ TEST(GcodeSpline, QuadraticIsItsCubic) {
     const auto two = read(std::string(preamble) + "G1 X10 Y5\nG5 X40 Y5 I10 J20 P-10 Q20\n").moves();
     ASSERT_EQ(one.size(), two.size());
     for (std::size_t i = 0; i < one.size(); ++i)
-        for (const int axis : {0, 1}) EXPECT_NEAR(one[i].end[static_cast<std::size_t>(axis)], two[i].end[static_cast<std::size_t>(axis)], 1e-9);
+        for (const int axis : {0, 1})
+            EXPECT_NEAR(one[i].end[static_cast<std::size_t>(axis)], two[i].end[static_cast<std::size_t>(axis)], 1e-9);
 }
 
 TEST(GcodeSpline, InchesMeanTheSameCurve) {
@@ -159,9 +162,11 @@ TEST(GcodeSpline, InchesMeanTheSameCurve) {
 }
 
 TEST(GcodeSpline, CuspsLoopsStraightsAndHandlesOfNoLengthAreDriven) {
-    for (const char* line : {"G5 X40 Y0 I40 J40 P-40 Q40", "G5 X10 Y0 I60 J40 P-60 Q40", "G5 X40 Y0 I10 J0 P-10 Q0", "G5 X40 Y0 I0 J0 P0 Q0",
-                             "G5 X40 Y20 I0 J0 P-10 Q0", "G5 X40 Y20 I10 J0 P0 Q0", "G5 X40 Y0 I-20 J0 P20 Q0", "G5 X0 Y0 I60 J40 P-60 Q40",
-                             "G5 X40 Y0 I0.000001 J0 P0 Q0.000001", "G5 X0.0001 Y0 I0.0001 J0.0001 P0 Q0", "G5.1 X40 Y0 I-20 J0"}) {
+    for (const char* line :
+         {"G5 X40 Y0 I40 J40 P-40 Q40", "G5 X10 Y0 I60 J40 P-60 Q40", "G5 X40 Y0 I10 J0 P-10 Q0",
+          "G5 X40 Y0 I0 J0 P0 Q0", "G5 X40 Y20 I0 J0 P-10 Q0", "G5 X40 Y20 I10 J0 P0 Q0", "G5 X40 Y0 I-20 J0 P20 Q0",
+          "G5 X0 Y0 I60 J40 P-60 Q40", "G5 X40 Y0 I0.000001 J0 P0 Q0.000001", "G5 X0.0001 Y0 I0.0001 J0.0001 P0 Q0",
+          "G5.1 X40 Y0 I-20 J0"}) {
         const auto program = read(std::string(preamble) + line);
         ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
         EXPECT_LT(program.moves().size(), 300u) << line;

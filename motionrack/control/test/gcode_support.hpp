@@ -61,7 +61,8 @@ struct Refused {
     const char* says;
 };
 
-inline void expect_refused(const std::string& preamble, std::span<const Refused> rows, const Settings& settings = machine()) {
+inline void expect_refused(const std::string& preamble, std::span<const Refused> rows,
+                           const Settings& settings = machine()) {
     for (const Refused& row : rows) {
         SCOPED_TRACE(row.program);
         const std::string text = preamble + row.program;

@@ -12,7 +12,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Ends of a program's moves where every probing move finds its edge at `edge` of Z, if that is on its way; the machine stands 0.1 behind it.
+/// Ends of a program's moves where every probing move finds its edge at `edge` of Z, if that is on its way; the machine
+/// stands 0.1 behind it.
 std::vector<Point> probing_at(std::string_view text, double edge) {
     Reader reader(text, testing::machine());
     std::vector<Point> ends;
@@ -53,7 +54,9 @@ TEST(GcodeTogether, AProbeDecidesWhichLinesComeNext) {
 }
 
 TEST(GcodeTogether, AMissTellsOfTheEndInTheProgramsOwnUnitsAndTurn) {
-    const auto ends = probing_at("G21 G90 F100\nG10 L2 P1 X3 R90\nG20 F4\nG38.3 Z-1\nG21\nG10 L2 P1 X0 R0\nG0 X#5063 Y[#5062 * 25.4] Z#5070\n", -100);
+    const auto ends = probing_at(
+        "G21 G90 F100\nG10 L2 P1 X3 R90\nG20 F4\nG38.3 Z-1\nG21\nG10 L2 P1 X0 R0\nG0 X#5063 Y[#5062 * 25.4] Z#5070\n",
+        -100);
     ASSERT_EQ(ends.size(), 2u);
     EXPECT_NEAR(ends[1][0], -1, 1e-12);
     EXPECT_NEAR(ends[1][1], 3, 1e-12);  // machine X 0 is 3 mm along the turned Y
@@ -61,7 +64,9 @@ TEST(GcodeTogether, AMissTellsOfTheEndInTheProgramsOwnUnitsAndTurn) {
 }
 
 TEST(GcodeTogether, TheCutterGoesBesideATurnedContourAsBesideOneThatIsNot) {
-    const std::string contour = "G0 X-20 Y-20 Z5\nG41.1 D6\nG1 X0 Y0\nG1 X30\nG1 X30 Z-1\nG2 X50 Y20 J20 I0\nG3 X60 Y30 R10\nG1 X0 Y60 Z2\nG1 Y10\nG40 G0 X-20 Y0\n";
+    const std::string contour =
+        "G0 X-20 Y-20 Z5\nG41.1 D6\nG1 X0 Y0\nG1 X30\nG1 X30 Z-1\nG2 X50 Y20 J20 I0\nG3 X60 Y30 R10\nG1 X0 Y60 Z2\nG1 "
+        "Y10\nG40 G0 X-20 Y0\n";
     const auto plain = testing::read("G21 G90 F100\n" + contour).moves();
     const auto turned = testing::read("G21 G90 F100\nG10 L2 P1 X7 Y-2 R37\n" + contour).moves();
     ASSERT_EQ(plain.size(), turned.size());
@@ -75,7 +80,8 @@ TEST(GcodeTogether, TheCutterGoesBesideATurnedContourAsBesideOneThatIsNot) {
         EXPECT_EQ(turned[i].end[2], plain[i].end[2]);
     }
     EXPECT_THAT(problem_of("G10 L2 P1 R30\nG18 G41.1 D2\n"), HasSubstr("in G17 only"));
-    EXPECT_THAT(problem_of("G10 L2 P1 R30\nG17 G41.1 D2\nG1 X9 F9\nG10 L2 P1 R3\n"), HasSubstr("cutter compensation is on"));
+    EXPECT_THAT(problem_of("G10 L2 P1 R30\nG17 G41.1 D2\nG1 X9 F9\nG10 L2 P1 R3\n"),
+                HasSubstr("cutter compensation is on"));
 }
 
 TEST(GcodeTogether, ACurveTurnsWithItsWorkSystem) {
@@ -91,14 +97,20 @@ TEST(GcodeTogether, ACurveTurnsWithItsWorkSystem) {
 }
 
 TEST(GcodeTogether, ModesThatComeBackWaitForTheCutter) {
-    EXPECT_THAT(problem_of("G21 G90 F100\nM70\nG55\nG41.1 D4\nG1 X20\nM72\n"), HasSubstr("the work offset cannot change"));
-    EXPECT_THAT(problem_of("G20\no1 sub\nM73\nG21 F100 G41.1 D4\nG1 X20\no1 endsub\no1 call\nM2\n"), HasSubstr("M73 brings back"));
-    EXPECT_EQ(problem_of("G21 G90 F100\no1 sub\nM73\nG61 F50 G41.1 D4\nG1 X20\nX40\no1 endsub\no1 call\nG40\nM2\n"), "");
+    EXPECT_THAT(problem_of("G21 G90 F100\nM70\nG55\nG41.1 D4\nG1 X20\nM72\n"),
+                HasSubstr("the work offset cannot change"));
+    EXPECT_THAT(problem_of("G20\no1 sub\nM73\nG21 F100 G41.1 D4\nG1 X20\no1 endsub\no1 call\nM2\n"),
+                HasSubstr("M73 brings back"));
+    EXPECT_EQ(problem_of("G21 G90 F100\no1 sub\nM73\nG61 F50 G41.1 D4\nG1 X20\nX40\no1 endsub\no1 call\nG40\nM2\n"),
+              "");
     EXPECT_THAT(problem_of("M61 Q1\nG41.1 D4\nM61 Q2\n"), HasSubstr("M61"));
 }
 
 TEST(GcodeTogether, WhatWaitsAtTheEndOfAWalkIsDriven) {
-    const auto moves = testing::read("G21 G90 F100\no1 repeat [3]\nG91 G41.1 D4\nG1 X20\nG1 X10\nG40\nG1 Y-10\no1 endrepeat\nG42.1 D2\nG1 X20\no2 if [1]\nG1 X5\no2 endif").moves();
+    const auto moves = testing::read(
+                           "G21 G90 F100\no1 repeat [3]\nG91 G41.1 D4\nG1 X20\nG1 X10\nG40\nG1 Y-10\no1 "
+                           "endrepeat\nG42.1 D2\nG1 X20\no2 if [1]\nG1 X5\no2 endif")
+                           .moves();
     ASSERT_EQ(moves.size(), 11u);
     EXPECT_EQ(moves.back().end[0], 115);
 }

@@ -1,12 +1,13 @@
-// Turning cycles G70 .. G72.2: what they cut and what not, by a work piece that is turned here in numbers; and what is refused.
+// Turning cycles G70 .. G72.2: what they cut and what not, by a work piece that is turned here in numbers; and what is
+// refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <optional>
 #include <motionrack/control/gcode/cutter.hpp>
 #include <motionrack/control/gcode/planar.hpp>
+#include <optional>
 
 #include "gcode_support.hpp"
 
@@ -31,7 +32,8 @@ std::vector<ContourPiece> random_contour(bool arcs, double widest) {
         piece.from = at;
         piece.line = i + 1;
         const bool after_upright = !out.empty() && out.back().to.first == out.back().from.first;
-        const double wide = !after_upright && *rc::gen::inRange(0, 4) == 0 ? 0 : *rc::gen::inRange(30, 100) * widest / 100;
+        const double wide =
+            !after_upright && *rc::gen::inRange(0, 4) == 0 ? 0 : *rc::gen::inRange(30, 100) * widest / 100;
         const double high = *rc::gen::inRange(0, 40);
         piece.to = {at.first + wide, wide > 0 && *rc::gen::inRange(0, 3) == 0 ? at.second : high};
         if (arcs && wide > 0 && *rc::gen::inRange(0, 3) == 0) {  // a bulge or a groove that goes one way
@@ -68,7 +70,8 @@ std::optional<double> height_at(Planar from, Planar to, std::int32_t turns, Plan
 double contour_at(const std::vector<ContourPiece>& contour, double along) {
     double height = -1e9;
     for (const ContourPiece& piece : contour)
-        if (const auto here = height_at(piece.from, piece.to, piece.turns, piece.centre, along)) height = std::max(height, *here);
+        if (const auto here = height_at(piece.from, piece.to, piece.turns, piece.centre, along))
+            height = std::max(height, *here);
     return height;
 }
 
@@ -81,7 +84,8 @@ double distance_to(const ContourPiece& piece, Planar p) {
     const Planar out = p - piece.centre;
     const double radius = length(piece.from - piece.centre);
     const double sense = piece.turns;
-    const bool beside = sense * cross(piece.from - piece.centre, out) >= 0 && sense * cross(out, piece.to - piece.centre) >= 0;
+    const bool beside =
+        sense * cross(piece.from - piece.centre, out) >= 0 && sense * cross(out, piece.to - piece.centre) >= 0;
     if (beside && length(out) > near) return std::fabs(length(out) - radius);
     return std::min(length(p - piece.from), length(p - piece.to));
 }
@@ -94,7 +98,8 @@ double distance_to(const std::vector<ContourPiece>& contour, Planar p) {
 
 /// Above the contour or on it. Where it is upright, its lower side counts: a tool may stand there.
 bool is_above(const std::vector<ContourPiece>& contour, Planar p) {
-    return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - near || distance_to(contour, p) <= rough;
+    return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - near ||
+           distance_to(contour, p) <= rough;
 }
 
 struct Moved {
@@ -148,7 +153,8 @@ double left_at(const std::vector<Moved>& moves, std::size_t count, double along)
     for (std::size_t i = 0; i < count; ++i) {
         const Moved& one = moves[i];
         if (one.move.kind == MoveKind::traverse) continue;
-        if (const auto here = height_at(one.from, one.move.to, one.move.turns, one.move.centre, along)) height = std::min(height, *here);
+        if (const auto here = height_at(one.from, one.move.to, one.move.turns, one.move.centre, along))
+            height = std::min(height, *here);
     }
     return height;
 }
@@ -167,8 +173,8 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
     if (!fault.empty()) RC_DISCARD("no room");
     RC_ASSERT(!moves.empty());
     const double begin = contour.front().from.first + plan.distance, end = contour.back().to.first - plan.distance;
-    // The levels begin on the line from the start to where the path beside the contour begins. Where the contour goes down at once, that
-    // lies past its first corner, and the line leads over the corner at less than D.
+    // The levels begin on the line from the start to where the path beside the contour begins. Where the contour goes
+    // down at once, that lies past its first corner, and the line leads over the corner at less than D.
     std::vector<ContourPiece> beside;
     RC_ASSERT(beside_contour(contour, plan.distance, beside) == "");
     const ContourPiece way_in = {plan.start, beside.front().from};
@@ -178,7 +184,9 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
             const Planar p = moves[i].at((k + 0.37) / 13);
             RC_ASSERT(distance_to(contour, p) >= (p.first < way_in.to.first ? over_corner : plan.distance) - rough);
             RC_ASSERT(is_above(contour, p));
-            if (p.first <= begin + near || p.first >= end - near || std::fabs(moves[i].move.to.first - moves[i].from.first) < near) continue;
+            if (p.first <= begin + near || p.first >= end - near ||
+                std::fabs(moves[i].move.to.first - moves[i].from.first) < near)
+                continue;
             const double left = left_at(moves, i, p.first);
             if (moves[i].move.kind == MoveKind::traverse)
                 RC_ASSERT(p.second >= left - rough);
@@ -261,7 +269,8 @@ RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStart
 }
 
 /// G70 in two passes along a contour that is given in its view.
-void expect_finished_above(const std::vector<ContourPiece>& contour, Planar start, double distance, double end_distance) {
+void expect_finished_above(const std::vector<ContourPiece>& contour, Planar start, double distance,
+                           double end_distance) {
     TurningPlan plan;
     plan.code = 700;
     plan.start = start;
@@ -271,22 +280,33 @@ void expect_finished_above(const std::vector<ContourPiece>& contour, Planar star
     std::vector<Moved> moves;
     ASSERT_EQ(cut({}, plan, contour, moves), "");
     for (const Moved& one : moves)
-        for (int k = 0; k <= 12; ++k) EXPECT_TRUE(is_above(contour, one.at(k / 12.0))) << one.at(k / 12.0).first << " " << one.at(k / 12.0).second;
+        for (int k = 0; k <= 12; ++k)
+            EXPECT_TRUE(is_above(contour, one.at(k / 12.0)))
+                << one.at(k / 12.0).first << " " << one.at(k / 12.0).second;
 }
 
 TEST(GcodeTurning, FinishingComesBackOverABulgeThatEndsWhereItBegan) {
     expect_finished_above({{{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1}}, {-2, top}, 0, 0);
 }
 
-// Beside the contour the groove ends a little past its half circle, because its bulge begins within the tolerance of that.
+// Beside the contour the groove ends a little past its half circle, because its bulge begins within the tolerance of
+// that.
 TEST(GcodeTurning, FinishingComesBackOverABulgeBehindAGrooveThatItNearlyTouches) {
-    expect_finished_above({{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}}, {-2, top}, 0, 0.2);
+    expect_finished_above(
+        {{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}},
+        {-2, top}, 0, 0.2);
 }
 
 TEST(GcodeTurning, FinishingComesBackOverABulgeThatIsHigherThanTheStart) {
     expect_finished_above({{{0, 1}, {20, 1}, -1, {10, 1}, 0, false, 1}}, {-2, 5}, 0, 0);
-    expect_finished_above({{{0, 1}, {10, 20}, 0, {}, 0, false, 1}, {{10, 20}, {20, 20}, 0, {}, 0, false, 2}, {{20, 20}, {30, 30}, 0, {}, 0, false, 3}}, {-2, 5}, 0, 0);
-    expect_finished_above({{{0, 10}, {10, 20}, 0, {}, 0, false, 1}, {{10, 20}, {12, 0}, 0, {}, 0, false, 2}, {{12, 0}, {20, 0}, 0, {}, 0, false, 3}}, {15, 12}, 0.5, 0);
+    expect_finished_above({{{0, 1}, {10, 20}, 0, {}, 0, false, 1},
+                           {{10, 20}, {20, 20}, 0, {}, 0, false, 2},
+                           {{20, 20}, {30, 30}, 0, {}, 0, false, 3}},
+                          {-2, 5}, 0, 0);
+    expect_finished_above({{{0, 10}, {10, 20}, 0, {}, 0, false, 1},
+                           {{10, 20}, {12, 0}, 0, {}, 0, false, 2},
+                           {{12, 0}, {20, 0}, 0, {}, 0, false, 3}},
+                          {15, 12}, 0.5, 0);
 }
 
 TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
@@ -332,9 +352,12 @@ TEST(GcodeTurning, TheMachineStandsAtTheEndAndModesAreThoseOfTheProgram) {
 }
 
 TEST(GcodeTurning, AreRefusedWithTheirPlace) {
-    const std::string before = "G21 G18 G90 F600\no1 sub\nG0 X10 Z2\nG1 Z-30\nX20\no1 endsub\no2 sub\nG0 X10 Z2\nG1 Z-30\nG1 X20 Z-20\no2 endsub\no3 sub\no3 endsub\n"
-                               "o4 sub\nG0 X10 Z2\nG1 Z-10\nX5 Z-12\nZ-13\nX10 Z-15\no4 endsub\no5 sub\nG2 X10 Z2 R9\nG1 Z9\no5 endsub\no6 sub\nG0 X1 Z1\nG1 Z-9 Y2\no6 endsub\n"
-                               "o7 sub\nG0 X1 Z1\nG71 Q1\no7 endsub\nG0 X25 Z5\n";
+    const std::string before =
+        "G21 G18 G90 F600\no1 sub\nG0 X10 Z2\nG1 Z-30\nX20\no1 endsub\no2 sub\nG0 X10 Z2\nG1 Z-30\nG1 X20 Z-20\no2 "
+        "endsub\no3 sub\no3 endsub\n"
+        "o4 sub\nG0 X10 Z2\nG1 Z-10\nX5 Z-12\nZ-13\nX10 Z-15\no4 endsub\no5 sub\nG2 X10 Z2 R9\nG1 Z9\no5 endsub\no6 "
+        "sub\nG0 X1 Z1\nG1 Z-9 Y2\no6 endsub\n"
+        "o7 sub\nG0 X1 Z1\nG71 Q1\no7 endsub\nG0 X25 Z5\n";
     const Refused rows[] = {{"G71", 1, "Q word missing: G71 needs the number of the sub"},
                             {"G71 Q1.5", 5, "an integer"},
                             {"G71 Q9", 1, "o9 call: this program has no o9 sub"},
@@ -370,7 +393,9 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
         const char* line;
         int at;
         const char* says;
-    } inside[] = {{"G71 Q5", 22, "leads straight to where it begins"}, {"G71 Q6", 27, "X and Z only"}, {"G71 Q7", 31, "within the contour of another cycle"}};
+    } inside[] = {{"G71 Q5", 22, "leads straight to where it begins"},
+                  {"G71 Q6", 27, "X and Z only"},
+                  {"G71 Q7", 31, "within the contour of another cycle"}};
     for (const auto& row : inside) {
         const auto read = testing::read(before + row.line);
         ASSERT_EQ(read.problems.size(), 1u) << row.line;
@@ -382,7 +407,8 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
 }
 
 TEST(GcodeTurning, ARefusedCycleMovesNothingAndTheProgramGoesOn) {
-    const auto read = testing::read("G18 F600\no1 sub\nG0 X10 Z2\nG1 Z-700\nX20\no1 endsub\nG0 X25 Z5\nG71 Q1\nG0 X1\n");
+    const auto read =
+        testing::read("G18 F600\no1 sub\nG0 X10 Z2\nG1 Z-700\nX20\no1 endsub\nG0 X25 Z5\nG71 Q1\nG0 X1\n");
     ASSERT_EQ(read.problems.size(), 1u);
     EXPECT_THAT(read.problems[0].message, ::testing::HasSubstr("G71 leads to Z = -700 mm"));
     EXPECT_EQ(read.problems[0].place.line, 8);

@@ -34,7 +34,8 @@ TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
         Point at = at_ten;
         double length = 0;
         for (int i = 0; i < 7; ++i) {
-            const Move part = part_of(whole, path, path.length * i / 7, i == 6 ? path.length : path.length * (i + 1) / 7);
+            const Move part =
+                part_of(whole, path, path.length * i / 7, i == 6 ? path.length : path.length * (i + 1) / 7);
             const Geometry piece = geometry_of(part, at);
             EXPECT_NEAR(piece.length, path.length / 7, 1e-9);
             for (double s = 0; s <= 1; s += 0.25) {

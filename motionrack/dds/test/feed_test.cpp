@@ -41,8 +41,8 @@ TEST(RemoteFeed, GivesACardEachGoodFrameOnce) {
     EXPECT_TRUE(feed.stale());
     Sample damaged = sample_of(source_named(1), 12);
     damaged.frame.counts[0] ^= 1;
-    network.waiting = {sample_of(source_named(1), 10), sample_of(source_named(1), 11), damaged, sample_of(source_named(2), 11), sample_of(source_named(1), 11),
-                       sample_of(source_named(1), 13)};
+    network.waiting = {sample_of(source_named(1), 10), sample_of(source_named(1), 11), damaged,
+                       sample_of(source_named(2), 11), sample_of(source_named(1), 11), sample_of(source_named(1), 13)};
     EXPECT_EQ(feed.give(milliseconds(7), card), 3);
     EXPECT_EQ(feed.give(milliseconds(7), card), 0);
     EXPECT_EQ(given, (std::vector<std::uint32_t>{10, 11, 13}));
@@ -125,7 +125,8 @@ TEST(Opening, RefusesWrongNamesDomainsAndPeriods) {
     EXPECT_FALSE(Publisher::open({"a", -1, period, period}));
     const auto fast = Publisher::open({"a", 0, period, nanoseconds(1)});
     ASSERT_FALSE(fast);
-    EXPECT_EQ(fast.error().message, "The pace of the frames is 0.001 us, but must be 1 us to 60 s. Nothing was published.");
+    EXPECT_EQ(fast.error().message,
+              "The pace of the frames is 0.001 us, but must be 1 us to 60 s. Nothing was published.");
 }
 
 }  // namespace

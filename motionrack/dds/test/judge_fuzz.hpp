@@ -1,5 +1,5 @@
-// Any samples at any time: a stream of numbers becomes samples, good, nearly good and senseless, and what must always hold of a judge is
-// checked after each. For libFuzzer and the room's own test.
+// Any samples at any time: a stream of numbers becomes samples, good, nearly good and senseless, and what must always
+// hold of a judge is checked after each. For libFuzzer and the room's own test.
 //
 //   used is sound    what is used has the right CRCs, the expected N and the source that has the bus; what is held is what was used last
 //   all is counted   every sample is in one count
@@ -50,15 +50,33 @@ class Run {
 
     void damage(Sample& s) {
         switch (feed_.below(9)) {
-            case 0: s.format = feed_.word(); break;
-            case 1: s.frame.words = feed_.word(); break;
-            case 2: s.frame.counts[feed_.below(255)] ^= feed_.word(); break;
-            case 3: s.frame.time = static_cast<std::int64_t>(wide()); break;
-            case 4: s.frame.sequence = static_cast<std::uint32_t>(wide()); break;
-            case 5: s.period = static_cast<std::int64_t>(wide()); break;
-            case 6: s.pace = static_cast<std::int64_t>(wide()); break;
-            case 7: s.source.host[feed_.below(64)] = static_cast<char>(feed_.word()); break;
-            default: s.source.id[feed_.below(16)] = static_cast<std::uint8_t>(feed_.word()); break;
+            case 0:
+                s.format = feed_.word();
+                break;
+            case 1:
+                s.frame.words = feed_.word();
+                break;
+            case 2:
+                s.frame.counts[feed_.below(255)] ^= feed_.word();
+                break;
+            case 3:
+                s.frame.time = static_cast<std::int64_t>(wide());
+                break;
+            case 4:
+                s.frame.sequence = static_cast<std::uint32_t>(wide());
+                break;
+            case 5:
+                s.period = static_cast<std::int64_t>(wide());
+                break;
+            case 6:
+                s.pace = static_cast<std::int64_t>(wide());
+                break;
+            case 7:
+                s.source.host[feed_.below(64)] = static_cast<char>(feed_.word());
+                break;
+            default:
+                s.source.id[feed_.below(16)] = static_cast<std::uint8_t>(feed_.word());
+                break;
         }
     }
 
@@ -68,11 +86,14 @@ class Run {
             judge_.look(now_);
         else
             take(next_sample());
-        if (judge_.joined()) must(!judge_.stale() == (now_ - used_at_ <= 2 * judge_.pace()), "it is stale two paces after the last frame");
+        if (judge_.joined())
+            must(!judge_.stale() == (now_ - used_at_ <= 2 * judge_.pace()),
+                 "it is stale two paces after the last frame");
         for (Event event; judge_.next_event(event);)
             for (const char c : sentence(event)) must(c >= ' ' && c <= '~', "a sentence can be printed");
         const Counts& c = judge_.counts();
-        must(c.received == c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed + c.wrong_words + c.other_source,
+        must(c.received == c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed +
+                               c.wrong_words + c.other_source,
              "every sample is counted once");
         must(judge_.others().size() <= FrameJudge::most_others, "a few others are kept");
     }
@@ -90,10 +111,12 @@ class Run {
             return;
         }
         used_at_ = now_;
-        must(sample.format == wire_format && sound(sample.frame) && sample.check == check_of(sample), "only what is sound is used");
+        must(sample.format == wire_format && sound(sample.frame) && sample.check == check_of(sample),
+             "only what is sound is used");
         must(same(judge_.frame(), sample.frame) && judge_.source() == sample.source, "what is used is held");
         const bool handed = had && !(sample.source == before);
-        must(c.restarts + c.takeovers == then.restarts + then.takeovers + (handed ? 1 : 0), "a change of source is counted");
+        must(c.restarts + c.takeovers == then.restarts + then.takeovers + (handed ? 1 : 0),
+             "a change of source is counted");
         if (handed) must(c.lost == then.lost, "nothing is lost between two sources");
     }
 

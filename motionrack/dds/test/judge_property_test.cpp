@@ -23,7 +23,8 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
         for (int c = 0; c < copies; ++c) arrivals.push_back({i + *rc::gen::element(0, 0, 0, 1, 5, 30), i});
     }
     RC_PRE(!arrivals.empty());
-    std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
+    std::stable_sort(arrivals.begin(), arrivals.end(),
+                     [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     FrameJudge judge;
     const Source source = source_named(1);
     Instant now{};
@@ -39,7 +40,9 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
         // What was there before the judge listened is late each time it comes.
         const bool known = arrival.number >= oldest, again = known && !seen.insert(arrival.number).second;
         duplicates += again ? 1 : 0;
-        const Verdict expected = again ? Verdict::duplicate : arrival.number > newest || judge.counts().received == 1 ? Verdict::used : Verdict::late;
+        const Verdict expected = again                                                     ? Verdict::duplicate
+                                 : arrival.number > newest || judge.counts().received == 1 ? Verdict::used
+                                                                                           : Verdict::late;
         RC_ASSERT(verdict == expected);
         newest = std::max(newest, arrival.number);
         RC_ASSERT(judge.frame().sequence == start + static_cast<std::uint32_t>(newest));
@@ -57,7 +60,8 @@ RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ())
     const int steps = *rc::gen::inRange(1, 300);
     for (int i = 0; i < steps; ++i) {
         const auto id = *rc::gen::element<std::uint8_t>(1, 1, 1, 2, 3);
-        Sample sample = sample_of(source_named(id), number += *rc::gen::element<std::uint32_t>(1, 1, 1, 0, 3, 0xFFFF'FFFD));
+        Sample sample =
+            sample_of(source_named(id), number += *rc::gen::element<std::uint32_t>(1, 1, 1, 0, 3, 0xFFFF'FFFD));
         const bool damaged = *rc::gen::element(false, false, true);
         if (damaged) sample.frame.counts[*rc::gen::inRange<std::size_t>(0, 6)] ^= 1U << *rc::gen::inRange(0, 32);
         now += *rc::gen::element(period, period, Duration{0}, milliseconds(700));
@@ -71,16 +75,21 @@ RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ())
             RC_ASSERT(judge.source() == sample.source);
             RC_ASSERT(!judge.stale());
         }
-        if (had && !(judge.source() == before)) RC_ASSERT(judge.counts().restarts + judge.counts().takeovers == followed + 1);
+        if (had && !(judge.source() == before))
+            RC_ASSERT(judge.counts().restarts + judge.counts().takeovers == followed + 1);
     }
     const Counts& c = judge.counts();
-    RC_ASSERT(c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed + c.wrong_words + c.other_source == c.received);
+    RC_ASSERT(c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed + c.wrong_words +
+                  c.other_source ==
+              c.received);
 }
 
 TEST(Pacer, AddsNothingUp) {
     Pacer pacer(1, period);
     const Instant begin = whole_seconds(77);
-    for (int i = 0; i < 100'000; ++i) ASSERT_EQ(pacer.due(milliseconds(1) + i * period, begin + (i == 0 ? Duration{0} : i * period + Duration{3})), begin + i * period);
+    for (int i = 0; i < 100'000; ++i)
+        ASSERT_EQ(pacer.due(milliseconds(1) + i * period, begin + (i == 0 ? Duration{0} : i * period + Duration{3})),
+                  begin + i * period);
     EXPECT_EQ(pacer.late(), 0u);
     EXPECT_EQ(pacer.worst(), Duration{3});
 }
@@ -108,12 +117,15 @@ TEST(Pacer, CountsLateFramesAndDoesNotCatchUpAfterASecond) {
 TEST(BusName, IsShortAndPlain) {
     for (const char* good : {"stage", "A-1_b", "7"}) EXPECT_TRUE(check_bus_name(good)) << good;
     EXPECT_TRUE(check_bus_name(std::string(64, 'x')));
-    for (const char* bad : {"", "a b", "*", "st?ge", "a/b", "a,b", "\xc3\xa4"}) EXPECT_FALSE(check_bus_name(bad)) << bad;
+    for (const char* bad : {"", "a b", "*", "st?ge", "a/b", "a,b", "\xc3\xa4"})
+        EXPECT_FALSE(check_bus_name(bad)) << bad;
     const auto long_name = check_bus_name(std::string(65, 'x'));
     ASSERT_FALSE(long_name);
-    EXPECT_EQ(long_name.error().message, "The bus name has 65 characters, but must have 1 to 64. Nothing was opened; choose another name.");
+    EXPECT_EQ(long_name.error().message,
+              "The bus name has 65 characters, but must have 1 to 64. Nothing was opened; choose another name.");
     EXPECT_EQ(check_bus_name("ab*d").error().message,
-              "Character 3 of the bus name is none of letters, digits, '_' and '-'. Nothing was opened; choose another name.");
+              "Character 3 of the bus name is none of letters, digits, '_' and '-'. Nothing was opened; choose another "
+              "name.");
 }
 
 TEST(Domain, Is0To232) {

@@ -52,7 +52,9 @@ TEST_F(Judging, CountsTheFramesThatAreMissing) {
     hear(10);
     EXPECT_EQ(hear(14), Verdict::used);
     EXPECT_EQ(judge.counts().lost, 3u);
-    EXPECT_EQ(told(EventKind::lost), "3 frames after number 10 did not come, 3 so far. The next one is used; nothing is made up for the others.");
+    EXPECT_EQ(
+        told(EventKind::lost),
+        "3 frames after number 10 did not come, 3 so far. The next one is used; nothing is made up for the others.");
 }
 
 TEST_F(Judging, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {

@@ -25,9 +25,11 @@ ChannelSettings keep_all() {
     if (decoder.count() != referee.count || decoder.up() != referee.up || decoder.down() != referee.down)
         return ::testing::AssertionFailure() << "counts " << decoder.count() << ", the referee's " << referee.count;
     if (decoder.illegal() != referee.illegal.size() || decoder.illegal_samples() != referee.illegal)
-        return ::testing::AssertionFailure() << decoder.illegal() << " illegal, the referee's " << referee.illegal.size();
+        return ::testing::AssertionFailure()
+               << decoder.illegal() << " illegal, the referee's " << referee.illegal.size();
     if (decoder.indexes() != referee.indexes.size() || decoder.index_events() != referee.indexes)
-        return ::testing::AssertionFailure() << decoder.indexes() << " indexes, the referee's " << referee.indexes.size();
+        return ::testing::AssertionFailure()
+               << decoder.indexes() << " indexes, the referee's " << referee.indexes.size();
     if (decoder.samples() != referee.samples) return ::testing::AssertionFailure() << decoder.samples() << " samples";
     return ::testing::AssertionSuccess();
 }
@@ -51,17 +53,20 @@ TEST_P(WideDecoder, CountsBytesOfEveryLengthAndAlignmentAsTheReferee) {
     for (std::size_t size = 0; size <= 300; ++size)
         for (std::size_t start = 0; start < 64; start += 1 + size % 3) {
             const auto stream = random_lines(size * 64 + start, size + start);
-            const Lines lines{static_cast<int>(size % 8), static_cast<int>((size + 3) % 8), start % 2 == 0 ? -1 : static_cast<int>((size + 6) % 8)};
+            const Lines lines{static_cast<int>(size % 8), static_cast<int>((size + 3) % 8),
+                              start % 2 == 0 ? -1 : static_cast<int>((size + 6) % 8)};
             ChannelDecoder decoder(keep_all(), kernels());
             decoder.bytes(stream.data() + start, size, lines);
-            ASSERT_TRUE(agrees(decoder, refereed(stream.data() + start, size, lines))) << kernels().name << " " << size << " from " << start;
+            ASSERT_TRUE(agrees(decoder, refereed(stream.data() + start, size, lines)))
+                << kernels().name << " " << size << " from " << start;
         }
 }
 
 TEST_P(WideDecoder, CountsPlanesOfEveryLengthAsTheReferee) {
     for (std::size_t size = 0; size <= 300; ++size) {
         const auto stream = random_lines(size, size);
-        const auto a = plane_of(stream.data(), size, 0), b = plane_of(stream.data(), size, 1), z = plane_of(stream.data(), size, 2);
+        const auto a = plane_of(stream.data(), size, 0), b = plane_of(stream.data(), size, 1),
+                   z = plane_of(stream.data(), size, 2);
         ChannelDecoder decoder(keep_all(), kernels()), without(keep_all(), kernels());
         decoder.planes(a.data(), b.data(), z.data(), size);
         without.planes(a.data(), b.data(), nullptr, size);
@@ -103,7 +108,8 @@ RC_GTEST_PROP(WideDecoderStreams, AreTheSameInBlocksOfAnyLength, ()) {
         for (const std::size_t size : sizes) {
             const std::uint8_t* const from = stream.data() + at;
             bytes.bytes(from, size, lines);
-            planes.planes(plane_of(from, size, 0).data(), plane_of(from, size, 1).data(), plane_of(from, size, 2).data(), size);
+            planes.planes(plane_of(from, size, 0).data(), plane_of(from, size, 1).data(),
+                          plane_of(from, size, 2).data(), size);
             four.bytes(from, size);
             at += size;
         }

@@ -38,7 +38,7 @@ int write(mr_rack* rack, const char* card, std::uint32_t address, Word value) {
 
 }  // namespace
 
-// ---- racks and time ---------------------------------------------------------------------------------------------------
+// ---- racks and time
 
 int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
     if (out != nullptr) *out = nullptr;
@@ -73,24 +73,37 @@ uint64_t mr_now_ns(const mr_rack* rack) {
     return 0;
 }
 
-// ---- the bus ----------------------------------------------------------------------------------------------------------
+// ---- the bus
 
-int mr_read8(mr_rack* rack, const char* card, uint32_t port, uint8_t* value) { return read(rack, card, port, value); }
-int mr_write8(mr_rack* rack, const char* card, uint32_t port, uint8_t value) { return write(rack, card, port, value); }
-int mr_read16(mr_rack* rack, const char* card, uint32_t offset, uint16_t* value) { return read(rack, card, offset, value); }
-int mr_write16(mr_rack* rack, const char* card, uint32_t offset, uint16_t value) { return write(rack, card, offset, value); }
-int mr_read32(mr_rack* rack, const char* card, uint32_t offset, uint32_t* value) { return read(rack, card, offset, value); }
-int mr_write32(mr_rack* rack, const char* card, uint32_t offset, uint32_t value) { return write(rack, card, offset, value); }
+int mr_read8(mr_rack* rack, const char* card, uint32_t port, uint8_t* value) {
+    return read(rack, card, port, value);
+}
+int mr_write8(mr_rack* rack, const char* card, uint32_t port, uint8_t value) {
+    return write(rack, card, port, value);
+}
+int mr_read16(mr_rack* rack, const char* card, uint32_t offset, uint16_t* value) {
+    return read(rack, card, offset, value);
+}
+int mr_write16(mr_rack* rack, const char* card, uint32_t offset, uint16_t value) {
+    return write(rack, card, offset, value);
+}
+int mr_read32(mr_rack* rack, const char* card, uint32_t offset, uint32_t* value) {
+    return read(rack, card, offset, value);
+}
+int mr_write32(mr_rack* rack, const char* card, uint32_t offset, uint32_t value) {
+    return write(rack, card, offset, value);
+}
 
 int mr_peek(mr_rack* rack, const char* card, const char* register_name, uint64_t* value) {
     return fetched({{rack, no_rack}, {card, no_card}, {register_name, no_name}, {value, no_value}}, value,
                    [&] { return rack->session->peek(card, register_name); });
 }
 
-// ---- wires and parts --------------------------------------------------------------------------------------------------
+// ---- wires and parts
 
 int mr_wire_get(mr_rack* rack, const char* wire, double* value) {
-    return fetched({{rack, no_rack}, {wire, no_name}, {value, no_value}}, value, [&] { return rack->session->wire(wire); });
+    return fetched({{rack, no_rack}, {wire, no_name}, {value, no_value}}, value,
+                   [&] { return rack->session->wire(wire); });
 }
 
 int mr_wire_set(mr_rack* rack, const char* wire, double value) {
@@ -112,7 +125,7 @@ int mr_fault(mr_rack* rack, const char* fault, const char* target) {
                    [&] { return rack->session->fault(fault, target); });
 }
 
-// ---- the whole world --------------------------------------------------------------------------------------------------
+// ---- the whole world
 
 int mr_snapshot(mr_rack* rack, mr_rack** copy) {
     if (copy != nullptr) *copy = nullptr;

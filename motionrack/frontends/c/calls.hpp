@@ -1,4 +1,5 @@
-// What the functions of the C interface share: pointers are checked, errors become codes and sentences, nothing is thrown out.
+// What the functions of the C interface share: pointers are checked, errors become codes and sentences, nothing is
+// thrown out.
 #pragma once
 
 #include <motionrack/c.h>
@@ -32,11 +33,15 @@ inline int failed(int code, std::string_view sentence) noexcept {
 
 inline int code_of(Trouble trouble) {
     switch (trouble) {
-        case Trouble::bad_input: return MR_BAD_CALL;
-        case Trouble::refused: return MR_REFUSED;
-        case Trouble::io: return MR_IO;
+        case Trouble::bad_input:
+            return MR_BAD_CALL;
+        case Trouble::refused:
+            return MR_REFUSED;
+        case Trouble::io:
+            return MR_IO;
         case Trouble::machine:
-        case Trouble::stopped: break;
+        case Trouble::stopped:
+            break;
     }
     return MR_INTERNAL;
 }

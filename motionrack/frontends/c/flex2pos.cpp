@@ -1,7 +1,6 @@
 // motionrack/flex2pos.h over the function library of the IOFLEX02.
-#include <motionrack/flex2pos.h>
-
 #include <fmt/format.h>
+#include <motionrack/flex2pos.h>
 
 #include <algorithm>
 #include <array>
@@ -11,9 +10,10 @@
 namespace io = motionrack::ioflex02;
 using namespace motionrack::c;
 
-static_assert(Flex_Ok == io::Flex_Ok && Flex_ErrCfg == io::Flex_ErrCfg && Flex_ErrDevice == io::Flex_ErrDevice && Flex_ErrProject == io::Flex_ErrProject);
-static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io::cRes) && cResNm == static_cast<int>(io::cResNm) &&
-              cResNmSig == static_cast<int>(io::cResNmSig));
+static_assert(Flex_Ok == io::Flex_Ok && Flex_ErrCfg == io::Flex_ErrCfg && Flex_ErrDevice == io::Flex_ErrDevice &&
+              Flex_ErrProject == io::Flex_ErrProject);
+static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io::cRes) &&
+              cResNm == static_cast<int>(io::cResNm) && cResNmSig == static_cast<int>(io::cResNmSig));
 
 struct flex2pos {
     explicit flex2pos(motionrack::sim::VirtualPort& port) : library(port, port) {}
@@ -22,7 +22,8 @@ struct flex2pos {
 
 namespace {
 
-constexpr const char* no_object = "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
+constexpr const char* no_object =
+    "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
 
 /// What `call` gives, or 0: for no object, and if there is no memory for a sentence.
 template <class Call>
@@ -46,18 +47,22 @@ extern "C" {
 
 int flex2pos_open(mr_rack* rack, flex2pos** flex) {
     if (flex != nullptr) *flex = nullptr;
-    return guarded({{rack, no_rack}, {flex, "There is no place for the object: it is a null pointer. Nothing was done."}},
-                   [&]() -> motionrack::Result<void> {
-                       for (const auto& card : rack->session->rack().cards()) {
-                           if (card->map().name != io::card_map().name) continue;
-                           *flex = new flex2pos(*card->port());
-                           return {};
-                       }
-                       return motionrack::fail(motionrack::Trouble::bad_input, "The rack has no card of type ioflex02. Nothing was done.");
-                   });
+    return guarded(
+        {{rack, no_rack}, {flex, "There is no place for the object: it is a null pointer. Nothing was done."}},
+        [&]() -> motionrack::Result<void> {
+            for (const auto& card : rack->session->rack().cards()) {
+                if (card->map().name != io::card_map().name) continue;
+                *flex = new flex2pos(*card->port());
+                return {};
+            }
+            return motionrack::fail(motionrack::Trouble::bad_input,
+                                    "The rack has no card of type ioflex02. Nothing was done.");
+        });
 }
 
-void flex2pos_close(flex2pos* flex) { delete flex; }
+void flex2pos_close(flex2pos* flex) {
+    delete flex;
+}
 
 int flex2pos_Init(flex2pos* flex, uint16_t Addr) {
     if (flex == nullptr) return failed(MR_BAD_CALL, no_object), Flex_ErrDevice;
@@ -65,8 +70,12 @@ int flex2pos_Init(flex2pos* flex, uint16_t Addr) {
     return flex->library.Result;
 }
 
-int flex2pos_Result(const flex2pos* flex) { return flex != nullptr ? flex->library.Result : Flex_ErrDevice; }
-const char* flex2pos_why(const flex2pos* flex) { return flex != nullptr ? flex->library.why().c_str() : no_object; }
+int flex2pos_Result(const flex2pos* flex) {
+    return flex != nullptr ? flex->library.Result : Flex_ErrDevice;
+}
+const char* flex2pos_why(const flex2pos* flex) {
+    return flex != nullptr ? flex->library.why().c_str() : no_object;
+}
 
 uint8_t flex2pos_GetIdent(flex2pos* flex) {
     return with(flex, [](io::Flex2Pos& library) { return library.GetIdent(); });
@@ -83,11 +92,18 @@ int32_t flex2pos_ReadTimeClr(flex2pos* flex) {
 int32_t flex2pos_ReadPosition(flex2pos* flex, int axis) {
     return with(flex, [&](io::Flex2Pos& library) {
         switch (axis) {
-            case 0: return library.ReadPosition0();
-            case 1: return library.ReadPosition1();
-            case 2: return library.ReadPosition2();
-            case 3: return library.ReadPosition3();
-            default: return failed(MR_BAD_CALL, fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis)), int32_t{0};
+            case 0:
+                return library.ReadPosition0();
+            case 1:
+                return library.ReadPosition1();
+            case 2:
+                return library.ReadPosition2();
+            case 3:
+                return library.ReadPosition3();
+            default:
+                return failed(MR_BAD_CALL,
+                              fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis)),
+                       int32_t{0};
         }
     });
 }
@@ -120,11 +136,12 @@ void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3) {
     with(flex, [&](io::Flex2Pos& library) {
         for (const int command : {Cmd0, Cmd1, Cmd2, Cmd3})
             if (command < cNop || command > cResNmSig) {
-                failed(MR_BAD_CALL, fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", command));
+                failed(MR_BAD_CALL,
+                       fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", command));
                 return;
             }
-        library.WriteCmd(static_cast<io::tIOFlexCmd>(Cmd0), static_cast<io::tIOFlexCmd>(Cmd1), static_cast<io::tIOFlexCmd>(Cmd2),
-                         static_cast<io::tIOFlexCmd>(Cmd3));
+        library.WriteCmd(static_cast<io::tIOFlexCmd>(Cmd0), static_cast<io::tIOFlexCmd>(Cmd1),
+                         static_cast<io::tIOFlexCmd>(Cmd2), static_cast<io::tIOFlexCmd>(Cmd3));
     });
 }
 

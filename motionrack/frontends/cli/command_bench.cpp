@@ -74,7 +74,8 @@ int bench(const BenchOptions& options) {
     }
     fmt::print("{}, median of {} runs\n", name, options.runs);
     fmt::print("  reading and checking   {:>12.0f} lines/s ({} lines)\n", static_cast<double>(lines) / read, lines);
-    fmt::print("  read, plan and run     {:>12.0f} simulated seconds a second ({:.3f} s in {:.4f} s)\n", simulated / ran, simulated, ran);
+    fmt::print("  read, plan and run     {:>12.0f} simulated seconds a second ({:.3f} s in {:.4f} s)\n",
+               simulated / ran, simulated, ran);
     fmt::print("  kernel                 {:>12.0f} events/s\n", static_cast<double>(events) / ran);
     return exit_done;
 }

@@ -7,9 +7,9 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/rack/job.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/counted.hpp>
+#include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -28,15 +28,20 @@ struct CheckOptions {
 };
 
 nlohmann::json json_of(const Error& error) {
-    return {{"file", error.file}, {"line", error.place.line}, {"column", error.place.column}, {"message", error.message}};
+    return {
+        {"file", error.file}, {"line", error.place.line}, {"column", error.place.column}, {"message", error.message}};
 }
 
-bool is_rack_file(const std::string& path) { return path.size() > 5 && path.substr(path.size() - 5) == ".toml"; }
+bool is_rack_file(const std::string& path) {
+    return path.size() > 5 && path.substr(path.size() - 5) == ".toml";
+}
 
 int check_rack(const std::string& path, nlohmann::json* json) {
     const rack::RackReading reading = rack::read_rack_file(path);
     if (json) {
-        nlohmann::json entry = {{"file", path}, {"ok", reading.errors.empty()}, {"errors", nlohmann::json::array()},
+        nlohmann::json entry = {{"file", path},
+                                {"ok", reading.errors.empty()},
+                                {"errors", nlohmann::json::array()},
                                 {"warnings", nlohmann::json::array()}};
         for (const Error& error : reading.errors) entry["errors"].push_back(json_of(error));
         for (const Error& warning : reading.warnings) entry["warnings"].push_back(json_of(warning));
@@ -45,8 +50,10 @@ int check_rack(const std::string& path, nlohmann::json* json) {
         for (const Error& warning : reading.warnings) print_warning(warning.text());
         for (const Error& error : reading.errors) print_error(error.text());
         if (reading.config)
-            fmt::print("{}: good. {}: {}, {}, {}.\n", path, reading.config->name, counted(reading.config->cards.size(), "card"),
-                       counted(reading.config->axes.size(), "axis", "axes"), counted(reading.config->wires.size(), "wire"));
+            fmt::print("{}: good. {}: {}, {}, {}.\n", path, reading.config->name,
+                       counted(reading.config->cards.size(), "card"),
+                       counted(reading.config->axes.size(), "axis", "axes"),
+                       counted(reading.config->wires.size(), "wire"));
         else
             fmt::print("{}: {}.\n", path, counted(reading.errors.size(), "error"));
     }
@@ -63,7 +70,8 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     if (!settings) return code;
     const control::gcode::Check check = control::gcode::check_program(*text, *settings, most_problems, path);
     if (json) {
-        nlohmann::json entry = {{"file", path}, {"ok", check.problems.empty()}, {"lines", check.lines}, {"moves", check.moves},
+        nlohmann::json entry = {{"file", path},           {"ok", check.problems.empty()},
+                                {"lines", check.lines},   {"moves", check.moves},
                                 {"dwells", check.dwells}, {"errors", nlohmann::json::array()}};
         for (const auto& problem : check.problems) {
             nlohmann::json one = json_of(problem);
@@ -79,7 +87,8 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
                counted(check.dwells, "dwell"));
     for (const rack::RackAxis& axis : config->axes) {
         const auto i = static_cast<std::size_t>(axis.index());
-        fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.least[i], check.greatest[i], axis.unit());
+        fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.least[i], check.greatest[i],
+                   axis.unit());
     }
     fmt::print(" (machine coordinates).\n");
     return exit_done;
@@ -112,9 +121,11 @@ int check(const CheckOptions& options) {
 
 void add_check(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand("check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
+    CLI::App* command = app.add_subcommand(
+        "check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
     command->add_option("FILE", options->files, "rack files and part programs")->required();
-    command->add_option("--rack", options->rack, "rack file that the programs are checked against (default: the built-in router)");
+    command->add_option("--rack", options->rack,
+                        "rack file that the programs are checked against (default: the built-in router)");
     add_reading_options(*command, options->reading);
     command->add_flag("--json", options->json, "print the findings as JSON");
     command->footer("Example: motionrack check my.toml part.ngc --rack my.toml");
@@ -128,12 +139,16 @@ void add_canon(CLI::App& app, Action& chosen) {
         bool machine = false, numbered = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("canon", "Print the canonical calls of a part program, one a line, as LinuxCNC's rs274 -g does");
+    CLI::App* command = app.add_subcommand(
+        "canon", "Print the canonical calls of a part program, one a line, as LinuxCNC's rs274 -g does");
     command->add_option("FILE", options->file, "part program ('-': standard input)")->required();
-    command->add_option("--rack", options->rack, "rack file whose axes, limits and start count (default: six axes without limits, at 0)");
-    command->add_flag("--machine", options->machine, "machine coordinates in mm and degrees instead of the program's own");
+    command->add_option("--rack", options->rack,
+                        "rack file whose axes, limits and start count (default: six axes without limits, at 0)");
+    command->add_flag("--machine", options->machine,
+                      "machine coordinates in mm and degrees instead of the program's own");
     add_reading_options(*command, options->reading, "-t,--tools");
-    command->add_flag("--numbered", options->numbered, "with the two columns of numbers that rs274 prints before each call");
+    command->add_flag("--numbered", options->numbered,
+                      "with the two columns of numbers that rs274 prints before each call");
     command->footer("Example: motionrack canon part.ngc | grep ARC_FEED");
     command->callback([options, &chosen] {
         chosen = [options]() -> int {
@@ -152,8 +167,8 @@ void add_canon(CLI::App& app, Action& chosen) {
             if (options->rack.empty()) settings->limits = boundless();
             settings->probe = true;  // what a probing move means does not depend on the rack
             const auto done = gcode::print_canon(
-                *text, *settings, how,
-                [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);
+                *text, *settings, how, [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); },
+                options->file);
             return done ? static_cast<int>(exit_done) : report(done.error());
         };
     });
@@ -184,7 +199,9 @@ void add_new(CLI::App& app, Action& chosen) {
             if (!options->force) {
                 if (std::FILE* there = std::fopen(options->file.c_str(), "rb")) {
                     std::fclose(there);
-                    print_error(fmt::format("{} is there already and was left as it is; choose another name or add --force.", options->file));
+                    print_error(
+                        fmt::format("{} is there already and was left as it is; choose another name or add --force.",
+                                    options->file));
                     return exit_refused;
                 }
             }

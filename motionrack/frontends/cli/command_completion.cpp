@@ -25,7 +25,8 @@ std::string bash_script(const CLI::App& app) {
             names += (names.empty() ? "" : " ") + inner->get_name();
             add_options(*inner);
         }
-        cases += fmt::format("        {}) words=\"{}\"{} ;;\n", command->get_name(), options.empty() ? "" : options.substr(1),
+        cases += fmt::format("        {}) words=\"{}\"{} ;;\n", command->get_name(),
+                             options.empty() ? "" : options.substr(1),
                              names.empty() ? "" : fmt::format(" names=\"{}\"", names));
     }
     return fmt::format(
@@ -39,7 +40,8 @@ std::string bash_script(const CLI::App& app) {
         "    case $word in\n"
         "        -*) COMPREPLY=($(compgen -W \"$words\" -- \"$word\")) ;;\n"
         "        *) if [ \"$COMP_CWORD\" -eq 1 ]; then COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
-        "           elif [ \"$COMP_CWORD\" -eq 2 ] && [ -n \"$names\" ]; then COMPREPLY=($(compgen -W \"$names\" -- \"$word\"))\n"
+        "           elif [ \"$COMP_CWORD\" -eq 2 ] && [ -n \"$names\" ]; then COMPREPLY=($(compgen -W \"$names\" -- "
+        "\"$word\"))\n"
         "           else COMPREPLY=($(compgen -f -- \"$word\")); fi ;;\n"
         "    esac\n"
         "}}\n"

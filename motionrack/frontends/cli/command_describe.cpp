@@ -1,4 +1,5 @@
-// describe: a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what a served machine can be asked.
+// describe: a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what
+// a served machine can be asked.
 #include <fmt/format.h>
 
 #include <memory>
@@ -47,11 +48,15 @@ int describe(const DescribeOptions& options) {
     }
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
-        print_error(fmt::format("There is nothing called '{}' to describe; there are: rack-file, marking-job, sweep-file, api, {}.", options.what, card_types()));
+        print_error(fmt::format(
+            "There is nothing called '{}' to describe; there are: rack-file, marking-job, sweep-file, api, {}.",
+            options.what, card_types()));
         return exit_usage;
     }
     const CardMap& map = kind->map();
-    fmt::print("{}", options.json ? describe_json(map) : options.markdown ? describe_markdown(map) : describe_text(map));
+    fmt::print("{}", options.json       ? describe_json(map)
+                     : options.markdown ? describe_markdown(map)
+                                        : describe_text(map));
     return exit_done;
 }
 
@@ -59,8 +64,14 @@ int describe(const DescribeOptions& options) {
 
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
-    CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what a served machine can be asked");
-    command->add_option("CARD", options->what, fmt::format("a card type ({}), rack-file, marking-job, sweep-file, or api (OpenAPI)", card_types()))->required();
+    CLI::App* command = app.add_subcommand("describe",
+                                           "Tell a card's registers, commands, states and pins, the keys of a rack "
+                                           "file, marking job or sweep file, or what a served machine can be asked");
+    command
+        ->add_option(
+            "CARD", options->what,
+            fmt::format("a card type ({}), rack-file, marking-job, sweep-file, or api (OpenAPI)", card_types()))
+        ->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
     command->footer("Example: motionrack describe mcx314 | less");

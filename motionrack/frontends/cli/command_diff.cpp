@@ -27,7 +27,8 @@ int compare(const DiffOptions& options) {
     const Result<trace::Diff> diff = trace::diff_files(options.a, options.b, settings);
     progress.clear();
     if (!diff) return report(diff.error());
-    fmt::print("{}", options.json ? trace::diff_json(*diff, options.a, options.b) + "\n" : trace::diff_text(*diff, options.a, options.b));
+    fmt::print("{}", options.json ? trace::diff_json(*diff, options.a, options.b) + "\n"
+                                  : trace::diff_text(*diff, options.a, options.b));
     std::fflush(stdout);
     if (!options.json)
         for (const std::string& note : diff->notes) print_warning(note);
@@ -42,13 +43,16 @@ int compare(const DiffOptions& options) {
 
 void add_diff(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DiffOptions>();
-    CLI::App* command = app.add_subcommand("diff", "Find where two recordings differ first: HDF5, VCD or CSV, two of the same kind");
+    CLI::App* command =
+        app.add_subcommand("diff", "Find where two recordings differ first: HDF5, VCD or CSV, two of the same kind");
     command->add_option("A", options->a, "one recording")->required();
     command->add_option("B", options->b, "the other one")->required();
     command->add_flag("--json", options->json, "print everything as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
-    command->footer("Example: motionrack diff before.h5 after.h5\n"
-                    "Exit code 0: the same; 6: they differ. Names, seconds, ns and ticks of 100 ps of each signal's first difference are told.");
+    command->footer(
+        "Example: motionrack diff before.h5 after.h5\n"
+        "Exit code 0: the same; 6: they differ. Names, seconds, ns and ticks of 100 ps of each signal's first "
+        "difference are told.");
     command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }
 

@@ -5,7 +5,8 @@
 namespace motionrack::cli {
 
 void add_frames(CLI::App& app, Action& chosen) {
-    CLI::App* group = app.add_subcommand("frames", "Frames of a grating bus: those of a rack, live; over the network to other computers, and from them");
+    CLI::App* group = app.add_subcommand(
+        "frames", "Frames of a grating bus: those of a rack, live; over the network to other computers, and from them");
     group->require_subcommand(0, 1);
     add_frames_show(*group, chosen);
     add_frames_publish(*group, chosen);

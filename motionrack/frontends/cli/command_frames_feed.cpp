@@ -69,8 +69,9 @@ std::uint64_t run(const FeedOptions& options, rack::Rack& rack, const rack::Fram
 
 int feed_rack(const FeedOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e8) || !(options.every > 0 && options.every <= 1e6)) {
-        print_error(fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e8, and more than 0 up to 1e6. Nothing was opened.", options.seconds,
-                                options.every));
+        print_error(fmt::format(
+            "--for is {:g} s and --every {:g} s; they must be 0 to 1e8, and more than 0 up to 1e6. Nothing was opened.",
+            options.seconds, options.every));
         return exit_usage;
     }
     int code = exit_done;
@@ -78,7 +79,9 @@ int feed_rack(const FeedOptions& options) {
     if (!config) return code;
     rack::Rack rack(*config);
     if (remote_cards(rack).empty()) {
-        print_error("The rack has no remote card; give it a section [card.NAME] with type = \"grating_bus\" and role = \"remote\". Nothing was opened.");
+        print_error(
+            "The rack has no remote card; give it a section [card.NAME] with type = \"grating_bus\" and role = "
+            "\"remote\". Nothing was opened.");
         return exit_usage;
     }
     if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
@@ -95,9 +98,11 @@ int feed_rack(const FeedOptions& options) {
     const std::uint64_t given = run(options, rack, watch, feed);
     if (stop_asked.load()) return exit_stopped;
     if (given != 0) return exit_done;
-    print_error(fmt::format("No frame came on bus '{}' that the rack's cards could take. Look whether a publisher runs under this bus name, and whether it "
-                            "has {} scales.",
-                            options.bus.name, settings.judge.words));
+    print_error(
+        fmt::format("No frame came on bus '{}' that the rack's cards could take. Look whether a publisher runs under "
+                    "this bus name, and whether it "
+                    "has {} scales.",
+                    options.bus.name, settings.judge.words));
     return exit_machine;
 }
 
@@ -105,14 +110,17 @@ int feed_rack(const FeedOptions& options) {
 
 void add_frames_feed(CLI::App& frames, Action& chosen) {
     auto options = std::make_shared<FeedOptions>();
-    CLI::App* command = frames.add_subcommand("feed", "Run a rack whose remote cards hold the frames that another computer publishes, in real time");
+    CLI::App* command = frames.add_subcommand(
+        "feed", "Run a rack whose remote cards hold the frames that another computer publishes, in real time");
     command->add_option("RACK", options->rack, "rack file with a card whose role is \"remote\"")->required();
     add_bus_options(*command, options->bus);
     command->add_option("--for", options->seconds, "end after so many seconds");
     command->add_option("--every", options->every, "seconds between two tables")->capture_default_str();
     command->add_flag("--json", options->json, "print the tables as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print no tables");
-    command->footer("Example: motionrack frames feed listeners.toml --bus stage\nCtrl-C ends it. Exit code 4: no frame came that the cards could take.");
+    command->footer(
+        "Example: motionrack frames feed listeners.toml --bus stage\nCtrl-C ends it. Exit code 4: no frame came that "
+        "the cards could take.");
     command->callback([options, &chosen] { chosen = [options] { return feed_rack(*options); }; });
 }
 

@@ -48,19 +48,27 @@ class RackFrames final : public dds::FrameSource {
 /// What the publisher did, and how well it kept its times.
 void tell(const dds::Publisher& publisher, const dds::Published& done, const PublishOptions& options) {
     if (options.json) {
-        const nlohmann::ordered_json out = {{"bus", options.bus.name},      {"id", publisher.source().id_text()}, {"sent", publisher.sent()},
-                                            {"refused", publisher.refused()}, {"late", done.late},                  {"slips", done.slips},
-                                            {"worst_late_ms", to_seconds(done.worst) * 1e3}, {"foreign_frames", publisher.foreign_frames()}};
+        const nlohmann::ordered_json out = {{"bus", options.bus.name},
+                                            {"id", publisher.source().id_text()},
+                                            {"sent", publisher.sent()},
+                                            {"refused", publisher.refused()},
+                                            {"late", done.late},
+                                            {"slips", done.slips},
+                                            {"worst_late_ms", to_seconds(done.worst) * 1e3},
+                                            {"foreign_frames", publisher.foreign_frames()}};
         fmt::print("{}\n", out.dump());
         return;
     }
     if (!options.quiet)
-        fmt::print("{} frames published on bus '{}', {} of them late, at worst by {:.3f} ms\n", publisher.sent(), options.bus.name, done.late,
-                   to_seconds(done.worst) * 1e3);
+        fmt::print("{} frames published on bus '{}', {} of them late, at worst by {:.3f} ms\n", publisher.sent(),
+                   options.bus.name, done.late, to_seconds(done.worst) * 1e3);
     if (done.slips != 0)
-        print_warning(fmt::format("The rack was more than a second behind real time {} times and did not catch up: the computer is too slow for --speed {:g}.",
-                                  done.slips, options.speed));
-    if (publisher.refused() != 0) print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
+        print_warning(
+            fmt::format("The rack was more than a second behind real time {} times and did not catch up: the computer "
+                        "is too slow for --speed {:g}.",
+                        done.slips, options.speed));
+    if (publisher.refused() != 0)
+        print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
 }
 
 /// Everything that runs while a rack publishes.
@@ -104,7 +112,8 @@ Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
     const rack::JobOutcome outcome = job.run();
     // Enough frames end the program on its way, as asked.
     const bool ended_here = enough && !publishing.outcome().stopped;
-    if (!outcome.ended && !(ended_here && outcome.ended.error().trouble == Trouble::stopped)) return tl::unexpected(outcome.ended.error());
+    if (!outcome.ended && !(ended_here && outcome.ended.error().trouble == Trouble::stopped))
+        return tl::unexpected(outcome.ended.error());
     return publishing.outcome();
 }
 
@@ -115,7 +124,11 @@ int publish_rack(Run& run) {
         auto loaded = load_program(options.program);
         if (!loaded) return report(loaded.error());
         const control::gcode::Settings settings = program_settings(run.rack.config(), loaded->name);
-        if (const int bad = print_problems(control::gcode::check_program(loaded->text, settings, most_problems_of_run, loaded->name), loaded->name); bad != exit_done) return bad;
+        if (const int bad = print_problems(
+                control::gcode::check_program(loaded->text, settings, most_problems_of_run, loaded->name),
+                loaded->name);
+            bad != exit_done)
+            return bad;
         program = std::move(*loaded);
     }
     bool conflict = false;
@@ -129,15 +142,17 @@ int publish_rack(Run& run) {
         std::fflush(stdout);
     };
     if (!options.json && !options.quiet)
-        fmt::print("bus {}: {}; {} positions every {:g} ms, Ctrl-C ends it\n", options.bus.name, run.publisher.source().text(),
-                   run.tap.card().settings().scales, to_seconds(run.settings.pace) * 1e3);
+        fmt::print("bus {}: {}; {} positions every {:g} ms, Ctrl-C ends it\n", options.bus.name,
+                   run.publisher.source().text(), run.tap.card().settings().scales,
+                   to_seconds(run.settings.pace) * 1e3);
     std::fflush(stdout);
     const Result<dds::Published> done = program ? publish_program(run, *program) : publish_standing(run);
     if (!done) return report(done.error());
     tell(run.publisher, *done, options);
     for (const std::string& fault : run.faults.not_done()) print_warning(fault);
     if (conflict) {
-        print_error("Another publisher was on the bus; listeners used only the frames of the one that they heard first.");
+        print_error(
+            "Another publisher was on the bus; listeners used only the frames of the one that they heard first.");
         return exit_machine;
     }
     return done->stopped ? exit_stopped : exit_done;
@@ -145,7 +160,9 @@ int publish_rack(Run& run) {
 
 int publish(const PublishOptions& options) {
     if (!(options.speed >= 1e-6 && options.speed <= 1e3) || !(options.seconds >= 0 && options.seconds <= 1e8)) {
-        print_error(fmt::format("--speed is {:g} and --for {:g} s; they must be 1e-6 to 1000 and 0 to 1e8. Nothing was published.", options.speed, options.seconds));
+        print_error(fmt::format(
+            "--speed is {:g} and --for {:g} s; they must be 1e-6 to 1000 and 0 to 1e8. Nothing was published.",
+            options.speed, options.seconds));
         return exit_usage;
     }
     if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
@@ -162,7 +179,8 @@ int publish(const PublishOptions& options) {
     settings.pace = from_seconds(to_seconds((*tap)->period()) / options.speed);
     settings.most = options.count;
     settings.stop = &stop_asked;
-    const auto publisher = dds::Publisher::open({options.bus.name, options.bus.domain, (*tap)->period(), settings.pace});
+    const auto publisher =
+        dds::Publisher::open({options.bus.name, options.bus.domain, (*tap)->period(), settings.pace});
     if (!publisher) return report(publisher.error());
     stop_on_signals();
     Run run{options, rack, **tap, **faults, **publisher, settings};
@@ -173,20 +191,25 @@ int publish(const PublishOptions& options) {
 
 void add_frames_publish(CLI::App& frames, Action& chosen) {
     auto options = std::make_shared<PublishOptions>();
-    CLI::App* command = frames.add_subcommand("publish", "Run a rack in real time and publish the frames of its grating bus");
+    CLI::App* command =
+        frames.add_subcommand("publish", "Run a rack in real time and publish the frames of its grating bus");
     command->add_option("RACK", options->rack, "rack file with a card of type grating_bus")->required();
-    command->add_option("PROGRAM", options->program, "part program that the rack's axes drive meanwhile; its end is the end");
+    command->add_option("PROGRAM", options->program,
+                        "part program that the rack's axes drive meanwhile; its end is the end");
     add_bus_options(*command, options->bus);
     command->add_option("--card", options->card, "the card whose frames are published (default: the bus' host)");
-    command->add_option("--speed", options->speed, "virtual seconds a second: 0.1 is ten times slower")->capture_default_str();
+    command->add_option("--speed", options->speed, "virtual seconds a second: 0.1 is ten times slower")
+        ->capture_default_str();
     command->add_option("--count", options->count, "end after so many frames");
     command->add_option("--for", options->seconds, "end after so many virtual seconds");
-    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: host.off=1@2s")->allow_extra_args(false);
+    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: host.off=1@2s")
+        ->allow_extra_args(false);
     command->add_flag("--json", options->json, "print what is noticed, and the end, as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print only what is wrong");
-    command->footer("Example: motionrack frames publish stage.toml --bus stage\n"
-                    "Example: motionrack frames publish stage.toml scan.ngc --bus stage --speed 0.1\n"
-                    "Ctrl-C ends it. Exit code 4: another publisher was on the bus.");
+    command->footer(
+        "Example: motionrack frames publish stage.toml --bus stage\n"
+        "Example: motionrack frames publish stage.toml scan.ngc --bus stage --speed 0.1\n"
+        "Ctrl-C ends it. Exit code 4: another publisher was on the bus.");
     command->callback([options, &chosen] { chosen = [options] { return publish(*options); }; });
 }
 

@@ -1,4 +1,5 @@
-// frames RACK: runs a rack with a grating bus and shows live what every card holds, who disturbs whom, and one frame as a picture.
+// frames RACK: runs a rack with a grating bus and shows live what every card holds, who disturbs whom, and one frame as
+// a picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,14 +31,18 @@ struct ShowOptions {
 class Screen {
   public:
     Screen(const rack::FrameWatch& watch, const ShowOptions& options)
-        : watch_(watch), options_(options), live_(is_terminal(1) && !options.json && !options.quiet), begun_(dds::monotonic_now()) {}
+        : watch_(watch),
+          options_(options),
+          live_(is_terminal(1) && !options.json && !options.quiet),
+          begun_(dds::monotonic_now()) {}
 
     /// The rack's time is `now`: shows it if it is time to.
     void look(Instant now) {
         if (now < next_) return;
         next_ = now + from_seconds(options_.every);
         if (options_.real_time)
-            while (!stop_asked.load() && dds::monotonic_now() < begun_ + now) dds::sleep_until(std::min(begun_ + now, dds::monotonic_now() + milliseconds(100)));
+            while (!stop_asked.load() && dds::monotonic_now() < begun_ + now)
+                dds::sleep_until(std::min(begun_ + now, dds::monotonic_now() + milliseconds(100)));
         if (live_) show(now);
     }
     void show(Instant now) {
@@ -83,7 +88,10 @@ int run_program(Show& show, const ShowOptions& options) {
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     const control::gcode::Settings settings = program_settings(show.rack.config(), program->name);
-    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, most_problems_of_run, program->name), program->name); bad != exit_done) return bad;
+    if (const int bad = print_problems(
+            control::gcode::check_program(program->text, settings, most_problems_of_run, program->name), program->name);
+        bad != exit_done)
+        return bad;
     rack::JobSettings job_settings;
     job_settings.program = program->text;
     job_settings.program_name = program->name;
@@ -115,14 +123,17 @@ int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options
         std::fflush(stdout);
         static constexpr std::size_t most_told = 12;
         const auto conditions = show.rack.kernel().conditions();
-        for (std::size_t i = 0; i < std::min(most_told, conditions.size()); ++i) print_warning(show.rack.describe(conditions[i]));
+        for (std::size_t i = 0; i < std::min(most_told, conditions.size()); ++i)
+            print_warning(show.rack.describe(conditions[i]));
         for (const std::string& fault : show.faults.not_done()) print_warning(fault);
-        if (conditions.size() > most_told) print_warning(fmt::format("{} more things were reported", conditions.size() - most_told));
+        if (conditions.size() > most_told)
+            print_warning(fmt::format("{} more things were reported", conditions.size() - most_told));
     }
     if (show.recorder) wrote(show.recorder->finish(), options.vcd);
     if (!options.picture.empty()) {
         const Result<std::string> picture = rack::frame_picture(show.rack.config());
-        wrote(picture ? write_text(options.picture, *picture) : Result<void>(tl::unexpected(picture.error())), options.picture);
+        wrote(picture ? write_text(options.picture, *picture) : Result<void>(tl::unexpected(picture.error())),
+              options.picture);
     }
     if (code != exit_done) return code;
     return frames_agree(watch) ? exit_done : exit_machine;
@@ -130,8 +141,9 @@ int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options
 
 int show_frames(const ShowOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e5) || !(options.every > 0 && options.every <= 1e3)) {
-        print_error(fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e5, and more than 0 up to 1000. Nothing was run.", options.seconds,
-                                options.every));
+        print_error(fmt::format(
+            "--for is {:g} s and --every {:g} s; they must be 0 to 1e5, and more than 0 up to 1000. Nothing was run.",
+            options.seconds, options.every));
         return exit_usage;
     }
     int code = exit_done;
@@ -139,7 +151,9 @@ int show_frames(const ShowOptions& options) {
     if (!config) return code;
     rack::Rack rack(*config);
     if (rack::grating_bus_of(rack) == nullptr) {
-        print_error("The rack has no card of type grating_bus, so there are no frames. Nothing was run. See examples/13_stage for one that has.");
+        print_error(
+            "The rack has no card of type grating_bus, so there are no frames. Nothing was run. See examples/13_stage "
+            "for one that has.");
         return exit_usage;
     }
     rack::FrameWatch watch(rack);
@@ -182,15 +196,19 @@ void add_frames_show(CLI::App& frames, Action& chosen) {
     frames.add_option("--for", options->seconds, "virtual seconds to run, without a program")->capture_default_str();
     frames.add_option("--every", options->every, "virtual seconds between two tables")->capture_default_str();
     frames.add_flag("--real-time", options->real_time, "not faster than the clock");
-    frames.add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: c2.late=40@0.01s, bus.hold=0@0.02s, c1.off@0.05s")->allow_extra_args(false);
+    frames
+        .add_option("--fault", options->faults,
+                    "break something on the way, NAME=VALUE@TIME: c2.late=40@0.01s, bus.hold=0@0.02s, c1.off@0.05s")
+        ->allow_extra_args(false);
     frames.add_option("--vcd", options->vcd, "write states and lines of all frames as a VCD file; keep --for short");
     frames.add_option("--picture", options->picture, "draw one frame as an SVG file");
     frames.add_flag("--json", options->json, "print the last table as JSON");
     frames.add_flag("-q,--quiet", options->quiet, "only the last table");
-    frames.footer("Example: motionrack frames stage.toml\n"
-                  "Example: motionrack frames stage.toml --for 0.002 --vcd frames.vcd --picture frame.svg\n"
-                  "Example: motionrack frames stage.toml --fault c1.off@0.05s\n"
-                  "Exit code 4: cards do not agree, frames were not true, data are stale, or there were conflicts.");
+    frames.footer(
+        "Example: motionrack frames stage.toml\n"
+        "Example: motionrack frames stage.toml --for 0.002 --vcd frames.vcd --picture frame.svg\n"
+        "Example: motionrack frames stage.toml --fault c1.off@0.05s\n"
+        "Exit code 4: cards do not agree, frames were not true, data are stale, or there were conflicts.");
     frames.callback([options, &chosen, &frames] {
         if (!frames.get_subcommands().empty()) return;
         chosen = [options] { return show_frames(*options); };

@@ -1,4 +1,5 @@
-// frames subscribe: shows what comes over the network from a grating bus, live, as lines, as JSON, and every frame as CSV.
+// frames subscribe: shows what comes over the network from a grating bus, live, as lines, as JSON, and every frame as
+// CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +49,8 @@ class CsvFile {
             begun_ = true;
         }
         fmt::format_to(end, "{:.7f},{},{:.10f}", to_seconds(since_start), frame.sequence, to_seconds(frame.instant()));
-        for (const std::uint32_t count : frame.positions()) fmt::format_to(end, ",{}", static_cast<std::int32_t>(count));
+        for (const std::uint32_t count : frame.positions())
+            fmt::format_to(end, ",{}", static_cast<std::int32_t>(count));
         row_ += '\n';
         if (std::fwrite(row_.data(), 1, row_.size(), file_) != row_.size()) good_ = false;
     }
@@ -61,7 +63,8 @@ class CsvFile {
 
   private:
     Result<void> broken() const {
-        return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path_, std::strerror(errno)));
+        return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path_,
+                                             std::strerror(errno)));
     }
     std::FILE* file_ = nullptr;
     std::string path_, row_;
@@ -71,7 +74,8 @@ class CsvFile {
 /// What is on the screen, or goes into a pipe.
 class Display {
   public:
-    Display(const SubscribeOptions& options, Instant start) : options_(options), start_(start), live_(!options.json && !options.quiet && is_terminal(1)) {}
+    Display(const SubscribeOptions& options, Instant start)
+        : options_(options), start_(start), live_(!options.json && !options.quiet && is_terminal(1)) {}
 
     void events(dds::FrameJudge& judge) {
         for (dds::Event event; judge.next_event(event);) {
@@ -81,9 +85,12 @@ class Display {
                 continue;
             }
             wipe();
-            const bool news = event.kind == dds::EventKind::joined || event.kind == dds::EventKind::fresh || event.kind == dds::EventKind::conflict_over;
-            if (!news) print_warning(dds::sentence(event));
-            else if (!options_.quiet) fmt::print(stderr, "{}\n", dds::sentence(event));
+            const bool news = event.kind == dds::EventKind::joined || event.kind == dds::EventKind::fresh ||
+                              event.kind == dds::EventKind::conflict_over;
+            if (!news)
+                print_warning(dds::sentence(event));
+            else if (!options_.quiet)
+                fmt::print(stderr, "{}\n", dds::sentence(event));
         }
     }
     void status(const dds::Subscriber& subscriber, Instant now) {
@@ -117,17 +124,21 @@ class Display {
 int ending(const SubscribeOptions& options, const dds::FrameJudge& judge, bool enough) {
     if (stop_asked.load()) return exit_stopped;
     if (judge.counts().used == 0) {
-        print_error(fmt::format("No frame came on bus '{}' in {:g} s ({} samples were received). Look whether a publisher runs under this bus name and in "
-                                "DDS domain {}, and which network CYCLONEDDS_URI chooses.",
-                                options.bus.name, options.seconds, judge.counts().received, options.bus.domain));
+        print_error(
+            fmt::format("No frame came on bus '{}' in {:g} s ({} samples were received). Look whether a publisher runs "
+                        "under this bus name and in "
+                        "DDS domain {}, and which network CYCLONEDDS_URI chooses.",
+                        options.bus.name, options.seconds, judge.counts().received, options.bus.domain));
         return exit_machine;
     }
     if (judge.counts().conflicts != 0) {
-        print_error(fmt::format("{} other publishers were on bus '{}'; their frames were not used.", judge.counts().conflicts, options.bus.name));
+        print_error(fmt::format("{} other publishers were on bus '{}'; their frames were not used.",
+                                judge.counts().conflicts, options.bus.name));
         return exit_machine;
     }
     if (!enough) {
-        print_error(fmt::format("{} frames came in {:g} s, but {} were asked for.", judge.counts().used, options.seconds, options.count));
+        print_error(fmt::format("{} frames came in {:g} s, but {} were asked for.", judge.counts().used,
+                                options.seconds, options.count));
         return exit_machine;
     }
     return exit_done;
@@ -168,7 +179,9 @@ int listen(const SubscribeOptions& options, dds::Subscriber& subscriber, CsvFile
 
 int subscribe(const SubscribeOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e8) || !(options.every >= 0 && options.every <= 1e6)) {
-        print_error(fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e8 and 0 to 1e6. Nothing was opened.", options.seconds, options.every));
+        print_error(
+            fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e8 and 0 to 1e6. Nothing was opened.",
+                        options.seconds, options.every));
         return exit_usage;
     }
     if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
@@ -188,19 +201,24 @@ int subscribe(const SubscribeOptions& options) {
 
 void add_frames_subscribe(CLI::App& frames, Action& chosen) {
     auto options = std::make_shared<SubscribeOptions>();
-    CLI::App* command = frames.add_subcommand("subscribe", "Listen to the frames that another computer publishes; it only listens");
+    CLI::App* command =
+        frames.add_subcommand("subscribe", "Listen to the frames that another computer publishes; it only listens");
     add_bus_options(*command, options->bus);
-    command->add_option("--scales", options->scales, "N that is expected; frames with another one are not used (default: N of the first frame)")
-        ->check(CLI::Range(1, grating_bus::most_scales))->option_text("1 .. 255");
+    command
+        ->add_option("--scales", options->scales,
+                     "N that is expected; frames with another one are not used (default: N of the first frame)")
+        ->check(CLI::Range(1, grating_bus::most_scales))
+        ->option_text("1 .. 255");
     command->add_option("--count", options->count, "end after so many frames");
     command->add_option("--for", options->seconds, "end after so many seconds");
     command->add_option("--every", options->every, "seconds between two states (default: 0.2 on a terminal, 1 else)");
     command->add_option("--csv", options->csv, "write every frame as a row");
     command->add_flag("--json", options->json, "print states and events as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print no states, only what is wrong");
-    command->footer("Example: motionrack frames subscribe --bus stage\n"
-                    "Example: motionrack frames subscribe --bus stage --count 5000 --csv frames.csv\n"
-                    "Ctrl-C ends it. Exit code 4: no frame came, fewer than asked for, or two publishers were on the bus.");
+    command->footer(
+        "Example: motionrack frames subscribe --bus stage\n"
+        "Example: motionrack frames subscribe --bus stage --count 5000 --csv frames.csv\n"
+        "Ctrl-C ends it. Exit code 4: no frame came, fewer than asked for, or two publishers were on the bus.");
     command->callback([options, &chosen] { chosen = [options] { return subscribe(*options); }; });
 }
 

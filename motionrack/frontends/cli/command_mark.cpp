@@ -1,4 +1,5 @@
-// mark JOB: marks a drawing on a simulated moving part with the virtual RTC5; what is on the part as a table and a picture.
+// mark JOB: marks a drawing on a simulated moving part with the virtual RTC5; what is on the part as a table and a
+// picture.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -36,17 +37,32 @@ nlohmann::ordered_json json_of(const mark::Marked& m) {
                                   {"energy_j", m.energy_j},
                                   {"overflows", nlohmann::ordered_json::array()}};
     for (const mark::Overflow& o : m.overflows)
-        out["overflows"].push_back({{"name", o.name}, {"meaning", o.meaning}, {"from_s", o.from_s}, {"to_s", o.to_s}, {"field_mm", {o.field.x, o.field.y}},
-                                    {"part_mm", {o.part.x, o.part.y}}, {"beyond_mm", o.beyond_mm}, {"marking", o.marking}});
+        out["overflows"].push_back({{"name", o.name},
+                                    {"meaning", o.meaning},
+                                    {"from_s", o.from_s},
+                                    {"to_s", o.to_s},
+                                    {"field_mm", {o.field.x, o.field.y}},
+                                    {"part_mm", {o.part.x, o.part.y}},
+                                    {"beyond_mm", o.beyond_mm},
+                                    {"marking", o.marking}});
     out["parts"] = nlohmann::ordered_json::array();
     for (const mark::PartMarked& p : m.parts)
-        out["parts"].push_back({{"fate", mark::name_of(p.fate)}, {"number", p.number}, {"from_s", p.begin_s}, {"to_s", p.end_s}, {"worst_mm", p.deviation.worst_mm},
-                                {"rms_mm", p.deviation.rms_mm}, {"missing_mm", p.deviation.missing_mm}, {"marked_mm", p.marked_mm}});
+        out["parts"].push_back({{"fate", mark::name_of(p.fate)},
+                                {"number", p.number},
+                                {"from_s", p.begin_s},
+                                {"to_s", p.end_s},
+                                {"worst_mm", p.deviation.worst_mm},
+                                {"rms_mm", p.deviation.rms_mm},
+                                {"missing_mm", p.deviation.missing_mm},
+                                {"marked_mm", p.marked_mm}});
     return out;
 }
 
 std::string json_text(const mark::Outcome& out) {
-    nlohmann::ordered_json all = {{"drawing_mm", out.drawing_mm}, {"strokes", out.strokes}, {"elements", out.elements}, {"marked", json_of(out.on)}};
+    nlohmann::ordered_json all = {{"drawing_mm", out.drawing_mm},
+                                  {"strokes", out.strokes},
+                                  {"elements", out.elements},
+                                  {"marked", json_of(out.on)}};
     if (out.off) all["without_correction"] = json_of(*out.off);
     if (out.fits_factor) all["fits_times_the_speed"] = *out.fits_factor;
     const mark::Room room = mark::room_of(out, out.on);
@@ -58,14 +74,21 @@ std::string json_text(const mark::Outcome& out) {
 
 /// Empty: the name tells a kind of picture.
 std::string picture_trouble(const std::string& path) {
-    const auto ends_in = [&](std::string_view end) { return path.size() > end.size() && std::string_view(path).substr(path.size() - end.size()) == end; };
-    return path.empty() || ends_in(".svg") || ends_in(".png") ? std::string() : fmt::format("the picture {} is neither .svg nor .png", path);
+    const auto ends_in = [&](std::string_view end) {
+        return path.size() > end.size() && std::string_view(path).substr(path.size() - end.size()) == end;
+    };
+    return path.empty() || ends_in(".svg") || ends_in(".png")
+               ? std::string()
+               : fmt::format("the picture {} is neither .svg nor .png", path);
 }
 
-bool is_png(const std::string& path) { return path.size() > 4 && path.compare(path.size() - 4, 4, ".png") == 0; }
+bool is_png(const std::string& path) {
+    return path.size() > 4 && path.compare(path.size() - 4, 4, ".png") == 0;
+}
 
 /// Everything that was asked for, or the first error.
-Result<void> write_files(const MarkOptions& options, const mark::Job& job, const mark::Prepared& prepared, const mark::Outcome& outcome, std::string_view text) {
+Result<void> write_files(const MarkOptions& options, const mark::Job& job, const mark::Prepared& prepared,
+                         const mark::Outcome& outcome, std::string_view text) {
     const std::string svg = options.pictures.empty() ? std::string() : mark::picture_svg(prepared, outcome);
     for (const std::string& path : options.pictures) {
         if (!is_png(path)) {
@@ -75,7 +98,8 @@ Result<void> write_files(const MarkOptions& options, const mark::Job& job, const
         MOTIONRACK_TRY(const std::string png, png_of(svg));
         MOTIONRACK_CHECK(write_text(path, png));
     }
-    if (!options.report.empty()) MOTIONRACK_CHECK(write_text(options.report, trace::report_html(mark::report_of(job, prepared, outcome, text))));
+    if (!options.report.empty())
+        MOTIONRACK_CHECK(write_text(options.report, trace::report_html(mark::report_of(job, prepared, outcome, text))));
     return {};
 }
 
@@ -89,8 +113,11 @@ Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<
         if (path == "-") continue;
         for (const std::string& other : taken)
             if (place(path) == place(other))
-                return fail(Trouble::bad_input, fmt::format("{} is already the name of the job, of a file that it reads, or of another output; it would be overwritten. "
-                                                            "Nothing was marked; give --picture or --report another name.", path));
+                return fail(Trouble::bad_input,
+                            fmt::format("{} is already the name of the job, of a file that it reads, or of another "
+                                        "output; it would be overwritten. "
+                                        "Nothing was marked; give --picture or --report another name.",
+                                        path));
         taken.push_back(path);
         MOTIONRACK_CHECK(check_writable(path));
     }
@@ -125,7 +152,8 @@ int run_mark(const MarkOptions& options) {
     fmt::print("{}", options.json ? json_text(*outcome) + "\n" : mark::outcome_text(*read.job, *outcome));
     if (!options.json)
         for (const std::string& warning : mark::warnings_of(*outcome)) print_warning(warning);
-    if (const Result<void> done = write_files(options, *read.job, *prepared, *outcome, *text); !done) return report(done.error());
+    if (const Result<void> done = write_files(options, *read.job, *prepared, *outcome, *text); !done)
+        return report(done.error());
     if (!options.json && !options.quiet && !files.empty()) fmt::print("written: {}\n", fmt::join(files, ", "));
     return outcome->on.good() && outcome->in_field() ? exit_done : exit_machine;
 }
@@ -134,9 +162,14 @@ int run_mark(const MarkOptions& options) {
 
 void add_mark(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<MarkOptions>();
-    CLI::App* command = app.add_subcommand("mark", "Mark a drawing on a moving part with the virtual RTC5: what is on the part, and how far off");
-    command->add_option("JOB", options->job, "job file (TOML), '-': standard input; its files are looked for beside it")->required();
-    command->add_option("--picture", options->pictures, "NAME.svg or NAME.png: the part as drawn, with correction and without; may be given more than once; '': none")
+    CLI::App* command = app.add_subcommand(
+        "mark", "Mark a drawing on a moving part with the virtual RTC5: what is on the part, and how far off");
+    command->add_option("JOB", options->job, "job file (TOML), '-': standard input; its files are looked for beside it")
+        ->required();
+    command
+        ->add_option("--picture", options->pictures,
+                     "NAME.svg or NAME.png: the part as drawn, with correction and without; may be given more than "
+                     "once; '': none")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->check(CLI::Validator(picture_trouble, "FILE"))
@@ -144,9 +177,11 @@ void add_mark(CLI::App& app, Action& chosen) {
     command->add_option("--report", options->report, "page with the pictures, tables, charts and the job (HTML)");
     command->add_flag("--json", options->json, "print the table as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
-    command->footer("Example: motionrack mark square.toml --picture square.png --report square.html\n"
-                    "Nothing is written if the job is refused or stopped.\n"
-                    "Exit code 4: the drawing or the correction left the field, or the start of a part was lost, so that not all was marked where it should be.");
+    command->footer(
+        "Example: motionrack mark square.toml --picture square.png --report square.html\n"
+        "Nothing is written if the job is refused or stopped.\n"
+        "Exit code 4: the drawing or the correction left the field, or the start of a part was lost, so that not all "
+        "was marked where it should be.");
     command->callback([options, &chosen] {
         std::erase(options->pictures, std::string());
         chosen = [options] { return run_mark(*options); };

@@ -43,7 +43,8 @@ struct Planned {
     std::array<AxisPeaks, control::axis_count> axes = {};
 };
 
-Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start, bool stopping) {
+Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,
+                      bool stopping) {
     control::Planner planner(limits, start);
     control::PlanSummary sum;
     control::PlannedMove planned;
@@ -63,7 +64,8 @@ Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimi
 /// Every millisecond and at the ends of stretches.
 constexpr double look_every_s = 0.001;
 
-Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start, bool quiet) {
+Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,
+                     bool quiet) {
     Planned out;
     control::Ride ride(limits, start, [&](const control::Stretch& stretch) {
         out.seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds;
@@ -74,10 +76,12 @@ Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimit
         control::StretchView view(stretch);
         const auto looks = static_cast<std::int64_t>(stretch.seconds / look_every_s) + 20;
         for (std::int64_t i = 0; i <= looks; ++i) {
-            const control::RideState state = view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(looks));
+            const control::RideState state =
+                view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(looks));
             for (std::size_t k = 0; k < out.axes.size(); ++k) {
                 AxisPeaks& axis = out.axes[k];
-                axis = {std::max(axis.speed, std::fabs(state.speed[k])), std::max(axis.accel, std::fabs(state.accel[k])), std::max(axis.jerk, std::fabs(state.jerk[k]))};
+                axis = {std::max(axis.speed, std::fabs(state.speed[k])),
+                        std::max(axis.accel, std::fabs(state.accel[k])), std::max(axis.jerk, std::fabs(state.jerk[k]))};
             }
         }
     });
@@ -96,12 +100,16 @@ struct Plans {
     Planned stopping, trapezoids, ride;
 };
 
-double part_of(double value, double limit) { return limit > 0 ? value / limit : 0; }
+double part_of(double value, double limit) {
+    return limit > 0 ? value / limit : 0;
+}
 
 void print(const Plans& plans, const rack::RackConfig& config) {
     fmt::print("{} on {}: {}.\n", plans.name, config.name, rack::counted(plans.moves, "move"));
     fmt::print("{:>51}    stops\n", "time");
-    const auto row = [](const char* name, const Planned& planned) { fmt::print("  {:<37} {:>9.3f} s  {:>6}\n", name, planned.seconds, planned.stops); };
+    const auto row = [](const char* name, const Planned& planned) {
+        fmt::print("  {:<37} {:>9.3f} s  {:>6}\n", name, planned.seconds, planned.stops);
+    };
     row("stopping at each move", plans.stopping);
     row("trapezoids", plans.trapezoids);
     row("jerk-limited", plans.ride);
@@ -111,20 +119,35 @@ void print(const Plans& plans, const rack::RackConfig& config) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
         if (most.speed == 0) continue;
         const auto value = [&](double peak, const char* unit, double limit) {
-            return limit > 0 ? fmt::format("{:>11.5g} {}/{:<3} {:>5.1f} %", peak, axis.unit(), unit, 100 * part_of(peak, limit)) : fmt::format("{:>11.5g} {}/{:<3} no limit", peak, axis.unit(), unit);
+            return limit > 0 ? fmt::format("{:>11.5g} {}/{:<3} {:>5.1f} %", peak, axis.unit(), unit,
+                                           100 * part_of(peak, limit))
+                             : fmt::format("{:>11.5g} {}/{:<3} no limit", peak, axis.unit(), unit);
         };
-        fmt::print("  {} {} {} {}\n", axis.letter, value(most.speed, "s", axis.max_speed), value(most.accel, "s2", axis.max_accel), value(most.jerk, "s3", axis.max_jerk));
+        fmt::print("  {} {} {} {}\n", axis.letter, value(most.speed, "s", axis.max_speed),
+                   value(most.accel, "s2", axis.max_accel), value(most.jerk, "s3", axis.max_jerk));
     }
 }
 
 void print_json(const Plans& plans, const rack::RackConfig& config) {
-    const auto planned = [](const Planned& one) { return nlohmann::json{{"seconds", one.seconds}, {"stops", one.stops}}; };
-    nlohmann::json out = {{"program", plans.name}, {"rack", config.name}, {"moves", plans.moves}, {"stopping", planned(plans.stopping)},
-                          {"trapezoids", planned(plans.trapezoids)}, {"jerk_limited", planned(plans.ride)}, {"bound", {{"seconds", plans.ride.bound}}}, {"axes", nlohmann::json::object()}};
+    const auto planned = [](const Planned& one) {
+        return nlohmann::json{{"seconds", one.seconds}, {"stops", one.stops}};
+    };
+    nlohmann::json out = {{"program", plans.name},
+                          {"rack", config.name},
+                          {"moves", plans.moves},
+                          {"stopping", planned(plans.stopping)},
+                          {"trapezoids", planned(plans.trapezoids)},
+                          {"jerk_limited", planned(plans.ride)},
+                          {"bound", {{"seconds", plans.ride.bound}}},
+                          {"axes", nlohmann::json::object()}};
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
-        out["axes"][std::string(1, axis.letter)] = {{"unit", axis.unit()}, {"speed", most.speed}, {"accel", most.accel}, {"jerk", most.jerk},
-                                                    {"of_speed", part_of(most.speed, axis.max_speed)}, {"of_accel", part_of(most.accel, axis.max_accel)},
+        out["axes"][std::string(1, axis.letter)] = {{"unit", axis.unit()},
+                                                    {"speed", most.speed},
+                                                    {"accel", most.accel},
+                                                    {"jerk", most.jerk},
+                                                    {"of_speed", part_of(most.speed, axis.max_speed)},
+                                                    {"of_accel", part_of(most.accel, axis.max_accel)},
                                                     {"of_jerk", part_of(most.jerk, axis.max_jerk)}};
     }
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -135,26 +158,36 @@ int plan(const PlanOptions& options) {
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
     if (config->point_to_point())
-        return report({Trouble::refused, fmt::format("The axes of {} position one by one: there is no path to plan. Give a rack whose axes follow paths together.", config->name)});
+        return report({Trouble::refused, fmt::format("The axes of {} position one by one: there is no path to plan. "
+                                                     "Give a rack whose axes follow paths together.",
+                                                     config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     const auto reading = program_settings(*config, program->name, options.reading, code);
     if (!reading) return code;
     const control::gcode::Settings& settings = *reading;
-    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, most_problems, program->name), program->name); bad != exit_done) return bad;
+    if (const int bad = print_problems(
+            control::gcode::check_program(program->text, settings, most_problems, program->name), program->name);
+        bad != exit_done)
+        return bad;
     std::vector<Move> moves;
     control::gcode::Reader reader(program->text, settings, program->name);
     for (auto step = reader.next(); step && *step != nullptr; step = reader.next())
         if ((*step)->kind == control::gcode::StepKind::move) moves.push_back((*step)->move);
     stop_on_signals();
     const control::MachineLimits limits = config->limits();
-    const Plans plans{program->name, moves.size(), by_trapezoids(moves, limits, settings.start, true), by_trapezoids(moves, limits, settings.start, false),
+    const Plans plans{program->name, moves.size(), by_trapezoids(moves, limits, settings.start, true),
+                      by_trapezoids(moves, limits, settings.start, false),
                       jerk_limited(moves, limits, settings.start, options.json)};
     if (stop_asked) return report({Trouble::stopped, "Stopped before the plan was whole; nothing is told of it."});
     options.json ? print_json(plans, *config) : print(plans, *config);
     if (options.picture.empty()) return exit_done;
-    const std::string title = fmt::format("{}: {:.3f} s, trapezoids {:.3f} s", plans.name, plans.ride.seconds, plans.trapezoids.seconds);
-    if (const Result<void> done = write_text(options.picture, rack::plan_picture(title, moves, *config, settings.start)); !done) return report(done.error());
+    const std::string title =
+        fmt::format("{}: {:.3f} s, trapezoids {:.3f} s", plans.name, plans.ride.seconds, plans.trapezoids.seconds);
+    if (const Result<void> done =
+            write_text(options.picture, rack::plan_picture(title, moves, *config, settings.start));
+        !done)
+        return report(done.error());
     if (!options.json) fmt::print("written: {}\n", options.picture);
     return exit_done;
 }
@@ -163,13 +196,20 @@ int plan(const PlanOptions& options) {
 
 void add_plan(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<PlanOptions>();
-    CLI::App* command = app.add_subcommand("plan", "Tell how long a part program takes: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
-    command->add_option("PROGRAM", options->program, "part program, '-' for standard input (default: the built-in example)");
+    CLI::App* command = app.add_subcommand(
+        "plan",
+        "Tell how long a part program takes: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
+    command->add_option("PROGRAM", options->program,
+                        "part program, '-' for standard input (default: the built-in example)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     add_reading_options(*command, options->reading);
-    command->add_option("--picture", options->picture, "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
+    command->add_option(
+        "--picture", options->picture,
+        "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");
-    command->footer("Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; with profile = \"jerk_limited\" in the rack file the jerk-limited plan, which keeps every axis within its jerk too.");
+    command->footer(
+        "Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; with profile "
+        "= \"jerk_limited\" in the rack file the jerk-limited plan, which keeps every axis within its jerk too.");
     command->callback([options, &chosen] { chosen = [options] { return plan(*options); }; });
 }
 

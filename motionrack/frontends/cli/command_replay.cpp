@@ -47,7 +47,8 @@ int run_again(const trace::RecordingReader& recording, const std::string& path, 
     ProgressLine progress(options.quiet || options.json);
     stop_on_signals();
     (*job)->run(&stop_asked, [&progress](const rack::JobProgress& p) {
-        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
+        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines),
+                      fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
     });
     progress.clear();
     const Result<void> done = (*job)->finish();
@@ -67,12 +68,15 @@ int compare(const trace::RecordingReader& recording, const std::string& path, co
     if (options.json)
         fmt::print("{}\n", trace::diff_json(*diff, recording.path(), name));
     else if (diff->same())
-        fmt::print("The replay is the same bit for bit{}: {} signals, {} values.\n", diff->until ? fmt::format(" before {:.6f} s", to_seconds(*diff->until)) : "", diff->signals, diff->compared);
+        fmt::print("The replay is the same bit for bit{}: {} signals, {} values.\n",
+                   diff->until ? fmt::format(" before {:.6f} s", to_seconds(*diff->until)) : "", diff->signals,
+                   diff->compared);
     else
         fmt::print("The replay is another run.\n{}", trace::diff_text(*diff, recording.path(), name));
     std::fflush(stdout);
     if (!options.json && !diff->same() && recording.head().version != again->head().version)
-        print_warning(fmt::format("the recording was written by version {}, this is {}", recording.head().version, again->head().version));
+        print_warning(fmt::format("the recording was written by version {}, this is {}", recording.head().version,
+                                  again->head().version));
     return diff->same() ? exit_done : exit_differ;
 }
 
@@ -82,10 +86,13 @@ int replay(const ReplayOptions& options) {
     if (!recording->whole()) print_warning(recording->cut_sentence());
     std::error_code none;
     if (!options.record.empty() && std::filesystem::equivalent(options.record, options.recording, none))
-        return report({Trouble::refused, "The replay would be written over its recording; choose another name. Nothing was run."});
+        return report({Trouble::refused,
+                       "The replay would be written over its recording; choose another name. Nothing was run."});
     const Scratch scratch;
     if (options.record.empty() && scratch.folder.empty())
-        return report({Trouble::io, "There is no folder for temporary files (TMPDIR); choose a name with --record. Nothing was run."});
+        return report(
+            {Trouble::io,
+             "There is no folder for temporary files (TMPDIR); choose a name with --record. Nothing was run."});
     const std::string path = options.record.empty() ? scratch.folder + "/replay.h5" : options.record;
     if (const int bad = run_again(*recording, path, options); bad != exit_done) return bad;
     if (stop_asked) return report({Trouble::stopped, "Stopped before the replay was done; nothing is told of it."});
@@ -96,7 +103,9 @@ int replay(const ReplayOptions& options) {
 
 void add_replay(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ReplayOptions>();
-    CLI::App* command = app.add_subcommand("replay", "Run a recording's program on its rack again, with all that came from outside, and tell whether it is the same bit for bit");
+    CLI::App* command = app.add_subcommand("replay",
+                                           "Run a recording's program on its rack again, with all that came from "
+                                           "outside, and tell whether it is the same bit for bit");
     command->add_option("RECORDING", options->recording, "recording of run --record")->required();
     command->add_option("--record", options->record, "keep the recording of the replay");
     command->add_flag("--json", options->json, "print the comparison as JSON");

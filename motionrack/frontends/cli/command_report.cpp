@@ -25,7 +25,9 @@ Result<trace::ReportData> read_data(const std::string& path) {
     MOTIONRACK_TRY(const trace::FileKind kind, trace::kind_of_file(path));
     if (kind == trace::FileKind::csv) return trace::report_from_csv(path);
     if (kind == trace::FileKind::vcd)
-        return fail(Trouble::bad_input, "A VCD file has wires and counters, but no positions, so there is nothing to show on a page. Take a recording (--record) or the samples (--csv) of the run.",
+        return fail(Trouble::bad_input,
+                    "A VCD file has wires and counters, but no positions, so there is nothing to show on a page. Take "
+                    "a recording (--record) or the samples (--csv) of the run.",
                     {}, path);
     MOTIONRACK_TRY(const trace::RecordingReader recording, trace::RecordingReader::open(path));
     if (!recording.whole()) print_warning(recording.cut_sentence());
@@ -33,12 +35,14 @@ Result<trace::ReportData> read_data(const std::string& path) {
 }
 
 int make_report(const ReportOptions& options) {
-    if (!may_write({options.recording}, {options.files.page(), options.files.csv, options.files.events})) return exit_refused;
+    if (!may_write({options.recording}, {options.files.page(), options.files.csv, options.files.events}))
+        return exit_refused;
     const Result<trace::ReportData> data = read_data(options.recording);
     if (!data) return report(data.error());
     std::vector<std::string> written;
     const int code = write_results(*data, options.files, written);
-    fmt::print("{}\n{}", data->verdict.text, written.empty() ? "" : fmt::format("written: {}\n", fmt::join(written, ", ")));
+    fmt::print("{}\n{}", data->verdict.text,
+               written.empty() ? "" : fmt::format("written: {}\n", fmt::join(written, ", ")));
     return code;
 }
 
@@ -46,14 +50,17 @@ int make_report(const ReportOptions& options) {
 
 void add_report(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ReportOptions>();
-    CLI::App* command = app.add_subcommand("report", "Make the page of a run (report.html) out of its recording, or out of the samples of a CSV file");
-    command->add_option("RECORDING", options->recording, "recording of run --record, or samples of run --csv")->required();
+    CLI::App* command = app.add_subcommand(
+        "report", "Make the page of a run (report.html) out of its recording, or out of the samples of a CSV file");
+    command->add_option("RECORDING", options->recording, "recording of run --record, or samples of run --csv")
+        ->required();
     command->add_option("--report", options->files.report, "where the page goes")->capture_default_str();
     command->add_flag("--no-report", options->files.no_report, "write no page");
     command->add_option("--csv", options->files.csv, "write the samples as CSV");
     command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
-    command->footer("Example: motionrack report part.h5 --report part.html\n"
-                    "The page of a recording is the one that run wrote; of a recording that was cut off it shows what is there.");
+    command->footer(
+        "Example: motionrack report part.h5 --report part.html\n"
+        "The page of a recording is the one that run wrote; of a recording that was cut off it shows what is there.");
     command->callback([options, &chosen] { chosen = [options] { return make_report(*options); }; });
 }
 

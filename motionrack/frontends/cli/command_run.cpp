@@ -1,8 +1,8 @@
 // run and trace: a part program on a rack, with progress, summary, report and recordings.
 #include <fmt/format.h>
 
-#include <memory>
 #include <map>
+#include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
@@ -77,30 +77,37 @@ int write_all(const rack::RecordedJob& job, const RunOptions& options, bool whol
 
 void print_warnings(const rack::JobOutcome& outcome) {
     static constexpr std::size_t warnings_shown = 12;
-    for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
+    for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i)
+        print_warning(outcome.warnings[i].text);
     if (outcome.warnings.size() > warnings_shown)
         print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
 }
 
-void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request, const rack::JobOutcome& outcome, const RunOptions& options) {
-    fmt::print("{}", options.json ? rack::summary_json(request.config, outcome) + "\n" : rack::summary_of(request.config, outcome));
+void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request, const rack::JobOutcome& outcome,
+                   const RunOptions& options) {
+    fmt::print("{}", options.json ? rack::summary_json(request.config, outcome) + "\n"
+                                  : rack::summary_of(request.config, outcome));
     if (!options.json) print_warnings(outcome);
     for (const std::string& one : job.not_done()) print_warning(one);
 }
 
 int run(const RunOptions& options) {
     rack::JobRequest request;
-    if (!may_write({options.program, options.rack, options.reading.tools}, {options.files.page(), options.record, options.vcd, options.files.csv, options.files.events})) return exit_refused;
+    if (!may_write({options.program, options.rack, options.reading.tools},
+                   {options.files.page(), options.record, options.vcd, options.files.csv, options.files.events}))
+        return exit_refused;
     if (const int bad = read_request(options, request); bad != exit_done) return bad;
     int unread = exit_done;
-    std::optional<control::gcode::Settings> settings = program_settings(request.config, request.program_name, options.reading, unread);
+    std::optional<control::gcode::Settings> settings =
+        program_settings(request.config, request.program_name, options.reading, unread);
     if (!settings) return unread;
     keep_subprograms(*settings, request.subprograms);
     request.tools = settings->tools;
     if (const Result<void> good = control::gcode::check_settings(*settings); !good) return report(good.error());
     const std::string& name = request.program_name;
     // Without a check first it is read all the same: for the subprograms that it calls.
-    const control::gcode::Check check = control::gcode::check_program(request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
+    const control::gcode::Check check = control::gcode::check_program(
+        request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
     if (!options.stream)
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
 
@@ -117,7 +124,8 @@ int run(const RunOptions& options) {
     ProgressLine progress(options.quiet || options.json);
     stop_on_signals();
     const rack::JobOutcome& outcome = (*job)->run(&stop_asked, [&progress](const rack::JobProgress& p) {
-        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
+        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines),
+                      fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
     });
     progress.clear();
     int code = exit_done;
@@ -132,16 +140,25 @@ int run(const RunOptions& options) {
 
 void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
-    command->add_option("--signals", options->signals, "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
-    command->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")->capture_default_str();
+    command->add_option("--signals", options->signals,
+                        "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
+    command
+        ->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")
+        ->capture_default_str();
     command->add_option("--csv", options->files.csv, "write the samples (position, speed, deviation every ms) as CSV");
     command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
-    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
+    command
+        ->add_option("--fault", options->faults,
+                     "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
         ->allow_extra_args(false);
-    command->add_option("--at", options->orders, "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
+    command
+        ->add_option(
+            "--at", options->orders,
+            "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
         ->allow_extra_args(false);
     add_reading_options(*command, options->reading);
-    command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
+    command->add_flag("--stream", options->stream,
+                      "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
 }
@@ -151,23 +168,28 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
 void add_run(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "Run a part program on a rack: progress, summary, report.html");
-    command->add_option("PROGRAM", options->program, "part program, '-': standard input (default: the built-in example)");
+    command->add_option("PROGRAM", options->program,
+                        "part program, '-': standard input (default: the built-in example)");
     command->add_option("--report", options->files.report, "where the report goes")->capture_default_str();
     command->add_flag("--no-report", options->files.no_report, "write no report");
-    command->add_option("--record", options->record, "write a recording (HDF5) of everything, from which report, diff and replay work");
+    command->add_option("--record", options->record,
+                        "write a recording (HDF5) of everything, from which report, diff and replay work");
     command->add_option("--vcd", options->vcd, "write the waves as a VCD file");
     add_common(command, options);
-    command->footer("Example: motionrack run part.ngc --rack my.toml --report part.html\n"
-                    "Example: motionrack run part.ngc --record part.h5 --at hold@0.5s --at resume@1s\n"
-                    "Example: motionrack run part.ngc --fault X.motor.lose_steps=64@1.5s --fault X.limit_plus=0@2s --events events.csv\nCtrl-C brings the axes to rest along the path and keeps "
-                    "what was recorded.");
+    command->footer(
+        "Example: motionrack run part.ngc --rack my.toml --report part.html\n"
+        "Example: motionrack run part.ngc --record part.h5 --at hold@0.5s --at resume@1s\n"
+        "Example: motionrack run part.ngc --fault X.motor.lose_steps=64@1.5s --fault X.limit_plus=0@2s --events "
+        "events.csv\nCtrl-C brings the axes to rest along the path and keeps "
+        "what was recorded.");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
 void add_trace(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<RunOptions>();
     options->files.no_report = true;
-    CLI::App* command = app.add_subcommand("trace", "Run a part program and write wires, pulses and encoder lines as a VCD file (GTKWave, sigrok)");
+    CLI::App* command = app.add_subcommand(
+        "trace", "Run a part program and write wires, pulses and encoder lines as a VCD file (GTKWave, sigrok)");
     command->add_option("PROGRAM", options->program, "part program")->required();
     command->add_option("VCD", options->vcd, "the file to write")->required();
     add_common(command, options);

@@ -77,7 +77,9 @@ class Serving {
         if (options_.certificate.empty() != options_.key.empty())
             return fail(Trouble::bad_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
         server::ServedSettings settings;
-        settings.clock = options_.paused ? operate::ClockMode::paused : options_.free ? operate::ClockMode::free : operate::ClockMode::real;
+        settings.clock = options_.paused ? operate::ClockMode::paused
+                         : options_.free ? operate::ClockMode::free
+                                         : operate::ClockMode::real;
         settings.factor = options_.speed;
         settings.meanwhile = [this] { stop_if_asked(); };
         settings.version = MOTIONRACK_VERSION;
@@ -86,7 +88,8 @@ class Serving {
         settings.server = server_settings();
         settings.grbl = grbl_settings();
         MOTIONRACK_TRY(settings.page, load_page(options_.page));
-        MOTIONRACK_TRY(settings.panel.rack_text, options_.rack.empty() ? Result<std::string>(demonstration_rack()) : read_text(options_.rack));
+        MOTIONRACK_TRY(settings.panel.rack_text,
+                       options_.rack.empty() ? Result<std::string>(demonstration_rack()) : read_text(options_.rack));
         if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings.machine));
         settings.journal = journal_.get();
         MOTIONRACK_TRY(served_, server::ServedRack::open(config, std::move(settings)));
@@ -106,7 +109,9 @@ class Serving {
     authority::DoorkeeperSettings door_settings() {
         authority::DoorkeeperSettings settings;
         const fs::path folder = options_.users.empty() ? state_folder() : fs::path();
-        settings.users_file = !options_.users.empty() ? fs::path(options_.users) : folder.empty() ? fs::path() : folder / "users.json";
+        settings.users_file = !options_.users.empty() ? fs::path(options_.users)
+                              : folder.empty()        ? fs::path()
+                                                      : folder / "users.json";
         users_file_ = settings.users_file.string();
         if (!options_.no_pairing)
             settings.on_start_code = [this](const std::string& code) {
@@ -143,28 +148,36 @@ class Serving {
         tell_service_manager("STOPPING=1");
         // A clock that stands would let nothing come to rest.
         operate::Pacer& pacer = served_->pacer();
-        if (pacer.mode() != operate::ClockMode::free) (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
+        if (pacer.mode() != operate::ClockMode::free)
+            (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
         served_->machine().quit();
     }
 
     void greet(const rack::RackConfig& config) {
         const std::string code = served_->door().start_code();
-        say(fmt::format("{} runs ({}, {}; simulated).", config.name, rack::counted(config.axes.size(), "axis", "axes"), rack::counted(config.cards.size(), "card")));
+        say(fmt::format("{} runs ({}, {}; simulated).", config.name, rack::counted(config.axes.size(), "axis", "axes"),
+                        rack::counted(config.cards.size(), "card")));
         say(fmt::format("  page     {}{}", served_->server().url(), code.empty() ? "" : "#pair=" + code));
-        if (!code.empty()) say(fmt::format("  code     {}   (good once, lets in to maintain; the next one is printed here)", code));
+        if (!code.empty())
+            say(fmt::format("  code     {}   (good once, lets in to maintain; the next one is printed here)", code));
         if (options_.no_pairing) say("  pairing  none: whoever works on this computer may do everything");
         say(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
-        say(fmt::format("  journal  {}", options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
-        if (options_.grbl_port) say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", served_->grbl()->port()));
-        if (!options_.grbl_terminal.empty()) say(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
-        say("Open the page in a browser, take control there, enable the machine. Ctrl-C brings the axes to rest and ends.");
+        say(fmt::format("  journal  {}",
+                        options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
+        if (options_.grbl_port)
+            say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", served_->grbl()->port()));
+        if (!options_.grbl_terminal.empty())
+            say(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
+        say("Open the page in a browser, take control there, enable the machine. Ctrl-C brings the axes to rest and "
+            "ends.");
         greeted_ = true;
     }
 
     int end() {
         served_->stop();
         std::string places;
-        for (const operate::AxisStatus& axis : served_->machine().status().axes) places += fmt::format(" {}{:.3f}", axis.letter, axis.commanded);
+        for (const operate::AxisStatus& axis : served_->machine().status().axes)
+            places += fmt::format(" {}{:.3f}", axis.letter, axis.commanded);
         int code = exit_done;
         if (journal_)
             if (const Result<void> closed = journal_->close(); !closed) code = report(closed.error());
@@ -184,26 +197,44 @@ class Serving {
 
 void add_serve(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ServeOptions>();
-    CLI::App* command = app.add_subcommand("serve", "Run a rack that people operate in a browser, step for step with real time");
-    command->add_option("RACK", options->rack, "rack file (default: the built-in demonstration, which has all kinds of card)");
+    CLI::App* command =
+        app.add_subcommand("serve", "Run a rack that people operate in a browser, step for step with real time");
+    command->add_option("RACK", options->rack,
+                        "rack file (default: the built-in demonstration, which has all kinds of card)");
     command->add_option("--port", options->port, "TCP port; 0: any free one")->capture_default_str();
-    command->add_option("--address", options->address, "address to serve; other than this computer's loopback only with TLS")->capture_default_str();
-    command->add_option("--speed", options->speed, "seconds of the rack for a second")->check(CLI::Range(operate::Pacer::least_factor, operate::Pacer::greatest_factor))->capture_default_str();
+    command
+        ->add_option("--address", options->address,
+                     "address to serve; other than this computer's loopback only with TLS")
+        ->capture_default_str();
+    command->add_option("--speed", options->speed, "seconds of the rack for a second")
+        ->check(CLI::Range(operate::Pacer::least_factor, operate::Pacer::greatest_factor))
+        ->capture_default_str();
     command->add_flag("--free", options->free, "as fast as the computer can");
     command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");
-    command->add_option("--journal", options->journal, "file that keeps what happened (SQLite); the next start reads where the axes stood");
-    command->add_option("--users", options->users, "file that keeps who was paired (default: users.json in ~/.local/state/motionrack)");
-    command->add_flag("--no-pairing", options->no_pairing, "whoever works on this computer may do everything, without a code");
+    command->add_option("--journal", options->journal,
+                        "file that keeps what happened (SQLite); the next start reads where the axes stood");
+    command->add_option("--users", options->users,
+                        "file that keeps who was paired (default: users.json in ~/.local/state/motionrack)");
+    command->add_flag("--no-pairing", options->no_pairing,
+                      "whoever works on this computer may do everything, without a code");
     command->add_option("--page", options->page, "folder of the page (default: the one that came with the program)");
     command->add_option("--tls-cert", options->certificate, "PEM file of the certificate, with those that signed it");
     command->add_option("--tls-key", options->key, "PEM file of its key");
-    command->add_option("--allow-host", options->hosts, "a name by which browsers may call this computer; again for more");
-    command->add_option("--allow-origin", options->origins, "a page from elsewhere that may ask, as http://localhost:5173; again for more");
-    command->add_option("--grbl-port", options->grbl_port, "TCP port of this computer for G-code senders (Grbl 1.1), e.g. 40123; 0: any free one");
-    command->add_option("--grbl-pty", options->grbl_terminal, "path of a link to a pseudo-terminal for G-code senders, as a serial line");
-    command->add_option("--grbl-axes", options->grbl_axes, "axes that senders see: 3 (X Y Z), or 4 with A, as grblHAL")->check(CLI::Range(3, 4))->capture_default_str();
-    command->footer("Example: motionrack serve router.toml --journal router.journal\nThe address that is printed carries a code that lets its first user in; see docs/howto/serve.md.\n"
-                    "Ctrl-C brings the axes to rest and ends with code 0.");
+    command->add_option("--allow-host", options->hosts,
+                        "a name by which browsers may call this computer; again for more");
+    command->add_option("--allow-origin", options->origins,
+                        "a page from elsewhere that may ask, as http://localhost:5173; again for more");
+    command->add_option("--grbl-port", options->grbl_port,
+                        "TCP port of this computer for G-code senders (Grbl 1.1), e.g. 40123; 0: any free one");
+    command->add_option("--grbl-pty", options->grbl_terminal,
+                        "path of a link to a pseudo-terminal for G-code senders, as a serial line");
+    command->add_option("--grbl-axes", options->grbl_axes, "axes that senders see: 3 (X Y Z), or 4 with A, as grblHAL")
+        ->check(CLI::Range(3, 4))
+        ->capture_default_str();
+    command->footer(
+        "Example: motionrack serve router.toml --journal router.journal\nThe address that is printed carries a code "
+        "that lets its first user in; see docs/howto/serve.md.\n"
+        "Ctrl-C brings the axes to rest and ends with code 0.");
     command->callback([options, &chosen] { chosen = [options] { return Serving(*options).run(); }; });
 }
 

@@ -28,7 +28,8 @@ struct SweepOptions {
     bool fresh = false, quiet = false;
 };
 
-/// The sweep of the file and the files that it names, which lie beside it; nothing if something is wrong, which was told.
+/// The sweep of the file and the files that it names, which lie beside it; nothing if something is wrong, which was
+/// told.
 struct Loaded {
     std::optional<sweep::Sweep> sweep;
     std::vector<std::string> inputs;
@@ -95,23 +96,33 @@ std::string endings(const sweep::Sweep& sweep, const sweep::Results& results) {
 int write_all(const sweep::Sweep& sweep, sweep::Results& results, const SweepOptions& options) {
     if (const Result<void> done = results.finish(); !done) return report(done.error());
     if (!options.picture.empty())
-        if (const Result<void> drawn = write_text(options.picture, sweep::picture_of(sweep, results)); !drawn) return report(drawn.error());
-    if (!options.quiet) fmt::print("{}: {}\nwritten: {}{}{}\n", rack::counted(sweep.points(), "point"), endings(sweep, results), options.results, options.picture.empty() ? "" : ", ", options.picture);
+        if (const Result<void> drawn = write_text(options.picture, sweep::picture_of(sweep, results)); !drawn)
+            return report(drawn.error());
+    if (!options.quiet)
+        fmt::print("{}: {}\nwritten: {}{}{}\n", rack::counted(sweep.points(), "point"), endings(sweep, results),
+                   options.results, options.picture.empty() ? "" : ", ", options.picture);
     return exit_done;
 }
 
 /// Runs what is missing, here or by workers.
 Result<void> run_missing(const sweep::Sweep& sweep, sweep::Results& results, const SweepOptions& options) {
     ProgressLine progress(options.quiet);
-    const auto show = [&](const sweep::WorkProgress& now) { progress.show(static_cast<double>(now.done) / static_cast<double>(now.points), sweep::progress_text(now)); };
+    const auto show = [&](const sweep::WorkProgress& now) {
+        progress.show(static_cast<double>(now.done) / static_cast<double>(now.points), sweep::progress_text(now));
+    };
     if (!options.nats.empty()) {
         const auto wait = [&](std::int64_t seconds) {
             progress.clear();
-            if (!options.quiet) print_warning(fmt::format("No row came for {} s. If points do not take so long, start a worker: motionrack sweep-worker --nats {}", seconds, nats::without_password(options.nats)));
+            if (!options.quiet)
+                print_warning(
+                    fmt::format("No row came for {} s. If points do not take so long, start a worker: motionrack "
+                                "sweep-worker --nats {}",
+                                seconds, nats::without_password(options.nats)));
         };
         return nats::gather(sweep, results, options.nats, options.fresh, stop_asked, show, wait);
     }
-    const auto cores = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
+    const auto cores =
+        static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
     return sweep::run_here(sweep, results, options.jobs > 0 ? options.jobs : cores, stop_asked, show);
 }
 
@@ -126,32 +137,42 @@ int sweep_all(const SweepOptions& options) {
     auto results = sweep::Results::open(all, options.results, options.fresh);
     if (!results) return report(results.error());
     const std::int64_t before = (*results)->done();
-    if (before > 0 && !options.quiet) fmt::print("{} of {} were done before\n", before, rack::counted(all.points(), "point"));
+    if (before > 0 && !options.quiet)
+        fmt::print("{} of {} were done before\n", before, rack::counted(all.points(), "point"));
     stop_on_signals();
     const Result<void> done = run_missing(all, **results, options);
     if (done) return write_all(all, **results, options);
     if (done.error().trouble != Trouble::stopped) return report(done.error());
-    return report({Trouble::stopped, fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.", (*results)->done(),
-                                                 rack::counted(all.points(), "point"), (*results)->part())});
+    return report({Trouble::stopped,
+                   fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.",
+                               (*results)->done(), rack::counted(all.points(), "point"), (*results)->part())});
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<SweepOptions>();
-    CLI::App* command = app.add_subcommand("sweep", "Run a part program over and over with other parameters, on all cores; a table and a picture of what came of it");
+    CLI::App* command = app.add_subcommand("sweep",
+                                           "Run a part program over and over with other parameters, on all cores; a "
+                                           "table and a picture of what came of it");
     command->add_option("FILE", options->file, "sweep file: program, rack, what is varied")->required();
-    command->add_option("-o,--results", options->results, "the table; CSV, or HDF5 if it ends in .h5")->capture_default_str();
+    command->add_option("-o,--results", options->results, "the table; CSV, or HDF5 if it ends in .h5")
+        ->capture_default_str();
     command->add_option("--picture", options->picture, "draw the results as SVG");
-    command->add_option("--jobs", options->jobs, "points that run at the same time (default: one for each core)")->check(CLI::Range(1, sweep::most_jobs));
-    command->add_option("--nats", options->nats, "let workers on any machines run the points, through this server with JetStream: nats://HOST:4222; see sweep-worker");
+    command->add_option("--jobs", options->jobs, "points that run at the same time (default: one for each core)")
+        ->check(CLI::Range(1, sweep::most_jobs));
+    command->add_option("--nats", options->nats,
+                        "let workers on any machines run the points, through this server with JetStream: "
+                        "nats://HOST:4222; see sweep-worker");
     command->add_flag("--fresh", options->fresh, "run all points anew, whatever was done before");
     command->add_flag("-q,--quiet", options->quiet, "no progress, no summary");
-    command->footer("Example: motionrack sweep feeds.toml -o feeds.csv --picture feeds.svg\n"
-                    "Example: motionrack sweep feeds.toml -o feeds.h5 --jobs 4\n"
-                    "Example: motionrack sweep feeds.toml --nats nats://bench:4222\n"
-                    "Each row is in RESULTS.part as soon as its point is done. After Ctrl-C, a kill or a power cut the same command goes on with what is missing; rows whose rack, program or\n"
-                    "values were changed are made anew.");
+    command->footer(
+        "Example: motionrack sweep feeds.toml -o feeds.csv --picture feeds.svg\n"
+        "Example: motionrack sweep feeds.toml -o feeds.h5 --jobs 4\n"
+        "Example: motionrack sweep feeds.toml --nats nats://bench:4222\n"
+        "Each row is in RESULTS.part as soon as its point is done. After Ctrl-C, a kill or a power cut the same "
+        "command goes on with what is missing; rows whose rack, program or\n"
+        "values were changed are made anew.");
     command->callback([options, &chosen] { chosen = [options] { return sweep_all(*options); }; });
 }
 

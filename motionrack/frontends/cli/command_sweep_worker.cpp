@@ -16,7 +16,9 @@ namespace motionrack::cli {
 namespace {
 
 int work(nats::WorkerSettings settings) {
-    if (settings.jobs == 0) settings.jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
+    if (settings.jobs == 0)
+        settings.jobs = static_cast<int>(
+            std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
     stop_on_signals();
     std::int64_t count = 0;
     const Result<void> ended = nats::work(settings, stop_asked, [&count](std::int64_t done) { count = done; });
@@ -31,13 +33,24 @@ int work(nats::WorkerSettings settings) {
 void add_sweep_worker(CLI::App& app, Action& chosen) {
     auto settings = std::make_shared<nats::WorkerSettings>();
     settings->jobs = 0;
-    CLI::App* command = app.add_subcommand("sweep-worker", "Run points of sweeps that motionrack sweep --nats queued; as many workers as wanted, on any machines");
-    command->add_option("--nats", settings->url, "the server with JetStream: nats://HOST:4222, nats://USER:PASSWORD@HOST:4222")->required();
-    command->add_option("--jobs", settings->jobs, "points that run at the same time (default: one for each core)")->check(CLI::Range(1, sweep::most_jobs));
-    command->add_option("--idle", settings->idle_s, "end when there was nothing to do for so many seconds (default: never)")->check(CLI::Range(0.0, 1e6));
-    command->footer("Example: motionrack sweep-worker --nats nats://bench:4222\n"
-                    "A point of a worker that dies is given to another one after 5 s; one that is stopped by Ctrl-C gives back at once what it has. Workers take only points that their own version\n"
-                    "of motionrack queued.");
+    CLI::App* command = app.add_subcommand(
+        "sweep-worker",
+        "Run points of sweeps that motionrack sweep --nats queued; as many workers as wanted, on any machines");
+    command
+        ->add_option("--nats", settings->url,
+                     "the server with JetStream: nats://HOST:4222, nats://USER:PASSWORD@HOST:4222")
+        ->required();
+    command->add_option("--jobs", settings->jobs, "points that run at the same time (default: one for each core)")
+        ->check(CLI::Range(1, sweep::most_jobs));
+    command
+        ->add_option("--idle", settings->idle_s,
+                     "end when there was nothing to do for so many seconds (default: never)")
+        ->check(CLI::Range(0.0, 1e6));
+    command->footer(
+        "Example: motionrack sweep-worker --nats nats://bench:4222\n"
+        "A point of a worker that dies is given to another one after 5 s; one that is stopped by Ctrl-C gives back at "
+        "once what it has. Workers take only points that their own version\n"
+        "of motionrack queued.");
     command->callback([settings, &chosen] { chosen = [settings] { return work(*settings); }; });
 }
 

@@ -18,11 +18,16 @@ enum ExitCode : int {
 
 constexpr int exit_code(Trouble trouble) {
     switch (trouble) {
-        case Trouble::bad_input: return exit_bad_input;
-        case Trouble::refused: return exit_refused;
-        case Trouble::machine: return exit_machine;
-        case Trouble::io: return exit_io;
-        case Trouble::stopped: return exit_stopped;
+        case Trouble::bad_input:
+            return exit_bad_input;
+        case Trouble::refused:
+            return exit_refused;
+        case Trouble::machine:
+            return exit_machine;
+        case Trouble::io:
+            return exit_io;
+        case Trouble::stopped:
+            return exit_stopped;
     }
     return exit_usage;
 }

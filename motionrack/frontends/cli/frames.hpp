@@ -1,4 +1,5 @@
-// What the commands of `frames` share: the options of a bus on the network, and frames and counts as people and programs read them.
+// What the commands of `frames` share: the options of a bus on the network, and frames and counts as people and
+// programs read them.
 #pragma once
 
 #include <motionrack/dds/subscriber.hpp>
@@ -26,7 +27,7 @@ std::string status_table(const dds::Subscriber& subscriber, const std::string& b
 /// In one line without its end.
 std::string status_line(const dds::Subscriber& subscriber, Instant now);
 
-// ---- a rack's own frames ----------------------------------------------------------------------------------------------------
+// ---- a rack's own frames
 
 /// What every card of the rack's bus holds, as a table of several lines, each ended.
 std::string frames_table(const rack::FrameWatch& watch, Instant now);

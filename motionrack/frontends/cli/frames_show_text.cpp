@@ -37,16 +37,18 @@ std::string frames_table(const rack::FrameWatch& watch, Instant now) {
         width = std::max(width, row.card.size());
         if (row.frame) scales = std::max<std::size_t>(scales, row.frame->words);
     }
-    std::string out = fmt::format("{:.4f} s, {} frames published, {} conflicts\n{:<{}} {:<6} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7}  {:<8}", to_seconds(now),
-                                  watch.published(), watch.bus().lines().all_conflicts(), "card", width, "role", "sequence", "age us", "frames", "bad", "unlike",
-                                  "untrue", "state");
+    std::string out = fmt::format(
+        "{:.4f} s, {} frames published, {} conflicts\n{:<{}} {:<6} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7}  {:<8}",
+        to_seconds(now), watch.published(), watch.bus().lines().all_conflicts(), "card", width, "role", "sequence",
+        "age us", "frames", "bad", "unlike", "untrue", "state");
     auto end = std::back_inserter(out);
     const std::size_t shown = std::min(scales, most_scales_shown);
     for (std::size_t k = 0; k < shown; ++k) fmt::format_to(end, " {:>12}", fmt::format("scale {}", k));
     out += scales > shown ? fmt::format(" .. {}\n", scales - 1) : "\n";
     for (const rack::FrameRow& row : rows) {
         fmt::format_to(end, "{:<{}} {:<6} {:>9} {:>10.1f} {:>9} {:>7} {:>7} {:>7}  {:<8}", row.card, width, row.role,
-                       row.frame ? std::to_string(row.frame->sequence) : "-", row.age_us, row.frames, row.broken, row.unlike, row.untrue, state_of(row));
+                       row.frame ? std::to_string(row.frame->sequence) : "-", row.age_us, row.frames, row.broken,
+                       row.unlike, row.untrue, state_of(row));
         for (std::size_t k = 0; row.frame && k < std::min<std::size_t>(shown, row.frame->words); ++k)
             fmt::format_to(end, " {:>12}", static_cast<std::int32_t>(row.frame->counts[k]));
         out += '\n';
@@ -59,12 +61,13 @@ std::string conflicts_text(const gb::Bus& bus, std::size_t most) {
     const std::uint64_t count = lines.all_conflicts();
     if (count == 0) return {};
     const std::uint64_t first = count > gb::Lines::kept ? count - gb::Lines::kept : 0;
-    std::string out = fmt::format("\nconflicts on the bus, {} in all:\n{:>14} {:>10}  {:<7} {:<20} {}\n", count, "from s", "for ns", "line", "driven high by", "low by");
+    std::string out = fmt::format("\nconflicts on the bus, {} in all:\n{:>14} {:>10}  {:<7} {:<20} {}\n", count,
+                                  "from s", "for ns", "line", "driven high by", "low by");
     for (std::uint64_t n = first; n < count && n < first + most; ++n) {
         const gb::Conflict& c = lines.conflict(n);
         const std::string lasts = c.end == never ? "still" : fmt::format("{:.1f}", to_seconds(c.end - c.begin) * 1e9);
-        out += fmt::format("{:>14.7f} {:>10}  {:<7} {:<20} {}\n", to_seconds(c.begin), lasts, gb::line_types[c.line].name, drivers_of(bus, c.high),
-                           drivers_of(bus, c.low));
+        out += fmt::format("{:>14.7f} {:>10}  {:<7} {:<20} {}\n", to_seconds(c.begin), lasts,
+                           gb::line_types[c.line].name, drivers_of(bus, c.high), drivers_of(bus, c.low));
     }
     return out + '\n';
 }
@@ -72,8 +75,9 @@ std::string conflicts_text(const gb::Bus& bus, std::size_t most) {
 std::string frames_json(const rack::FrameWatch& watch, Instant now) {
     nlohmann::ordered_json cards = nlohmann::ordered_json::array();
     for (const rack::FrameRow& row : watch.rows()) {
-        nlohmann::ordered_json card = {{"card", row.card},     {"role", row.role}, {"state", state_of(row)}, {"frames", row.frames},
-                                       {"bad", row.broken},    {"unlike", row.unlike},                {"untrue", row.untrue}};
+        nlohmann::ordered_json card = {{"card", row.card},     {"role", row.role},  {"state", state_of(row)},
+                                       {"frames", row.frames}, {"bad", row.broken}, {"unlike", row.unlike},
+                                       {"untrue", row.untrue}};
         if (row.frame) {
             card["sequence"] = row.frame->sequence;
             card["time_s"] = to_seconds(row.frame->instant());
@@ -84,7 +88,11 @@ std::string frames_json(const rack::FrameWatch& watch, Instant now) {
         }
         cards.push_back(std::move(card));
     }
-    return nlohmann::ordered_json{{"time_s", to_seconds(now)}, {"conflicts", watch.bus().lines().all_conflicts()}, {"agree", frames_agree(watch)}, {"cards", cards}}.dump();
+    return nlohmann::ordered_json{{"time_s", to_seconds(now)},
+                                  {"conflicts", watch.bus().lines().all_conflicts()},
+                                  {"agree", frames_agree(watch)},
+                                  {"cards", cards}}
+        .dump();
 }
 
 bool frames_agree(const rack::FrameWatch& watch) {

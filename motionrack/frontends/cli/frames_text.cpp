@@ -42,17 +42,22 @@ ordered_json json_of(const dds::Source& source) {
     return {{"host", source.host_name()}, {"process", source.process}, {"id", source.id_text()}};
 }
 
-double milliseconds_of(Duration d) { return static_cast<double>(d.count()) * 1e-7; }
+double milliseconds_of(Duration d) {
+    return static_cast<double>(d.count()) * 1e-7;
+}
 
 /// An event's sources may have been sent by anyone: what is no UTF-8 is replaced.
-std::string text_of(const ordered_json& json) { return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace); }
+std::string text_of(const ordered_json& json) {
+    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
 
 }  // namespace
 
 void add_bus_options(CLI::App& command, BusOptions& options) {
     command.add_option("--bus", options.name, "name of the bus: letters, digits, '_' and '-'")->capture_default_str();
     command.add_option("--domain", options.domain, "DDS domain, 0 to 232")->capture_default_str();
-    command.add_option("--config", options.config, "Cyclone DDS configuration file (default: what CYCLONEDDS_URI names)");
+    command.add_option("--config", options.config,
+                       "Cyclone DDS configuration file (default: what CYCLONEDDS_URI names)");
 }
 
 Result<void> use_config(const BusOptions& options) {
@@ -65,7 +70,8 @@ Result<void> use_config(const BusOptions& options) {
 
 std::string status_json(const dds::Subscriber& subscriber, const std::string& bus, Instant now) {
     const dds::FrameJudge& judge = subscriber.judge();
-    ordered_json out = {{"bus", bus}, {"joined", judge.joined()}, {"stale", judge.stale()}, {"in_conflict", judge.in_conflict()}};
+    ordered_json out = {
+        {"bus", bus}, {"joined", judge.joined()}, {"stale", judge.stale()}, {"in_conflict", judge.in_conflict()}};
     if (judge.joined()) {
         const dds::Frame& frame = judge.frame();
         out["source"] = json_of(judge.source());
@@ -90,7 +96,8 @@ std::string status_json(const dds::Subscriber& subscriber, const std::string& bu
 }
 
 std::string event_json(const dds::Event& event, Instant start) {
-    ordered_json out = {{"event", dds::name_of(event.kind)}, {"at_s", to_seconds(event.when - start)}, {"text", dds::sentence(event)}};
+    ordered_json out = {
+        {"event", dds::name_of(event.kind)}, {"at_s", to_seconds(event.when - start)}, {"text", dds::sentence(event)}};
     out["source"] = json_of(event.source);
     if (event.other.process != 0) out["other"] = json_of(event.other);
     return text_of(out);
@@ -98,12 +105,14 @@ std::string event_json(const dds::Event& event, Instant start) {
 
 std::string status_table(const dds::Subscriber& subscriber, const std::string& bus, Instant now) {
     const dds::FrameJudge& judge = subscriber.judge();
-    if (!judge.joined()) return fmt::format("bus {}: no frame yet; {} samples received\n", bus, judge.counts().received);
+    if (!judge.joined())
+        return fmt::format("bus {}: no frame yet; {} samples received\n", bus, judge.counts().received);
     const dds::Frame& frame = judge.frame();
     std::string out = fmt::format("bus {}: {}\n", bus, judge.source().text());
     auto end = std::back_inserter(out);
-    fmt::format_to(end, "frame {}, bus time {:.6f} s, age {:.2f} ms, every {:g} ms: {}\n", frame.sequence, to_seconds(frame.instant()),
-                   milliseconds_of(judge.age(now)), milliseconds_of(judge.pace()), judge.stale() ? "STALE" : "fresh");
+    fmt::format_to(end, "frame {}, bus time {:.6f} s, age {:.2f} ms, every {:g} ms: {}\n", frame.sequence,
+                   to_seconds(frame.instant()), milliseconds_of(judge.age(now)), milliseconds_of(judge.pace()),
+                   judge.stale() ? "STALE" : "fresh");
     static constexpr std::uint32_t a_row = 8;
     for (std::uint32_t i = 0; i < frame.words; ++i) {
         if (i % a_row == 0) fmt::format_to(end, "{}{:>4}:", i == 0 ? "" : "\n", i);
@@ -111,10 +120,13 @@ std::string status_table(const dds::Subscriber& subscriber, const std::string& b
     }
     out += '\n';
     for (const CountName& each : count_names)
-        if (const std::uint64_t count = judge.counts().*each.count; count != 0) fmt::format_to(end, "{:>12} {}\n", count, each.words);
-    if (subscriber.overruns() != 0) fmt::format_to(end, "{:>12} dropped here, this program was too slow\n", subscriber.overruns());
+        if (const std::uint64_t count = judge.counts().*each.count; count != 0)
+            fmt::format_to(end, "{:>12} {}\n", count, each.words);
+    if (subscriber.overruns() != 0)
+        fmt::format_to(end, "{:>12} dropped here, this program was too slow\n", subscriber.overruns());
     for (const dds::Other& other : judge.others())
-        fmt::format_to(end, "{} {}: {} frames, not used\n", other.in_conflict ? "CONFLICT" : "also", other.source.text(), other.frames);
+        fmt::format_to(end, "{} {}: {} frames, not used\n", other.in_conflict ? "CONFLICT" : "also",
+                       other.source.text(), other.frames);
     return out;
 }
 
@@ -123,10 +135,13 @@ std::string status_line(const dds::Subscriber& subscriber, Instant now) {
     const dds::Counts& c = judge.counts();
     if (!judge.joined()) return fmt::format("no frame yet; {} samples received", c.received);
     const dds::Frame& frame = judge.frame();
-    std::string out = fmt::format("frame {} age {:.2f} ms {}, used {} lost {} order {} crc {} bad {} others {}{} |", frame.sequence,
-                                  milliseconds_of(judge.age(now)), judge.stale() ? "STALE" : "fresh", c.used, c.lost, c.late, c.wrong_crc,
-                                  c.duplicates + c.jumps + c.foreign + c.malformed + c.wrong_words, c.other_source, judge.in_conflict() ? " CONFLICT" : "");
-    for (const std::uint32_t count : frame.positions()) fmt::format_to(std::back_inserter(out), " {}", static_cast<std::int32_t>(count));
+    std::string out =
+        fmt::format("frame {} age {:.2f} ms {}, used {} lost {} order {} crc {} bad {} others {}{} |", frame.sequence,
+                    milliseconds_of(judge.age(now)), judge.stale() ? "STALE" : "fresh", c.used, c.lost, c.late,
+                    c.wrong_crc, c.duplicates + c.jumps + c.foreign + c.malformed + c.wrong_words, c.other_source,
+                    judge.in_conflict() ? " CONFLICT" : "");
+    for (const std::uint32_t count : frame.positions())
+        fmt::format_to(std::back_inserter(out), " {}", static_cast<std::int32_t>(count));
     return out;
 }
 

@@ -34,8 +34,9 @@ int flushed(int code) {
     errno = 0;
     const bool lost = std::ferror(stdout) != 0, out = std::fflush(stdout) == 0;
     if (out && !lost) return code;
-    print_error(fmt::format("What was to be printed could not be written to standard output: {}. Files that were written are whole.",
-                            std::strerror(errno != 0 ? errno : EIO)));
+    print_error(fmt::format(
+        "What was to be printed could not be written to standard output: {}. Files that were written are whole.",
+        std::strerror(errno != 0 ? errno : EIO)));
     return code == exit_done ? static_cast<int>(exit_io) : code;
 }
 

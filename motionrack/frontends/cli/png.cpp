@@ -50,8 +50,8 @@ Result<std::string> png_of(std::string_view svg, double scale) {
     rsvg_handle_get_intrinsic_dimensions(handle.get(), &has_width, &width, &has_height, &height, &has_box, &box);
     if (!has_box) return not_drawn("it has no viewBox");
     const RsvgRectangle whole{0, 0, box.width * scale, box.height * scale};
-    const std::unique_ptr<cairo_surface_t, By<cairo_surface_destroy>> surface(
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(whole.width)), static_cast<int>(std::ceil(whole.height))));
+    const std::unique_ptr<cairo_surface_t, By<cairo_surface_destroy>> surface(cairo_image_surface_create(
+        CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(whole.width)), static_cast<int>(std::ceil(whole.height))));
     const std::unique_ptr<cairo_t, By<cairo_destroy>> pen(cairo_create(surface.get()));
     if (!rsvg_handle_render_document(handle.get(), pen.get(), &whole, &error)) return not_drawn(taken(error));
     std::string bytes;

@@ -1,10 +1,10 @@
 // Loading what a command works on.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <filesystem>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/subprograms.hpp>
@@ -19,7 +19,8 @@ Result<ProgramText> load_program(const std::string& path) {
 }
 
 Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in) {
-    if (path.empty() && built_in == BuiltInRack::router) return ProgramText{*rack::rack_template("router"), "built-in router"};
+    if (path.empty() && built_in == BuiltInRack::router)
+        return ProgramText{*rack::rack_template("router"), "built-in router"};
     if (path.empty()) return ProgramText{demonstration_rack(), "built-in demonstration"};
     MOTIONRACK_TRY(std::string text, read_text(path));
     return ProgramText{std::move(text), path};
@@ -52,15 +53,18 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
 }
 
 void add_reading_options(CLI::App& command, ReadingOptions& options, const char* tools) {
-    command.add_option(tools, options.tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
+    command.add_option(tools, options.tools,
+                       "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
     command.add_flag("--block-delete", options.block_delete, "leave out lines that begin with '/'");
 }
 
-std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path, const ReadingOptions& options, int& exit_code_out) {
+std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path,
+                                                         const ReadingOptions& options, int& exit_code_out) {
     control::gcode::Settings settings = program_settings(config, path, options.block_delete);
     if (options.tools.empty()) return settings;
     const Result<std::string> text = read_text(options.tools);
-    Result<control::gcode::ToolTable> tools = text ? control::gcode::read_tool_table(*text, options.tools) : tl::unexpected<Error>(text.error());
+    Result<control::gcode::ToolTable> tools =
+        text ? control::gcode::read_tool_table(*text, options.tools) : tl::unexpected<Error>(text.error());
     if (!tools) {
         exit_code_out = report(tools.error());
         return std::nullopt;
@@ -72,7 +76,9 @@ std::optional<control::gcode::Settings> program_settings(const rack::RackConfig&
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
     const auto same = [](const std::string& a, const std::string& b) {
         std::error_code none;
-        return !a.empty() && !b.empty() && (std::filesystem::equivalent(a, b, none) || std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none));
+        return !a.empty() && !b.empty() &&
+               (std::filesystem::equivalent(a, b, none) ||
+                std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none));
     };
     const auto is_device = [](const std::string& path) {
         std::error_code none;
@@ -81,9 +87,17 @@ bool may_write(const std::vector<std::string>& inputs, const std::vector<std::st
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         if (is_device(outputs[i])) continue;
         for (const std::string& input : inputs)
-            if (same(input, outputs[i])) return print_error(fmt::format("{} is read, so nothing can be written there; choose another name. Nothing was done.", outputs[i])), false;
+            if (same(input, outputs[i]))
+                return print_error(fmt::format(
+                           "{} is read, so nothing can be written there; choose another name. Nothing was done.",
+                           outputs[i])),
+                       false;
         for (std::size_t k = 0; k < i; ++k)
-            if (same(outputs[k], outputs[i])) return print_error(fmt::format("Two things would be written to {}; choose another name for one. Nothing was done.", outputs[i])), false;
+            if (same(outputs[k], outputs[i]))
+                return print_error(fmt::format(
+                           "Two things would be written to {}; choose another name for one. Nothing was done.",
+                           outputs[i])),
+                       false;
     }
     return true;
 }

@@ -25,8 +25,10 @@ struct ProgramText {
 Result<ProgramText> load_program(const std::string& path);
 
 enum class BuiltInRack { router, demonstration };
-/// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in one.
-std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code, BuiltInRack built_in = BuiltInRack::router);
+/// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in
+/// one.
+std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code,
+                                          BuiltInRack built_in = BuiltInRack::router);
 
 /// The warnings of a reading, and every error; nothing if there are errors.
 std::optional<rack::RackConfig> print_reading(rack::RackReading reading, int& exit_code);
@@ -42,13 +44,16 @@ struct ReadingOptions {
 /// `tools`: what the option is called.
 void add_reading_options(CLI::App& command, ReadingOptions& options, const char* tools = "--tools");
 
-/// How a program is read: by the rack's axes, with the subprograms that lie beside it as name.ngc. Programs from standard input and the
-/// built-in example have no folder.
-control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path, bool block_delete = false);
+/// How a program is read: by the rack's axes, with the subprograms that lie beside it as name.ngc. Programs from
+/// standard input and the built-in example have no folder.
+control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path,
+                                          bool block_delete = false);
 /// The same with the user's tool table; nothing if that cannot be read, which was told.
-std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path, const ReadingOptions& options, int& exit_code);
+std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path,
+                                                         const ReadingOptions& options, int& exit_code);
 
-/// Whether none of the files that are to be written is one that is read, or another one of them. False: it was told which.
+/// Whether none of the files that are to be written is one that is read, or another one of them. False: it was told
+/// which.
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /// How many problems a check for people collects; of a program that is to run the first ones are enough.

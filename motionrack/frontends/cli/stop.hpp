@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM: what was asked of the running command, which then brings everything to rest and keeps what it has.
+// Ctrl-C and SIGTERM: what was asked of the running command, which then brings everything to rest and keeps what it
+// has.
 #pragma once
 
 #include <atomic>

@@ -16,7 +16,8 @@ namespace motionrack::cli {
 
 bool is_terminal(int descriptor) {
     const char* term = std::getenv("TERM");
-    return ::isatty(descriptor) && std::getenv("NO_COLOR") == nullptr && term != nullptr && std::string_view(term) != "dumb";
+    return ::isatty(descriptor) && std::getenv("NO_COLOR") == nullptr && term != nullptr &&
+           std::string_view(term) != "dumb";
 }
 
 namespace {
@@ -30,14 +31,18 @@ void print(const char* label, const char* colour, std::string_view sentence) {
 
 }  // namespace
 
-void print_error(std::string_view sentence) { print("error:", "\033[1;31m", sentence); }
-void print_warning(std::string_view sentence) { print("warning:", "\033[1;33m", sentence); }
+void print_error(std::string_view sentence) {
+    print("error:", "\033[1;31m", sentence);
+}
+void print_warning(std::string_view sentence) {
+    print("warning:", "\033[1;33m", sentence);
+}
 
 Result<std::string> read_text(const std::string& path) {
     std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
     if (!file)
-        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was done; check the name and the rights.", path,
-                                             std::strerror(errno)));
+        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was done; check the name and the rights.",
+                                             path, std::strerror(errno)));
     std::string text;
     std::size_t got = 0;
     static constexpr std::size_t piece = 1 << 20;
@@ -51,15 +56,17 @@ Result<std::string> read_text(const std::string& path) {
     const int why = errno;
     if (file != stdin) std::fclose(file);
     if (bad)
-        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was done; a program is a file, not a folder.", path,
-                                             std::strerror(why)));
+        return fail(Trouble::io,
+                    fmt::format("{} cannot be read: {}. Nothing was done; a program is a file, not a folder.", path,
+                                std::strerror(why)));
     return text;
 }
 
 namespace {
 
 tl::unexpected<Error> not_writable(const std::string& path, int why) {
-    return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
+    return fail(Trouble::io,
+                fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
 }
 
 }  // namespace
@@ -82,7 +89,8 @@ Result<void> write_text(const std::string& path, std::string_view text) {
     bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     int why = errno;
     // What is short stays in the buffer until the file is closed: a full disk is noticed there.
-    if (file != nullptr && (file == stdout ? std::fflush(file) : std::fclose(file)) != 0 && good) good = false, why = errno;
+    if (file != nullptr && (file == stdout ? std::fflush(file) : std::fclose(file)) != 0 && good)
+        good = false, why = errno;
     return good ? Result<void>{} : not_writable(path, why);
 }
 
@@ -99,7 +107,8 @@ void ProgressLine::show(double part, std::string_view text) {
     last_part_ = part;
     static constexpr int width = 30;
     const auto full = static_cast<std::size_t>(part * width);
-    fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(width - full, ' '), part * 100, text);
+    fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(width - full, ' '),
+               part * 100, text);
     std::fflush(stderr);
     shown_ = true;
 }

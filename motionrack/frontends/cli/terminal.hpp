@@ -7,7 +7,8 @@
 
 namespace motionrack::cli {
 
-/// True if standard error (2) or standard output (1) is a terminal that takes colours (NO_COLOR and TERM=dumb are heeded).
+/// True if standard error (2) or standard output (1) is a terminal that takes colours (NO_COLOR and TERM=dumb are
+/// heeded).
 bool is_terminal(int descriptor);
 
 /// "error: ..." in red on a terminal, to standard error.

@@ -29,7 +29,7 @@ bool Chip::step() {
     return going_on;
 }
 
-// ---- chips ------------------------------------------------------------------------------------------------------------
+// ---- chips
 
 bool Bench::is_open(const rack::Card& card) const {
     return std::any_of(chips_.begin(), chips_.end(), [&](const auto& chip) { return &chip.second->card == &card; });
@@ -42,10 +42,12 @@ Result<int> Bench::open(const char* rack, const char* card) {
     } else if (chips_.empty()) {
         const char* path = std::getenv(variable);
         if (path == nullptr || *path == '\0')
-            return fail(Trouble::bad_input,
-                        fmt::format("No chip is open, and the environment variable {0} is not set. Nothing was done. Set {0} to "
-                                    "the path of a rack file with an mcx314 card, or call mcx314_open first.",
-                                    variable));
+            return fail(
+                Trouble::bad_input,
+                fmt::format(
+                    "No chip is open, and the environment variable {0} is not set. Nothing was done. Set {0} to "
+                    "the path of a rack file with an mcx314 card, or call mcx314_open first.",
+                    variable));
         MOTIONRACK_TRY(world, rack::Session::open(path));
     } else {
         MOTIONRACK_TRY(Chip * chip, selected());
@@ -60,11 +62,11 @@ Result<int> Bench::open(const char* rack, const char* card) {
         chips_.emplace(++last_, std::make_unique<Chip>(world, found));
         return selected_ = last_;
     }
-    return fail(Trouble::bad_input,
-                fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
-                            card != nullptr ? fmt::format("The rack has no mcx314 card {} to open", rack::in_quotes(card))
-                                            : std::string("The rack has no mcx314 card to open"),
-                            known.empty() ? "none" : known));
+    return fail(Trouble::bad_input, fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
+                                                card != nullptr ? fmt::format("The rack has no mcx314 card {} to open",
+                                                                              rack::in_quotes(card))
+                                                                : std::string("The rack has no mcx314 card to open"),
+                                                known.empty() ? "none" : known));
 }
 
 std::string Bench::handles() const {
@@ -75,8 +77,9 @@ std::string Bench::handles() const {
 
 Result<void> Bench::check_open(int handle) const {
     if (chips_.count(handle) != 0) return {};
-    return fail(Trouble::bad_input,
-                fmt::format("There is no chip {}; the handles of the open ones are: {}. Nothing was done.", handle, handles()));
+    return fail(
+        Trouble::bad_input,
+        fmt::format("There is no chip {}; the handles of the open ones are: {}. Nothing was done.", handle, handles()));
 }
 
 Result<void> Bench::select(int handle) {
@@ -98,14 +101,15 @@ Result<Chip*> Bench::selected() {
         if (!opened) return tl::unexpected<Error>(opened.error());
     }
     if (selected_ == 0)
-        return fail(Trouble::bad_input,
-                    fmt::format("No chip is selected: the last selected one was closed. Nothing was done. Call mcx314_select "
-                                "with one of these handles: {}.",
-                                handles()));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("No chip is selected: the last selected one was closed. Nothing was done. Call mcx314_select "
+                        "with one of these handles: {}.",
+                        handles()));
     return chips_.at(selected_).get();
 }
 
-// ---- time -------------------------------------------------------------------------------------------------------------
+// ---- time
 
 bool Bench::step(const rack::Session& world) {
     bool going_on = false;
@@ -116,7 +120,9 @@ bool Bench::step(const rack::Session& world) {
 
 Result<void> Bench::pass(Chip& chip, Duration duration) {
     rack::Session& world = *chip.session;
-    const auto advance = [&](Duration time) { return world.advance(static_cast<std::uint64_t>(time / nanoseconds(1))); };
+    const auto advance = [&](Duration time) {
+        return world.advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
+    };
     const Instant end = later(chip.now(), duration);
     while (step(world) && chip.now() < end) MOTIONRACK_CHECK(advance(std::min(look_every, end - chip.now())));
     while (end - chip.now() >= nanoseconds(1)) MOTIONRACK_CHECK(advance(std::min(most_at_once, end - chip.now())));

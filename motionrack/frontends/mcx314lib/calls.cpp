@@ -1,8 +1,8 @@
 // Errors, and checks of what the function library itself cannot be given.
 #include <fmt/format.h>
+#include <mcx314lib.h>
 
 #include <motionrack/frontends/mcx314lib/calls.hpp>
-#include <mcx314lib.h>
 
 namespace motionrack::mcx314lib {
 
@@ -15,16 +15,11 @@ struct Name {
     std::string_view there, here;
 };
 constexpr Name names[] = {
-    {"ContStart", "mcx314_contour_begin"},
-    {"ContLine", "mcx314_contour_line"},
-    {"ContArc", "mcx314_contour_arc"},
-    {"ContEnd", "mcx314_contour_end"},
-    {"BP2D or BP3D", "mcx314_pattern_begin"},
-    {"BP2D", "mcx314_pattern_begin"},
-    {"BP3D", "mcx314_pattern_begin"},
-    {"BPStack", "mcx314_pattern_steps"},
-    {"BPStart", "mcx314_pattern_start"},
-    {"BPEnd", "mcx314_pattern_end"},
+    {"ContStart", "mcx314_contour_begin"},    {"ContLine", "mcx314_contour_line"},
+    {"ContArc", "mcx314_contour_arc"},        {"ContEnd", "mcx314_contour_end"},
+    {"BP2D or BP3D", "mcx314_pattern_begin"}, {"BP2D", "mcx314_pattern_begin"},
+    {"BP3D", "mcx314_pattern_begin"},         {"BPStack", "mcx314_pattern_steps"},
+    {"BPStart", "mcx314_pattern_start"},      {"BPEnd", "mcx314_pattern_end"},
     {"SetOutput", "mcx314_set_output"},
 };
 
@@ -53,15 +48,17 @@ void failed(const char* who, std::string_view sentence) noexcept {
 
 Result<unsigned> mask_of(int axis) {
     if (axis >= 1 && axis <= static_cast<int>(mcx314::xyzu)) return static_cast<unsigned>(axis);
-    return fail(Trouble::refused, fmt::format("the axis mask is {}, but X is 1, Y 2, Z 4, U 8, and sums of these are 1 to 15. "
-                                              "Nothing was written.",
-                                              axis));
+    return fail(Trouble::refused,
+                fmt::format("the axis mask is {}, but X is 1, Y 2, Z 4, U 8, and sums of these are 1 to 15. "
+                            "Nothing was written.",
+                            axis));
 }
 
 Result<int> channel_of(int axis) {
     for (int i = 0; i < 4; ++i)
         if (axis == 1 << i) return i;
-    return fail(Trouble::refused, fmt::format("the axis is {}, but it must be one of X 1, Y 2, Z 4, U 8. Nothing was written.", axis));
+    return fail(Trouble::refused,
+                fmt::format("the axis is {}, but it must be one of X 1, Y 2, Z 4, U 8. Nothing was written.", axis));
 }
 
 Result<unsigned> mode_word(int word) {
@@ -72,10 +69,14 @@ Result<unsigned> mode_word(int word) {
 
 }  // namespace motionrack::mcx314lib
 
-// ---- errors -----------------------------------------------------------------------------------------------------------
+// ---- errors
 
-const char* mcx314_last_error(void) { return motionrack::mcx314lib::last_error.c_str(); }
-void mcx314_clear_error(void) { motionrack::mcx314lib::last_error.clear(); }
+const char* mcx314_last_error(void) {
+    return motionrack::mcx314lib::last_error.c_str();
+}
+void mcx314_clear_error(void) {
+    motionrack::mcx314lib::last_error.clear();
+}
 
 void mcx314_on_error(void (*handler)(const char* sentence, void* user), void* user) {
     motionrack::mcx314lib::process().on_error(handler, user);

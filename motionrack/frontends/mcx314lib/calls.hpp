@@ -1,5 +1,5 @@
-// How every function of mcx314lib.h runs: one at a time, on the selected chip; an error becomes a sentence, nothing is thrown
-// out.
+// How every function of mcx314lib.h runs: one at a time, on the selected chip; an error becomes a sentence, nothing is
+// thrown out.
 #pragma once
 
 #include <motionrack/frontends/calls/calls.hpp>

@@ -1,5 +1,5 @@
-/* The function library of the MCX314 four-axis pulse chip for C: the names and argument lists of the library's source, and
- * calls of our own (mcx314_..) for what the source names without listing it, for several chips, errors and time.
+/* The function library of the MCX314 four-axis pulse chip for C: the names and argument lists of the library's source,
+ * and calls of our own (mcx314_..) for what the source names without listing it, for several chips, errors and time.
  *
  * Link with libmcx314lib.so (-lmcx314lib). A program that moves axis X by 1000 pulses and tells where it is:
  *
@@ -51,14 +51,15 @@ extern "C" {
 /* Pulse output: 0 two pulse trains, 1 pulse and direction. Refused while an axis of the mask drives. */
 MCX314_API void SetPulseMode(int axis, int mode);
 
-/* The multiple M, 1 .. 500; R = 8,000,000 / M, cut to a whole number. Refused while an axis of the mask drives. A multiple
- * must be set before the first drive, by one of these three. */
+/* The multiple M, 1 .. 500; R = 8,000,000 / M, cut to a whole number. Refused while an axis of the mask drives. A
+ * multiple must be set before the first drive, by one of these three. */
 MCX314_API void SetMultiple(int axis, int data);
 
 /* R of all axes, 8,000,000 .. 16,000. Refused while an axis drives. */
 MCX314_API void SetRange(int data);
 
-/* The smallest whole multiple, for all axes, with which V <= 8,000 reaches this speed: 1 .. 4,000,000 pulses a second. */
+/* The smallest whole multiple, for all axes, with which V <= 8,000 reaches this speed: 1 .. 4,000,000 pulses a second.
+ */
 MCX314_API void SetMaxSpeed(int data);
 
 /* ---- Basic motion ---- */
@@ -117,20 +118,20 @@ typedef struct CIRCLEDATA {
 } CIRCLEDATA;
 
 /* Lines of two axes (masks 3, 5, 9, 6, 10, 12) and of three (7, 11, 13, 14): constant speed, T-curve, S-curve. */
-MCX314_API void Line2D_C(LINEDATA *pLD, int axis);
-MCX314_API void Line3D_C(LINEDATA *pLD, int axis);
-MCX314_API void Line2D_T(LINEDATA *pLD, int axis);
-MCX314_API void Line3D_T(LINEDATA *pLD, int axis);
-MCX314_API void Line2D_S(LINEDATA *pLD, int axis);
-MCX314_API void Line3D_S(LINEDATA *pLD, int axis);
+MCX314_API void Line2D_C(LINEDATA* pLD, int axis);
+MCX314_API void Line3D_C(LINEDATA* pLD, int axis);
+MCX314_API void Line2D_T(LINEDATA* pLD, int axis);
+MCX314_API void Line3D_T(LINEDATA* pLD, int axis);
+MCX314_API void Line2D_S(LINEDATA* pLD, int axis);
+MCX314_API void Line3D_S(LINEDATA* pLD, int axis);
 
-/* Arcs of two axes: constant speed, T-curve. The T-curve decelerates at the point of ManualDec() of the first axis if that
- * is in force, else at one that is computed. Refused where the finish point is beside the circle by more than 1 % of the
- * radius (at least 3 pulses). */
-MCX314_API void CircleCW_C(CIRCLEDATA *pCD, int axis);
-MCX314_API void CircleCCW_C(CIRCLEDATA *pCD, int axis);
-MCX314_API void CircleCW_T(CIRCLEDATA *pCD, int axis);
-MCX314_API void CircleCCW_T(CIRCLEDATA *pCD, int axis);
+/* Arcs of two axes: constant speed, T-curve. The T-curve decelerates at the point of ManualDec() of the first axis if
+ * that is in force, else at one that is computed. Refused where the finish point is beside the circle by more than 1 %
+ * of the radius (at least 3 pulses). */
+MCX314_API void CircleCW_C(CIRCLEDATA* pCD, int axis);
+MCX314_API void CircleCCW_C(CIRCLEDATA* pCD, int axis);
+MCX314_API void CircleCW_T(CIRCLEDATA* pCD, int axis);
+MCX314_API void CircleCCW_T(CIRCLEDATA* pCD, int axis);
 
 /* Centre of arcs and finish point of lines and arcs for structures that have none, relative to the start:
  * -8,388,608 .. 8,388,607. The source has both names of each. */
@@ -172,9 +173,9 @@ MCX314_API void InPosSig(int n, int axis);
 /* ---- Home ---- */
 
 /* Search the home switch in - direction and wait until that has ended; LP and EP are 0 at home. WR1Reg is WR1 with the
- * home switch (IN0, IN1 or IN3) enabled at its level, and IN2's level for the encoder's index Z. Type 1 decelerates at the
- * switch; 2 goes back and again, slowly; 3 and 4 are 1 and 2, on to Z. The axes, which the source leaves open, are those of
- * mcx314_home_axes(). */
+ * home switch (IN0, IN1 or IN3) enabled at its level, and IN2's level for the encoder's index Z. Type 1 decelerates at
+ * the switch; 2 goes back and again, slowly; 3 and 4 are 1 and 2, on to Z. The axes, which the source leaves open, are
+ * those of mcx314_home_axes(). */
 MCX314_API void HomeType1(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType2(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType3(int WR1Reg, int SV, int V, int A);
@@ -206,10 +207,10 @@ MCX314_API void RESET(void);
 
 /* ---- Chips ---- */
 
-/* Opens a card of a rack and selects it. `rack`: path of a rack file or the text of one ("card.c1 = \"mcx314\""), which is
- * then a world of its own with a time of its own; NULL: the rack of the selected chip. `card`: its name; NULL: the rack's
- * first mcx314 card that is not open. Returns the chip's handle, 1 or greater, or -1. */
-MCX314_API int mcx314_open(const char *rack, const char *card);
+/* Opens a card of a rack and selects it. `rack`: path of a rack file or the text of one ("card.c1 = \"mcx314\""), which
+ * is then a world of its own with a time of its own; NULL: the rack of the selected chip. `card`: its name; NULL: the
+ * rack's first mcx314 card that is not open. Returns the chip's handle, 1 or greater, or -1. */
+MCX314_API int mcx314_open(const char* rack, const char* card);
 
 /* The functions that follow work on this chip. */
 MCX314_API int mcx314_select(int handle);
@@ -221,12 +222,12 @@ MCX314_API int mcx314_close(int handle);
 
 /* The sentence of the last error in this thread, "" if there was none since mcx314_clear_error(). Valid until the next
  * error in this thread. */
-MCX314_API const char *mcx314_last_error(void);
+MCX314_API const char* mcx314_last_error(void);
 
 MCX314_API void mcx314_clear_error(void);
 
 /* From here on every error calls this function with its sentence and `user`; NULL: none. It may call this library. */
-MCX314_API void mcx314_on_error(void (*handler)(const char *sentence, void *user), void *user);
+MCX314_API void mcx314_on_error(void (*handler)(const char* sentence, void* user), void* user);
 
 /* ---- Time ---- */
 
@@ -248,9 +249,9 @@ MCX314_API int mcx314_moving(int axis);
 /* Those of the axes that are at a limit switch or beyond a software limit, or were stopped there, as a mask. */
 MCX314_API int mcx314_at_limit(int axis);
 
-/* A line for each axis: whether it drives, where it is, why it stopped and what to do next. "" if refused. Valid until the
- * next call in this thread. */
-MCX314_API const char *mcx314_report(int axis);
+/* A line for each axis: whether it drives, where it is, why it stopped and what to do next. "" if refused. Valid until
+ * the next call in this thread. */
+MCX314_API const char* mcx314_report(int axis);
 
 /* ---- Stops, ramps, outputs ---- */
 
@@ -266,8 +267,8 @@ MCX314_API int mcx314_set_output(int axis, int output, int level);
 
 /* ---- Manual operation ---- */
 
-/* Jogs one axis at V, the sign is the direction; 0 lets go. Goes on for 250 ms: call it again before, with the same speed or
- * another. Another direction is taken by way of a stop. SV and A are those of the first call. */
+/* Jogs one axis at V, the sign is the direction; 0 lets go. Goes on for 250 ms: call it again before, with the same
+ * speed or another. Another direction is taken by way of a stop. SV and A are those of the first call. */
 MCX314_API int mcx314_jog(int axis, int SV, int V, int A);
 
 /* One step of so many pulses (signed) at V. */
@@ -307,9 +308,9 @@ typedef struct MCX314_CONTOUR {
     int D;  /* deceleration at the end; 0: as A */
 } MCX314_CONTOUR;
 
-/* mcx314_contour_begin(), then lines and arcs as often as wanted, then mcx314_contour_end(), which waits for the end. P and
- * C (of X, Y, Z, U) are relative to the segment's start. V: speed from this segment on, 0: unchanged. */
-MCX314_API int mcx314_contour_begin(const MCX314_CONTOUR *data);
+/* mcx314_contour_begin(), then lines and arcs as often as wanted, then mcx314_contour_end(), which waits for the end. P
+ * and C (of X, Y, Z, U) are relative to the segment's start. V: speed from this segment on, 0: unchanged. */
+MCX314_API int mcx314_contour_begin(const MCX314_CONTOUR* data);
 MCX314_API int mcx314_contour_line(int axis, const int P[4], int V);
 MCX314_API int mcx314_contour_arc(int axis, const int P[4], const int C[4], int clockwise, int V);
 MCX314_API int mcx314_contour_end(void);
@@ -324,27 +325,28 @@ typedef struct MCX314_PATTERN {
     int DecPoint; /* steps of the pattern after which it decelerates; used with A */
 } MCX314_PATTERN;
 
-/* Sixteen steps of each axis, in the order X, Y, Z, U of those that take part, the lowest bit first: a 1 in `plus` steps in
+/* Sixteen steps of each axis, in the order X, Y, Z, U of those that take part, the lowest bit first: a 1 in `plus`
+ * steps in
  * + direction, in `minus` in - direction, in both: the drive ends here. */
 typedef struct MCX314_STEPS {
     unsigned plus[3];
     unsigned minus[3];
 } MCX314_STEPS;
 
-/* mcx314_pattern_begin() with two or three axes, up to three mcx314_pattern_steps(), mcx314_pattern_start(), more steps while
- * it runs (they wait for room), mcx314_pattern_end(), which waits for the end. */
-MCX314_API int mcx314_pattern_begin(const MCX314_PATTERN *data, int axis);
-MCX314_API int mcx314_pattern_steps(const MCX314_STEPS *steps);
+/* mcx314_pattern_begin() with two or three axes, up to three mcx314_pattern_steps(), mcx314_pattern_start(), more steps
+ * while it runs (they wait for room), mcx314_pattern_end(), which waits for the end. */
+MCX314_API int mcx314_pattern_begin(const MCX314_PATTERN* data, int axis);
+MCX314_API int mcx314_pattern_steps(const MCX314_STEPS* steps);
 MCX314_API int mcx314_pattern_start(void);
 MCX314_API int mcx314_pattern_end(void);
 
 /* ---- The virtual card ---- */
 
 /* A register or value of the selected card by its name ("RR0", "x.WR2", "x.LP"), without effects and taking no time. */
-MCX314_API int mcx314_peek(const char *name, int64_t *value);
+MCX314_API int mcx314_peek(const char* name, int64_t* value);
 
 /* Drives a wire of the rack ("motion.xlmtp", "X.home") from outside, 0 or 1, until it is released: NAN. */
-MCX314_API int mcx314_set_wire(const char *wire, double value);
+MCX314_API int mcx314_set_wire(const char* wire, double value);
 
 #ifdef __cplusplus
 }

@@ -1,8 +1,9 @@
-// The functions of our own: chips, time, status, manual operation, interrupts, contours, bit patterns, the virtual card.
+// The functions of our own: chips, time, status, manual operation, interrupts, contours, bit patterns, the virtual
+// card.
+#include <fmt/format.h>
 #include <mcx314lib.h>
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <motionrack/frontends/mcx314lib/calls.hpp>
 
 namespace {
@@ -21,7 +22,8 @@ thread_local std::string report_text;
 
 Result<Duration> time_of(int milliseconds) {
     if (milliseconds >= 0) return motionrack::milliseconds(milliseconds);
-    return fail(Trouble::refused, fmt::format("the time is {} ms, but it is 0 to 2147483647 ms. Nothing was run.", milliseconds));
+    return fail(Trouble::refused,
+                fmt::format("the time is {} ms, but it is 0 to 2147483647 ms. Nothing was run.", milliseconds));
 }
 
 /// 0 or 1.
@@ -80,16 +82,17 @@ int change_interrupts(const char* who, int axis, int causes,
                       Result<void> (motionrack::mcx314::Driver::*function)(unsigned, std::uint16_t)) {
     return on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
         if (causes < 1 || causes > motionrack::mcx314::cause::all)
-            return fail(Trouble::refused, fmt::format("the causes are {}, but they are 1 to 255, bits of enum mcx314_cause. "
-                                                      "Nothing was written.",
-                                                      causes));
+            return fail(Trouble::refused,
+                        fmt::format("the causes are {}, but they are 1 to 255, bits of enum mcx314_cause. "
+                                    "Nothing was written.",
+                                    causes));
         return (chip.driver.*function)(axes, static_cast<std::uint16_t>(causes));
     });
 }
 
 }  // namespace
 
-// ---- chips ------------------------------------------------------------------------------------------------------------
+// ---- chips
 
 int mcx314_open(const char* rack, const char* card) {
     return with_bench(__func__, -1, [&](Bench& bench) { return bench.open(rack, card); });
@@ -109,7 +112,7 @@ int mcx314_close(int handle) {
     });
 }
 
-// ---- time -------------------------------------------------------------------------------------------------------------
+// ---- time
 
 int mcx314_wait(int axis, int milliseconds) {
     return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
@@ -146,14 +149,15 @@ int64_t mcx314_now_us(void) {
     });
 }
 
-// ---- status -----------------------------------------------------------------------------------------------------------
+// ---- status
 
 int mcx314_moving(int axis) {
     return those_of(__func__, axis, [](Chip& chip, int channel) { return chip.driver.moving(1u << channel); });
 }
 
 int mcx314_at_limit(int axis) {
-    return those_of(__func__, axis, [](Chip& chip, int channel) { return chip.driver.axis_status(channel).at_limit(); });
+    return those_of(__func__, axis,
+                    [](Chip& chip, int channel) { return chip.driver.axis_status(channel).at_limit(); });
 }
 
 const char* mcx314_report(int axis) {
@@ -168,10 +172,14 @@ const char* mcx314_report(int axis) {
     return report_text.c_str();
 }
 
-// ---- stops, ramps, outputs ----------------------------------------------------------------------------------------------
+// ---- stops, ramps, outputs
 
-int mcx314_stop(int axis) { return stop(__func__, axis, StopKind::slow); }
-int mcx314_stop_now(int axis) { return stop(__func__, axis, StopKind::quick); }
+int mcx314_stop(int axis) {
+    return stop(__func__, axis, StopKind::slow);
+}
+int mcx314_stop_now(int axis) {
+    return stop(__func__, axis, StopKind::quick);
+}
 
 int mcx314_asymmetric(int axis, int on) {
     return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
@@ -187,7 +195,7 @@ int mcx314_set_output(int axis, int output, int level) {
     });
 }
 
-// ---- manual operation, homing's axes --------------------------------------------------------------------------------------
+// ---- manual operation, homing's axes
 
 int mcx314_jog(int axis, int SV, int V, int A) {
     return manually(__func__, axis, SV, A, [&](auto& manual, Instant now) { return manual.jog(V, now); });
@@ -213,7 +221,7 @@ int mcx314_home_axes(int axis) {
     });
 }
 
-// ---- interrupts -------------------------------------------------------------------------------------------------------
+// ---- interrupts
 
 int mcx314_enable_interrupt(int axis, int causes) {
     return change_interrupts(__func__, axis, causes, &motionrack::mcx314::Driver::EnableInterrupt);
@@ -228,7 +236,7 @@ int mcx314_read_interrupt(int axis) {
     });
 }
 
-// ---- contours ---------------------------------------------------------------------------------------------------------
+// ---- contours
 
 int mcx314_contour_begin(const MCX314_CONTOUR* data) {
     return done(__func__, [&](Chip& chip) -> Result<void> {
@@ -260,7 +268,7 @@ int mcx314_contour_end(void) {
     });
 }
 
-// ---- bit patterns -----------------------------------------------------------------------------------------------------
+// ---- bit patterns
 
 int mcx314_pattern_begin(const MCX314_PATTERN* data, int axis) {
     return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
@@ -277,9 +285,10 @@ int mcx314_pattern_steps(const MCX314_STEPS* steps) {
         motionrack::mcx314::BPWORD word;
         for (std::size_t i = 0; i < 3; ++i) {
             if (steps->plus[i] > 0xFFFF || steps->minus[i] > 0xFFFF)
-                return fail(Trouble::refused, fmt::format("the words of the axis number {} are {} and {}, but they are 0 to 65535. "
-                                                          "Nothing was written.",
-                                                          i + 1, steps->plus[i], steps->minus[i]));
+                return fail(Trouble::refused,
+                            fmt::format("the words of the axis number {} are {} and {}, but they are 0 to 65535. "
+                                        "Nothing was written.",
+                                        i + 1, steps->plus[i], steps->minus[i]));
             word.plus[i] = static_cast<std::uint16_t>(steps->plus[i]);
             word.minus[i] = static_cast<std::uint16_t>(steps->minus[i]);
         }
@@ -294,7 +303,7 @@ int mcx314_pattern_end(void) {
     return done(__func__, [](Chip& chip) { return chip.driver.BPEnd(); });
 }
 
-// ---- the virtual card -------------------------------------------------------------------------------------------------
+// ---- the virtual card
 
 int mcx314_peek(const char* name, int64_t* value) {
     return done(__func__, [&](Chip& chip) -> Result<void> {

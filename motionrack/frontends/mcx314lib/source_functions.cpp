@@ -75,32 +75,57 @@ std::int64_t with_sign(unsigned data) {
 
 }  // namespace
 
-// ---- initial ----------------------------------------------------------------------------------------------------------
+// ---- initial
 
 void SetPulseMode(int axis, int mode) {
     on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.SetPulseMode(axes, mode); });
 }
-void SetMultiple(int axis, int data) { set(__func__, axis, data, &Driver::SetMultiple); }
-void SetRange(int data) { set_all(__func__, data, &Driver::SetRange); }
-void SetMaxSpeed(int data) { set_all(__func__, data, &Driver::SetMaxSpeed); }
+void SetMultiple(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetMultiple);
+}
+void SetRange(int data) {
+    set_all(__func__, data, &Driver::SetRange);
+}
+void SetMaxSpeed(int data) {
+    set_all(__func__, data, &Driver::SetMaxSpeed);
+}
 
-// ---- basic motion -----------------------------------------------------------------------------------------------------
+// ---- basic motion
 
-void SetSV(int axis, int data) { set(__func__, axis, data, &Driver::SetSV); }
-void SetV(int axis, int data) { set(__func__, axis, data, &Driver::SetV); }
-void SetA(int axis, int data) { set(__func__, axis, data, &Driver::SetA); }
-void SetD(int axis, int data) { set(__func__, axis, data, &Driver::SetD); }
-void SetAA(int axis, int data) { set(__func__, axis, data, &Driver::SetAA); }
-void SetAO(int axis, int data) { set(__func__, axis, data, &Driver::SetAO); }
-void Pulse(int axis, int data) { set(__func__, axis, data, &Driver::Pulse); }
+void SetSV(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetSV);
+}
+void SetV(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetV);
+}
+void SetA(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetA);
+}
+void SetD(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetD);
+}
+void SetAA(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetAA);
+}
+void SetAO(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetAO);
+}
+void Pulse(int axis, int data) {
+    set(__func__, axis, data, &Driver::Pulse);
+}
 void AutoDec(void) {
     done(__func__, [](Chip& chip) { return chip.driver.AutoDec(); });
 }
-void ManualDec(int axis, int DecPulse) { set(__func__, axis, DecPulse, &Driver::ManualDec); }
-void ManDec(int axis, int DecPulse) { set(__func__, axis, DecPulse, &Driver::ManDec); }
+void ManualDec(int axis, int DecPulse) {
+    set(__func__, axis, DecPulse, &Driver::ManualDec);
+}
+void ManDec(int axis, int DecPulse) {
+    set(__func__, axis, DecPulse, &Driver::ManDec);
+}
 
 void TCurve_F(int axis, int m_SV, int m_V, int m_A, int m_Pulse) {
-    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.TCurve_F(axes, m_SV, m_V, m_A, m_Pulse); });
+    on_axes(__func__, axis,
+            [&](Chip& chip, unsigned axes) { return chip.driver.TCurve_F(axes, m_SV, m_V, m_A, m_Pulse); });
 }
 void TCurve_C(int axis, int m_SV, int m_V, int m_A) {
     on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.TCurve_C(axes, m_SV, m_V, m_A); });
@@ -113,55 +138,131 @@ void SCurve_C(int axis, int m_SV, int m_V, int m_A, int m_K) {
     on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.SCurve_C(axes, m_SV, m_V, m_A, m_K); });
 }
 
-// ---- interpolation ----------------------------------------------------------------------------------------------------
+// ---- interpolation
 
-void Line2D_C(LINEDATA* pLD, int axis) { line(__func__, pLD, axis, &Driver::Line2D_C); }
-void Line3D_C(LINEDATA* pLD, int axis) { line(__func__, pLD, axis, &Driver::Line3D_C); }
-void Line2D_T(LINEDATA* pLD, int axis) { line(__func__, pLD, axis, &Driver::Line2D_T); }
-void Line3D_T(LINEDATA* pLD, int axis) { line(__func__, pLD, axis, &Driver::Line3D_T); }
-void Line2D_S(LINEDATA* pLD, int axis) { line(__func__, pLD, axis, &Driver::Line2D_S); }
-void Line3D_S(LINEDATA* pLD, int axis) { line(__func__, pLD, axis, &Driver::Line3D_S); }
-void CircleCW_C(CIRCLEDATA* pCD, int axis) { circle(__func__, pCD, axis, &Driver::CircleCW_C); }
-void CircleCCW_C(CIRCLEDATA* pCD, int axis) { circle(__func__, pCD, axis, &Driver::CircleCCW_C); }
-void CircleCW_T(CIRCLEDATA* pCD, int axis) { circle(__func__, pCD, axis, &Driver::CircleCW_T); }
-void CircleCCW_T(CIRCLEDATA* pCD, int axis) { circle(__func__, pCD, axis, &Driver::CircleCCW_T); }
-void SetCP(int axis, int data) { set(__func__, axis, data, &Driver::SetCP); }
-void SetC(int axis, int data) { set(__func__, axis, data, &Driver::SetC); }
-void SetFP(int axis, int data) { set(__func__, axis, data, &Driver::SetFP); }
-void SetP(int axis, int data) { set(__func__, axis, data, &Driver::SetP); }
+void Line2D_C(LINEDATA* pLD, int axis) {
+    line(__func__, pLD, axis, &Driver::Line2D_C);
+}
+void Line3D_C(LINEDATA* pLD, int axis) {
+    line(__func__, pLD, axis, &Driver::Line3D_C);
+}
+void Line2D_T(LINEDATA* pLD, int axis) {
+    line(__func__, pLD, axis, &Driver::Line2D_T);
+}
+void Line3D_T(LINEDATA* pLD, int axis) {
+    line(__func__, pLD, axis, &Driver::Line3D_T);
+}
+void Line2D_S(LINEDATA* pLD, int axis) {
+    line(__func__, pLD, axis, &Driver::Line2D_S);
+}
+void Line3D_S(LINEDATA* pLD, int axis) {
+    line(__func__, pLD, axis, &Driver::Line3D_S);
+}
+void CircleCW_C(CIRCLEDATA* pCD, int axis) {
+    circle(__func__, pCD, axis, &Driver::CircleCW_C);
+}
+void CircleCCW_C(CIRCLEDATA* pCD, int axis) {
+    circle(__func__, pCD, axis, &Driver::CircleCCW_C);
+}
+void CircleCW_T(CIRCLEDATA* pCD, int axis) {
+    circle(__func__, pCD, axis, &Driver::CircleCW_T);
+}
+void CircleCCW_T(CIRCLEDATA* pCD, int axis) {
+    circle(__func__, pCD, axis, &Driver::CircleCCW_T);
+}
+void SetCP(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetCP);
+}
+void SetC(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetC);
+}
+void SetFP(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetFP);
+}
+void SetP(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetP);
+}
 
-// ---- signals ----------------------------------------------------------------------------------------------------------
+// ---- signals
 
-void HLMTP(int n, int axis) { turn(__func__, n, axis, &Driver::HLMTP); }
-void HLMTM(int n, int axis) { turn(__func__, n, axis, &Driver::HLMTM); }
-void HLMTSig(int n, int axis) { turn(__func__, n, axis, &Driver::HLMTSig); }
-void SLMTP(int n) { turn_all(__func__, n, &Driver::SLMTP); }
-void SLMTM(int n) { turn_all(__func__, n, &Driver::SLMTM); }
-void SLMTSig(int n) { turn_all(__func__, n, &Driver::SLMTSig); }
-void EncoderMode(int n, int axis) { turn(__func__, n, axis, &Driver::EncoderMode); }
-void EncoderCWCCW(int n, int axis) { turn(__func__, n, axis, &Driver::EncoderCWCCW); }
-void EnableALM(int n) { turn_all(__func__, n, &Driver::EnableALM); }
-void EnableInPos(int n) { turn_all(__func__, n, &Driver::EnableInPos); }
-void ALMSig(int n, int axis) { turn(__func__, n, axis, &Driver::ALMSig); }
-void InPosSig(int n, int axis) { turn(__func__, n, axis, &Driver::InPosSig); }
+void HLMTP(int n, int axis) {
+    turn(__func__, n, axis, &Driver::HLMTP);
+}
+void HLMTM(int n, int axis) {
+    turn(__func__, n, axis, &Driver::HLMTM);
+}
+void HLMTSig(int n, int axis) {
+    turn(__func__, n, axis, &Driver::HLMTSig);
+}
+void SLMTP(int n) {
+    turn_all(__func__, n, &Driver::SLMTP);
+}
+void SLMTM(int n) {
+    turn_all(__func__, n, &Driver::SLMTM);
+}
+void SLMTSig(int n) {
+    turn_all(__func__, n, &Driver::SLMTSig);
+}
+void EncoderMode(int n, int axis) {
+    turn(__func__, n, axis, &Driver::EncoderMode);
+}
+void EncoderCWCCW(int n, int axis) {
+    turn(__func__, n, axis, &Driver::EncoderCWCCW);
+}
+void EnableALM(int n) {
+    turn_all(__func__, n, &Driver::EnableALM);
+}
+void EnableInPos(int n) {
+    turn_all(__func__, n, &Driver::EnableInPos);
+}
+void ALMSig(int n, int axis) {
+    turn(__func__, n, axis, &Driver::ALMSig);
+}
+void InPosSig(int n, int axis) {
+    turn(__func__, n, axis, &Driver::InPosSig);
+}
 
-// ---- home -------------------------------------------------------------------------------------------------------------
+// ---- home
 
-void HomeType1(int WR1Reg, int SV, int V, int A) { home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType1); }
-void HomeType2(int WR1Reg, int SV, int V, int A) { home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType2); }
-void HomeType3(int WR1Reg, int SV, int V, int A) { home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType3); }
-void HomeType4(int WR1Reg, int SV, int V, int A) { home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType4); }
+void HomeType1(int WR1Reg, int SV, int V, int A) {
+    home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType1);
+}
+void HomeType2(int WR1Reg, int SV, int V, int A) {
+    home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType2);
+}
+void HomeType3(int WR1Reg, int SV, int V, int A) {
+    home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType3);
+}
+void HomeType4(int WR1Reg, int SV, int V, int A) {
+    home(__func__, WR1Reg, SV, V, A, motionrack::mcx314::HomeType4);
+}
 
-// ---- positions --------------------------------------------------------------------------------------------------------
+// ---- positions
 
-void LPS(int axis, unsigned data) { set(__func__, axis, with_sign(data), &Driver::LPS); }
-void EPS(int axis, unsigned data) { set(__func__, axis, with_sign(data), &Driver::EPS); }
-unsigned ReadLPS(int axis) { return read(__func__, axis, &Driver::ReadLPS); }
-unsigned ReadEPS(int axis) { return read(__func__, axis, &Driver::ReadEPS); }
-unsigned ReadCV(int axis) { return read(__func__, axis, &Driver::ReadCV); }
-unsigned ReadCA(int axis) { return read(__func__, axis, &Driver::ReadCA); }
-void SetCompP(int axis, int data) { set(__func__, axis, data, &Driver::SetCompP); }
-void SetCompM(int axis, int data) { set(__func__, axis, data, &Driver::SetCompM); }
+void LPS(int axis, unsigned data) {
+    set(__func__, axis, with_sign(data), &Driver::LPS);
+}
+void EPS(int axis, unsigned data) {
+    set(__func__, axis, with_sign(data), &Driver::EPS);
+}
+unsigned ReadLPS(int axis) {
+    return read(__func__, axis, &Driver::ReadLPS);
+}
+unsigned ReadEPS(int axis) {
+    return read(__func__, axis, &Driver::ReadEPS);
+}
+unsigned ReadCV(int axis) {
+    return read(__func__, axis, &Driver::ReadCV);
+}
+unsigned ReadCA(int axis) {
+    return read(__func__, axis, &Driver::ReadCA);
+}
+void SetCompP(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetCompP);
+}
+void SetCompM(int axis, int data) {
+    set(__func__, axis, data, &Driver::SetCompM);
+}
 void RESET(void) {
     done(__func__, [](Chip& chip) -> Result<void> {
         chip.driver.RESET();

@@ -89,7 +89,7 @@ void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call)
 
 }  // namespace
 
-// ---- Cards ----
+// ---- Cards
 
 UINT init_rtc5_dll() {
     return with_bench(__func__, UINT{RTC5_NO_CARD}, [](Bench& bench) -> Result<UINT> {
@@ -113,7 +113,7 @@ void free_rtc5_dll() {
     });
 }
 
-// ---- Files and tables ----
+// ---- Files and tables
 
 UINT n_load_program_file(UINT CardNo, const char*) {
     return with_card(__func__, CardNo, UINT{no_such_card}, [](Card& card) -> Result<UINT> {
@@ -149,7 +149,7 @@ double n_get_head_para(UINT CardNo, UINT HeadNo, UINT ParaNo) {
     });
 }
 
-// ---- Lists and settings ----
+// ---- Lists and settings
 
 void n_get_status(UINT CardNo, UINT* Status, UINT* Pos) {
     ask_two(__func__, CardNo, Status, Pos, [&](Card& card) {
@@ -169,7 +169,7 @@ void n_set_delay_mode(UINT CardNo, UINT VarPoly, UINT, UINT EdgeLevel, UINT MinJ
     });
 }
 
-// ---- Encoders, starts, McBSP ----
+// ---- Encoders, starts, McBSP
 
 void n_get_encoder(UINT CardNo, long* Encoder0, long* Encoder1) {
     ask_two(__func__, CardNo, Encoder0, Encoder1, [&](Card& card) {
@@ -262,7 +262,7 @@ void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
     });
 }
 
-// ---- Recording ----
+// ---- Recording
 
 void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
     ask_two(__func__, CardNo, Busy, Pos, [&](Card& card) {

@@ -66,7 +66,7 @@ calls::Process<Bench>& process() {
     return one;
 }
 
-// ---- the belt ----
+// ---- the belt
 
 std::int64_t Belt::count(std::size_t encoder, std::int64_t tick) const {
     const Line& line = lines_[encoder];
@@ -80,7 +80,7 @@ void Belt::counts(int encoder, std::int64_t first, std::span<std::int32_t> out) 
             static_cast<std::uint32_t>(count(static_cast<std::size_t>(encoder), first + static_cast<std::int64_t>(i))));
 }
 
-// ---- the bench ----
+// ---- the bench
 
 Result<void> Bench::open() {
     if (!cards_.empty()) return {};
@@ -104,7 +104,9 @@ Result<Card*> Bench::card(UINT number) {
         return &card;
     }
     if (rack_)
-        return fail(Trouble::bad_input, fmt::format("there is no card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("there is no card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
     return fail(Trouble::bad_input,
                 fmt::format("there is no card {}; the environment variable RTC5SIM_CARDS makes it {}. "
                             "Nothing was done.",
@@ -153,7 +155,8 @@ Result<void> Bench::open_rack(std::string_view path_or_text) {
         if (rtc5::Card* card = rack::rtc5_card_of(opened->rack(), each.name))
             found.push_back(std::make_unique<Card>(static_cast<UINT>(found.size() + 1), *card));
     if (found.empty())
-        return fail(Trouble::bad_input, "the rack has no card of type rtc5. Nothing was done; the cards are as before.");
+        return fail(Trouble::bad_input,
+                    "the rack has no card of type rtc5. Nothing was done; the cards are as before.");
     close();
     cards_ = std::move(found);
     rack_ = std::move(opened);
@@ -188,7 +191,7 @@ Result<bool> Bench::run_to_rest(std::int64_t ticks) {
     return true;
 }
 
-// ---- errors ----
+// ---- errors
 
 void failed(std::string_view who, std::string_view sentence) noexcept {
     if (who.substr(0, 2) == "n_") who.remove_prefix(2);

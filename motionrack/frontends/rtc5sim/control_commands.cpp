@@ -21,7 +21,7 @@ void execute(const char* who, UINT number, UINT list, UINT position = 0) {
 
 }  // namespace
 
-// ---- Cards ----
+// ---- Cards
 
 UINT n_get_error(UINT CardNo) {
     return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](Bench& bench) -> Result<UINT> {
@@ -43,13 +43,13 @@ void n_reset_error(UINT CardNo, UINT Code) {
     });
 }
 
-// ---- Files and tables ----
+// ---- Files and tables
 
 void n_select_cor_table(UINT CardNo, UINT HeadA, UINT HeadB) {
     call(__func__, CardNo, &rtc5::Engine::select_cor_table, small(HeadA), small(HeadB));
 }
 
-// ---- Running lists ----
+// ---- Running lists
 
 void n_config_list(UINT CardNo, UINT Mem1, UINT Mem2) {
     command(__func__, CardNo, [&](Card& card) {
@@ -128,7 +128,7 @@ void n_goto_xy(UINT CardNo, long X, long Y) {
     });
 }
 
-// ---- Settings ----
+// ---- Settings
 
 void n_set_jump_speed_ctrl(UINT CardNo, double Speed) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {

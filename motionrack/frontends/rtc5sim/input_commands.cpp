@@ -14,7 +14,7 @@ void taken(const char* who, UINT number) {
 
 }  // namespace
 
-// ---- Encoders and starts ----
+// ---- Encoders and starts
 
 void n_simulate_encoder(UINT CardNo, UINT EncoderNo) {
     call(__func__, CardNo, &rtc5::Engine::simulate_encoder, small(EncoderNo));
@@ -54,7 +54,7 @@ UINT n_get_startstop_info(UINT CardNo) {
                     [&](Card& card) -> Result<UINT> { return card.engine.get_startstop_info(); });
 }
 
-// ---- McBSP ----
+// ---- McBSP
 
 long n_get_mcbsp(UINT CardNo) {
     return question(__func__, CardNo, 0L, [](Card& card) -> Result<long> { return card.engine.get_mcbsp(); });
@@ -82,7 +82,7 @@ void n_apply_mcbsp(UINT CardNo, UINT HeadNo, UINT at_once) {
     call(__func__, CardNo, &rtc5::Engine::apply_mcbsp, small(HeadNo), small(at_once));
 }
 
-// ---- Signals and recording ----
+// ---- Signals and recording
 
 long n_get_value(UINT CardNo, UINT Signal) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> { return card.engine.get_value(Signal); });
@@ -91,7 +91,7 @@ void n_stop_trigger(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::stop_trigger);
 }
 
-// ---- Laser signals ----
+// ---- Laser signals
 
 void n_enable_laser(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::enable_laser);

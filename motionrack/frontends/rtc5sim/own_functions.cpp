@@ -39,8 +39,10 @@ int done(const char* who, UINT number, Call call) {
 
 Result<void> check_unwired(const Card& card) {
     if (card.wired == nullptr) return {};
-    return fail(Trouble::refused, "the card is that of a rack, whose wires turn its encoders. Nothing was changed; set the speed of a belt "
-                                  "by rtc5sim_part_set.");
+    return fail(
+        Trouble::refused,
+        "the card is that of a rack, whose wires turn its encoders. Nothing was changed; set the speed of a belt "
+        "by rtc5sim_part_set.");
 }
 
 void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per_s) {
@@ -54,7 +56,7 @@ void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per
 
 }  // namespace
 
-// ---- time ----
+// ---- time
 
 int rtc5sim_question_us(int64_t us) {
     return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
@@ -86,7 +88,7 @@ int64_t rtc5sim_now_us(void) {
     });
 }
 
-// ---- what comes to a card ----
+// ---- what comes to a card
 
 int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
@@ -131,7 +133,7 @@ int rtc5sim_stop(UINT CardNo) {
     });
 }
 
-// ---- what it does ----
+// ---- what it does
 
 int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {

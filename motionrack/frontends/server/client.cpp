@@ -16,7 +16,9 @@ namespace {
 constexpr double least_rate = 1, greatest_rate = 100, first_rate = 10;
 constexpr int policy = 1008, try_again = 1013;  // RFC 6455, 7.4
 
-std::chrono::nanoseconds period_of(double rate_hz) { return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate_hz)); }
+std::chrono::nanoseconds period_of(double rate_hz) {
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate_hz));
+}
 
 /// What is left of a message are the fields of an order or query.
 json without(json object, std::initializer_list<const char*> names) {
@@ -51,27 +53,36 @@ void Client::opened() {
     allow_for(role());
     const ServerSettings& settings = service_.settings();
     const json hello = {{"hello",
-                         {{"version", settings.version}, {"rack", settings.rack}, {"boot", settings.boot}, {"role", authority::name_of(role())},
-                          {"user", user_}, {"session", panel::session_mark(session_)}, {"simulation", true}}}};
+                         {{"version", settings.version},
+                          {"rack", settings.rack},
+                          {"boot", settings.boot},
+                          {"role", authority::name_of(role())},
+                          {"user", user_},
+                          {"session", panel::session_mark(session_)},
+                          {"simulation", true}}}};
     send({panel::text_of(hello), nullptr});
 }
 
-// ---- what comes in -------------------------------------------------------------------------------------------------------------------
+// ---- what comes in
 
 void Client::message(std::string_view text, bool is_text) {
     if (leaving_) return;
-    if (!is_text) return refuse(nullptr, 400, "bad_input", "Messages are texts, this one was binary. Nothing was done.");
+    if (!is_text)
+        return refuse(nullptr, 400, "bad_input", "Messages are texts, this one was binary. Nothing was done.");
     const bool counted = messages_.take("", service_.now().steady);
     // A short message that may be STOP is read in any case.
     if (!counted && (text.size() > 200 || text.find("\"stop\"") == std::string_view::npos))
-        return refuse(nullptr, 429, "limit", fmt::format("More than {:g} messages a second came in. This one was not read; send fewer.",
-                                                         service_.settings().limits.messages_per_second));
+        return refuse(nullptr, 429, "limit",
+                      fmt::format("More than {:g} messages a second came in. This one was not read; send fewer.",
+                                  service_.settings().limits.messages_per_second));
     Result<json> object = read_object(text, "The message");
     if (!object) return answer(nullptr, panel::error_answer(object.error()));
     Request request;
     if (object->contains("id")) request.id = std::move((*object)["id"]);
-    if (!(request.id.is_null() || request.id.is_number_integer() || (request.id.is_string() && request.id.get_ref<const std::string&>().size() <= 64)))
-        return refuse(nullptr, 400, "bad_input", "The id of a message is a whole number or a text of at most 64 bytes. Nothing was done.");
+    if (!(request.id.is_null() || request.id.is_number_integer() ||
+          (request.id.is_string() && request.id.get_ref<const std::string&>().size() <= 64)))
+        return refuse(nullptr, 400, "bad_input",
+                      "The id of a message is a whole number or a text of at most 64 bytes. Nothing was done.");
     const auto says = [&](const char* what) { return object->contains(what) && (*object)[what].is_string(); };
     if (says("order")) {
         const std::string name = (*object)["order"];
@@ -79,7 +90,8 @@ void Client::message(std::string_view text, bool is_text) {
             service_.stop(caller(), peer_.address);
             return answer(request.id, panel::done());
         }
-        if (!counted) return refuse(request.id, 429, "limit", "Too many messages came in. Nothing was done; send fewer.");
+        if (!counted)
+            return refuse(request.id, 429, "limit", "Too many messages came in. Nothing was done; send fewer.");
         request.fields = without(std::move(*object), {"id", "order"});
         return ask(request, name, false);
     }
@@ -108,8 +120,12 @@ void Client::token(const Request& request) {
 
 void Client::subscribe(const Request& request) {
     const json& wanted = request.fields["subscribe"];
-    const auto wrong = [&](std::string sentence) { refuse(request.id, 400, "bad_input", std::move(sentence) + " Nothing was changed."); };
-    if (role() == Role::nobody) return refuse(request.id, 401, "denied", "Who looks from another computer has a token. Send it first: {\"id\":1,\"token\":\"..\"}.");
+    const auto wrong = [&](std::string sentence) {
+        refuse(request.id, 400, "bad_input", std::move(sentence) + " Nothing was changed.");
+    };
+    if (role() == Role::nobody)
+        return refuse(request.id, 401, "denied",
+                      "Who looks from another computer has a token. Send it first: {\"id\":1,\"token\":\"..\"}.");
     if (!wanted.is_object()) return wrong("To subscribe takes {\"channels\":[..],\"rate_hz\":20}.");
     double rate = first_rate;
     std::vector<std::string> names;
@@ -119,7 +135,9 @@ void Client::subscribe(const Request& request) {
             rate = value.get<double>();
         } else if (key == "channels") {
             if (!value.is_array()) return wrong("channels is a list of names.");
-            if (value.size() > panel::Panel::most_channels) return wrong(fmt::format("{} channels are too many; at most {} are sent.", value.size(), panel::Panel::most_channels));
+            if (value.size() > panel::Panel::most_channels)
+                return wrong(fmt::format("{} channels are too many; at most {} are sent.", value.size(),
+                                         panel::Panel::most_channels));
             for (const json& name : value) {
                 if (!name.is_string()) return wrong("channels is a list of names.");
                 names.push_back(name);
@@ -128,7 +146,8 @@ void Client::subscribe(const Request& request) {
             return wrong("To subscribe takes channels and rate_hz, nothing else.");
         }
     }
-    if (!(rate >= least_rate && rate <= greatest_rate)) return wrong(fmt::format("rate_hz is {:g}, but it is {:g} to {:g}.", rate, least_rate, greatest_rate));
+    if (!(rate >= least_rate && rate <= greatest_rate))
+        return wrong(fmt::format("rate_hz is {:g}, but it is {:g} to {:g}.", rate, least_rate, greatest_rate));
     const std::int64_t number = ++newest_subscription_;
     const auto take = [this, number, rate, id = request.id](std::shared_ptr<panel::ChannelSet> set) {
         if (number == newest_subscription_) {
@@ -139,7 +158,8 @@ void Client::subscribe(const Request& request) {
         answer(id, panel::done());
     };
     if (names.empty()) return take(nullptr);
-    service_.panel().subscribe(std::move(names), [self = weak_from_this(), post = service_.post(), take, id = request.id](Result<std::shared_ptr<panel::ChannelSet>> set) {
+    service_.panel().subscribe(std::move(names), [self = weak_from_this(), post = service_.post(), take,
+                                                  id = request.id](Result<std::shared_ptr<panel::ChannelSet>> set) {
         (*post)([self, take, id, set = std::move(set)] {
             const auto client = self.lock();
             if (!client) return;
@@ -152,19 +172,26 @@ void Client::subscribe(const Request& request) {
 void Client::ask(const Request& request, const std::string& name, bool query) {
     const panel::AskRow* row = panel::find_row(name);
     if (row == nullptr || query != is_query(*row))
-        return refuse(request.id, 404, "bad_input", fmt::format("There is no such {}; /api/openapi.json says what there is.", query ? "query" : "order"));
+        return refuse(
+            request.id, 404, "bad_input",
+            fmt::format("There is no such {}; /api/openapi.json says what there is.", query ? "query" : "order"));
     if (asks_ >= service_.settings().limits.asks_waiting)
-        return refuse(request.id, 429, "limit", fmt::format("{} orders and queries wait for their answers, which is the most. Nothing was done; wait for some.", asks_));
+        return refuse(
+            request.id, 429, "limit",
+            fmt::format(
+                "{} orders and queries wait for their answers, which is the most. Nothing was done; wait for some.",
+                asks_));
     ++asks_;
-    service_.ask(caller(), peer_.address, *row, request.fields, [self = weak_from_this(), id = request.id](panel::Answer done) {
-        const auto client = self.lock();
-        if (!client) return;
-        --client->asks_;
-        client->answer(id, std::move(done));
-    });
+    service_.ask(caller(), peer_.address, *row, request.fields,
+                 [self = weak_from_this(), id = request.id](panel::Answer done) {
+                     const auto client = self.lock();
+                     if (!client) return;
+                     --client->asks_;
+                     client->answer(id, std::move(done));
+                 });
 }
 
-// ---- what goes out -------------------------------------------------------------------------------------------------------------------
+// ---- what goes out
 
 void Client::answer(const json& id, panel::Answer answer) {
     answer.body["id"] = id;
@@ -202,10 +229,11 @@ void Client::goodbye(int code, std::string_view reason) {
     wire_->close(code, reason);
 }
 
-// ---- time ----------------------------------------------------------------------------------------------------------------------------
+// ---- time
 
 bool Client::due(Time now) {
-    if (leaving_ || now < next_ || (token_id_.empty() && service_.role_without_token(peer_) == Role::nobody)) return false;
+    if (leaving_ || now < next_ || (token_id_.empty() && service_.role_without_token(peer_) == Role::nobody))
+        return false;
     const auto passed = (now - next_) / period_ + 1;  // more than one when the thread was late
     next_ += passed * period_;
     periods_ += passed;
@@ -229,8 +257,10 @@ void Client::look_after(Time now) {
     const Role mine = role();
     seen_ = seen_ || mine != Role::nobody;
     if (mine != Role::nobody) return;
-    if (seen_) goodbye(policy, "The token holds no longer; pair again.");
-    else if (now - opened_at_ > service_.settings().limits.header) goodbye(policy, "No token came.");
+    if (seen_)
+        goodbye(policy, "The token holds no longer; pair again.");
+    else if (now - opened_at_ > service_.settings().limits.header)
+        goodbye(policy, "No token came.");
 }
 
 }  // namespace motionrack::server

@@ -42,14 +42,14 @@ class Client : public std::enable_shared_from_this<Client> {
 
     Client(Service& service, Peer peer, std::string session, Wire& wire);
 
-    // ---- from the connection ----
+    // ---- from the connection
     void opened();
     void message(std::string_view text, bool is_text);
     void written();
     /// The wire is gone.
     void closed();
 
-    // ---- from Clients ----
+    // ---- from Clients
     /// Whether a picture is due; it is then counted as sent or lost, and true means to send it.
     bool due(Time now);
     const std::shared_ptr<panel::ChannelSet>& channels() const { return channels_; }

@@ -11,12 +11,15 @@ namespace motionrack::server {
 namespace {
 
 std::string encoded(const panel::Picture& picture, const panel::Values* values) {
-    std::string out = fmt::format("\"at\":{},\"status\":{},\"values\":[", to_seconds(picture.at()), picture.status_text());
+    std::string out =
+        fmt::format("\"at\":{},\"status\":{},\"values\":[", to_seconds(picture.at()), picture.status_text());
     if (values != nullptr) {
         const char* comma = "";
         for (const double number : values->numbers) {
-            if (std::isfinite(number)) fmt::format_to(std::back_inserter(out), "{}{}", comma, number);
-            else fmt::format_to(std::back_inserter(out), "{}null", comma);
+            if (std::isfinite(number))
+                fmt::format_to(std::back_inserter(out), "{}{}", comma, number);
+            else
+                fmt::format_to(std::back_inserter(out), "{}null", comma);
             comma = ",";
         }
     }
@@ -35,7 +38,8 @@ void Clients::remove(const Client* client) {
     count_ = static_cast<std::int64_t>(clients_.size());
 }
 
-std::shared_ptr<const std::string> Clients::encode(const std::shared_ptr<panel::ChannelSet>& set, const std::shared_ptr<const panel::Picture>& picture) {
+std::shared_ptr<const std::string> Clients::encode(const std::shared_ptr<panel::ChannelSet>& set,
+                                                   const std::shared_ptr<const panel::Picture>& picture) {
     Encoded& kept = encoded_[set.get()];
     const std::shared_ptr<const panel::Values> values = set ? set->newest() : nullptr;
     const bool same_set = set ? kept.set.lock() == set : true;

@@ -29,7 +29,8 @@ class Clients {
         std::shared_ptr<const panel::Values> values;
         std::shared_ptr<const std::string> text;
     };
-    std::shared_ptr<const std::string> encode(const std::shared_ptr<panel::ChannelSet>& set, const std::shared_ptr<const panel::Picture>& picture);
+    std::shared_ptr<const std::string> encode(const std::shared_ptr<panel::ChannelSet>& set,
+                                              const std::shared_ptr<const panel::Picture>& picture);
 
     Service& service_;
     std::vector<std::shared_ptr<Client>> clients_;

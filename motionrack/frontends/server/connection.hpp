@@ -14,10 +14,10 @@
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
-#include <boost/beast/core/string.hpp>
 #include <motionrack/frontends/server/listener.hpp>
 #include <motionrack/frontends/server/socket.hpp>
 #include <optional>
@@ -29,18 +29,22 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
   public:
     static constexpr bool secure = !std::is_same_v<Stream, beast::tcp_stream>;
 
-    Connection(Stream stream, Peer peer, std::shared_ptr<Hall> hall) : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
-        if (peer_.spare) hall_->spare.push_back(this);
-        else hall_->seats.insert(this);
+    Connection(Stream stream, Peer peer, std::shared_ptr<Hall> hall)
+        : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
+        if (peer_.spare)
+            hall_->spare.push_back(this);
+        else
+            hall_->seats.insert(this);
     }
     ~Connection() override { hall_->leave(this); }
 
     void begin() {
         if constexpr (secure) {
             expire(limits().header);
-            stream_.async_handshake(asio::ssl::stream_base::server, [self = this->shared_from_this()](error_code error) {
-                if (!error) self->read_head(self->limits().header);
-            });
+            stream_.async_handshake(asio::ssl::stream_base::server,
+                                    [self = this->shared_from_this()](error_code error) {
+                                        if (!error) self->read_head(self->limits().header);
+                                    });
         } else {
             read_head(limits().header);
         }
@@ -63,7 +67,9 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
   private:
     using Parser = http::request_parser<http::string_body>;
-    static bool is_http(error_code error) { return error.category() == make_error_code(http::error::bad_method).category(); }
+    static bool is_http(error_code error) {
+        return error.category() == make_error_code(http::error::bad_method).category();
+    }
     const Limits& limits() const { return hall_->service->settings().limits; }
     void expire(std::chrono::milliseconds time) {
         beast::get_lowest_layer(stream_).expires_after(peer_.spare ? std::min(time, limits().spare_time) : time);
@@ -73,17 +79,22 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         parser_.emplace();
         parser_->body_limit(boost::none);  // the head decides
         expire(time);
-        http::async_read_header(stream_, buffer_, *parser_, [self = this->shared_from_this()](error_code error, std::size_t) {
-            if (!self->ended_) self->took_head(error);
-        });
+        http::async_read_header(stream_, buffer_, *parser_,
+                                [self = this->shared_from_this()](error_code error, std::size_t) {
+                                    if (!self->ended_) self->took_head(error);
+                                });
     }
 
     void took_head(error_code error) {
         if (error == http::error::end_of_stream) return goodbye();
         if (error == http::error::header_limit || error == http::error::buffer_overflow)
-            return answer(http_error(431, "limit", "The head of the request is longer than 8 KiB. Nothing was done."), false);
+            return answer(http_error(431, "limit", "The head of the request is longer than 8 KiB. Nothing was done."),
+                          false);
         if (is_http(error))
-            return answer(http_error(400, "bad_input", fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())), false);
+            return answer(
+                http_error(400, "bad_input",
+                           fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())),
+                false);
         if (error) return;
         head_ = head_of(parser_->get(), peer_);
         if (head_.upgrade) {
@@ -104,14 +115,19 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     }
 
     void too_large() {
-        answer(http_error(413, "limit", fmt::format("The body is longer than {} bytes, which is the most for this caller. Nothing was done.", admission_.body_limit)), false);
+        answer(http_error(
+                   413, "limit",
+                   fmt::format("The body is longer than {} bytes, which is the most for this caller. Nothing was done.",
+                               admission_.body_limit)),
+               false);
     }
 
     void go_on() {
         static constexpr std::string_view text = "HTTP/1.1 100 Continue\r\n\r\n";
-        asio::async_write(stream_, asio::buffer(text), [self = this->shared_from_this()](error_code error, std::size_t) {
-            if (!error) self->read_body();
-        });
+        asio::async_write(stream_, asio::buffer(text),
+                          [self = this->shared_from_this()](error_code error, std::size_t) {
+                              if (!error) self->read_body();
+                          });
     }
 
     void read_body() {
@@ -120,7 +136,10 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
             if (self->ended_) return;
             if (error == http::error::body_limit) return self->too_large();
             if (is_http(error))
-                return self->answer(http_error(400, "bad_input", fmt::format("The body is no HTTP/1.1: {}. Nothing was done.", error.message())), false);
+                return self->answer(
+                    http_error(400, "bad_input",
+                               fmt::format("The body is no HTTP/1.1: {}. Nothing was done.", error.message())),
+                    false);
             if (!error) self->handle();
         });
     }
@@ -130,12 +149,13 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         busy_ = true;
         const bool keep_alive = parser_->keep_alive();
         keep_ = this->shared_from_this();
-        hall_->service->handle(head_, admission_, parser_->get().body(), [weak = this->weak_from_this(), keep_alive](HttpAnswer one) {
-            const auto self = weak.lock();
-            if (!self || self->ended_) return;
-            self->keep_.reset();
-            self->answer(std::move(one), keep_alive);
-        });
+        hall_->service->handle(head_, admission_, parser_->get().body(),
+                               [weak = this->weak_from_this(), keep_alive](HttpAnswer one) {
+                                   const auto self = weak.lock();
+                                   if (!self || self->ended_) return;
+                                   self->keep_.reset();
+                                   self->answer(std::move(one), keep_alive);
+                               });
     }
 
     void expire_never() { beast::get_lowest_layer(stream_).expires_never(); }
@@ -168,10 +188,11 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         if (!error) drain();
     }
     void drain() {
-        beast::get_lowest_layer(stream_).async_read_some(asio::buffer(rest_), [self = this->shared_from_this()](error_code error, std::size_t bytes) {
-            self->drained_ += bytes;
-            if (!error && self->drained_ < self->limits().big_body) self->drain();
-        });
+        beast::get_lowest_layer(stream_).async_read_some(
+            asio::buffer(rest_), [self = this->shared_from_this()](error_code error, std::size_t bytes) {
+                self->drained_ += bytes;
+                if (!error && self->drained_ < self->limits().big_body) self->drain();
+            });
     }
 
     Stream stream_;
@@ -185,7 +206,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     std::shared_ptr<const std::string> body_;
     std::array<char, 4096> rest_;
     std::size_t drained_ = 0;
-    bool busy_ = false;   ///< answers
+    bool busy_ = false;  ///< answers
     bool ended_ = false;
     std::shared_ptr<Connection> keep_;  ///< itself, while only the panel has something to do for it
 };

@@ -12,28 +12,31 @@ std::string utc_text(authority::WallTime time) {
     const auto day = std::chrono::floor<std::chrono::days>(seconds);
     const std::chrono::year_month_day date(day);
     const std::chrono::hh_mm_ss clock(seconds - day);
-    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                       static_cast<unsigned>(date.day()), clock.hours().count(), clock.minutes().count(), clock.seconds().count());
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()),
+                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), clock.hours().count(),
+                       clock.minutes().count(), clock.seconds().count());
 }
 
 std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Doorkeeper& door) {
-    return {{"invite",
-             [&door](const panel::Caller&, const json& fields) {
-                 const authority::Now now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
-                 const auto code = door.invite(*authority::role_named(fields["role"].get<std::string>()), now);
-                 return code ? panel::done({{"code", *code}}) : panel::error_answer(code.error());
-             }},
-            {"unpair",
-             [&door](const panel::Caller&, const json& fields) {
-                 const auto gone = door.unpair(fields["user"].get<std::string>());
-                 return gone ? panel::done() : panel::error_answer(gone.error());
-             }},
-            {"users", [&door](const panel::Caller&, const json&) {
-                 json users = json::array();
-                 for (const authority::Identity& one : door.users())
-                     users.push_back({{"user", one.user}, {"role", authority::name_of(one.role)}, {"expires", utc_text(one.expires)}});
-                 return panel::done({{"users", users}});
-             }}};
+    return {
+        {"invite",
+         [&door](const panel::Caller&, const json& fields) {
+             const authority::Now now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
+             const auto code = door.invite(*authority::role_named(fields["role"].get<std::string>()), now);
+             return code ? panel::done({{"code", *code}}) : panel::error_answer(code.error());
+         }},
+        {"unpair",
+         [&door](const panel::Caller&, const json& fields) {
+             const auto gone = door.unpair(fields["user"].get<std::string>());
+             return gone ? panel::done() : panel::error_answer(gone.error());
+         }},
+        {"users", [&door](const panel::Caller&, const json&) {
+             json users = json::array();
+             for (const authority::Identity& one : door.users())
+                 users.push_back(
+                     {{"user", one.user}, {"role", authority::name_of(one.role)}, {"expires", utc_text(one.expires)}});
+             return panel::done({{"users", users}});
+         }}};
 }
 
 }  // namespace motionrack::server

@@ -19,7 +19,8 @@ struct Said {
     bool greets = false;
 };
 
-/// One end of a line to a client: reads while somebody listens to it, writes in order, and keeps so much for a client that is slow.
+/// One end of a line to a client: reads while somebody listens to it, writes in order, and keeps so much for a client
+/// that is slow.
 template <class Stream>
 class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
   public:
@@ -31,10 +32,11 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
     std::function<void()> on_end;
 
     void read_on() {
-        stream_.async_read_some(boost::asio::buffer(in_), [self = this->shared_from_this()](boost::system::error_code trouble, std::size_t got) {
-            if (trouble) return self->end();
-            if (self->on_bytes) self->on_bytes(std::string(self->in_.data(), got));
-        });
+        stream_.async_read_some(boost::asio::buffer(in_),
+                                [self = this->shared_from_this()](boost::system::error_code trouble, std::size_t got) {
+                                    if (trouble) return self->end();
+                                    if (self->on_bytes) self->on_bytes(std::string(self->in_.data(), got));
+                                });
     }
     /// False: too much waits already.
     bool write(const Said& said) {
@@ -60,12 +62,13 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
 
   private:
     void write_on() {
-        boost::asio::async_write(stream_, boost::asio::buffer(*out_.front()), [self = this->shared_from_this()](boost::system::error_code trouble, std::size_t) {
-            if (trouble) return self->end();
-            self->waiting_ -= self->out_.front()->size();
-            self->out_.pop_front();
-            if (!self->out_.empty()) self->write_on();
-        });
+        boost::asio::async_write(stream_, boost::asio::buffer(*out_.front()),
+                                 [self = this->shared_from_this()](boost::system::error_code trouble, std::size_t) {
+                                     if (trouble) return self->end();
+                                     self->waiting_ -= self->out_.front()->size();
+                                     self->out_.pop_front();
+                                     if (!self->out_.empty()) self->write_on();
+                                 });
     }
 
     Stream stream_;

@@ -1,5 +1,3 @@
-#include <motionrack/frontends/server/grbl_ports.hpp>
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,6 +10,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <motionrack/frontends/server/grbl_line.hpp>
+#include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/grbl/session.hpp>
 #include <mutex>
@@ -26,27 +25,32 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// A page in a browser can send a request to any port of this computer, but not choose how it begins. No line of a sender begins so.
+/// A page in a browser can send a request to any port of this computer, but not choose how it begins. No line of a
+/// sender begins so.
 bool is_http(std::string_view bytes) {
-    constexpr std::array<std::string_view, 8> methods = {"GET ", "POST ", "PUT ", "HEAD ", "OPTIONS ", "DELETE ", "PATCH ", "CONNECT "};
-    return std::any_of(methods.begin(), methods.end(), [&](std::string_view method) { return bytes.substr(0, method.size()) == method; });
+    constexpr std::array<std::string_view, 8> methods = {"GET ",     "POST ",   "PUT ",   "HEAD ",
+                                                         "OPTIONS ", "DELETE ", "PATCH ", "CONNECT "};
+    return std::any_of(methods.begin(), methods.end(),
+                       [&](std::string_view method) { return bytes.substr(0, method.size()) == method; });
 }
 
 /// One of the two ports: its Grbl, which lives on the motion thread, and who writes to it.
 class Port : public std::enable_shared_from_this<Port> {
   public:
-    Port(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings) : machine_(machine), lease_(lease) {
+    Port(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings)
+        : machine_(machine), lease_(lease) {
         grbl::SessionSettings session;
         session.axes = settings.axes;
         session.take_control = [this] { return take_control(); };
-        if (settings.on_setting) session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };
+        if (settings.on_setting)
+            session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };
         session_ = std::make_unique<grbl::Session>(machine, std::move(session));
     }
 
     /// Where output goes; on the motion thread. Set before Machine::run.
     std::function<void(Said)> send;
 
-    // ---- from the network thread ----
+    // ---- from the network thread
     void came(const std::string& user, const std::string& id) {
         machine_.post([self = shared_from_this(), user, id] {
             self->user_ = user;
@@ -73,7 +77,7 @@ class Port : public std::enable_shared_from_this<Port> {
         });
     }
 
-    // ---- the motion thread ----
+    // ---- the motion thread
     void tick() {
         session_->tick();
         flush();
@@ -81,7 +85,8 @@ class Port : public std::enable_shared_from_this<Port> {
 
   private:
     void flush(bool greets = false) {
-        if (std::string out = session_->take_output(); !out.empty()) send({std::make_shared<const std::string>(std::move(out)), greets});
+        if (std::string out = session_->take_output(); !out.empty())
+            send({std::make_shared<const std::string>(std::move(out)), greets});
     }
     Result<void> take_control() {
         if (lease_.check(id_)) return {};
@@ -127,7 +132,9 @@ class GrblPorts::Inside {
     /// Output comes from the motion thread, which may outlive the network.
     std::shared_ptr<Port> make_port(std::function<void(const Said&)> send) {
         auto port = std::make_shared<Port>(machine_, lease_, settings_);
-        port->send = [io = io_, send = std::move(send)](Said said) { asio::post(*io, [send, said = std::move(said)] { send(said); }); };
+        port->send = [io = io_, send = std::move(send)](Said said) {
+            asio::post(*io, [send, said = std::move(said)] { send(said); });
+        };
         machine_.listen([port](const operate::Status&) { port->tick(); });
         return port;
     }
@@ -141,7 +148,7 @@ class GrblPorts::Inside {
         };
     }
 
-    // ---- TCP ----
+    // ---- TCP
     Result<void> open_tcp(std::uint16_t port) {
         const tcp::endpoint place(asio::ip::address_v4::loopback(), port);
         error_code trouble;
@@ -150,8 +157,11 @@ class GrblPorts::Inside {
         if (!trouble) acceptor_.bind(place, trouble);
         if (!trouble) acceptor_.listen(16, trouble);
         if (trouble)
-            return fail(Trouble::io, fmt::format("The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.", port,
-                                                 trouble.message()));
+            return fail(
+                Trouble::io,
+                fmt::format(
+                    "The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.",
+                    port, trouble.message()));
         port_number_ = acceptor_.local_endpoint().port();
         tcp_port_ = make_port([this](const Said& said) { broadcast(said); });
         accept_on();
@@ -187,9 +197,11 @@ class GrblPorts::Inside {
             writer_ = line.get();
             line->awaits_greeting = true;
             name_tcp_sender(fmt::format("tcp {}:{}", from.address().to_string(), from.port()));
-            tcp_port_->came(fmt::format("sender {}:{}", from.address().to_string(), from.port()), fmt::format("grbl-tcp-{}", ++connections_));
+            tcp_port_->came(fmt::format("sender {}:{}", from.address().to_string(), from.port()),
+                            fmt::format("grbl-tcp-{}", ++connections_));
         } else {
-            line->write({std::make_shared<const std::string>("[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n")});
+            line->write({std::make_shared<const std::string>(
+                "[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n")});
         }
         line->read_on();
     }
@@ -199,7 +211,8 @@ class GrblPorts::Inside {
             name_tcp_sender("");
             tcp_port_->left();
         }
-        lines_.erase(std::remove_if(lines_.begin(), lines_.end(), [&](const auto& one) { return one.get() == line; }), lines_.end());
+        lines_.erase(std::remove_if(lines_.begin(), lines_.end(), [&](const auto& one) { return one.get() == line; }),
+                     lines_.end());
     }
     void broadcast(const Said& said) {
         for (const auto& line : std::vector<std::shared_ptr<TcpLine>>(lines_))
@@ -210,15 +223,17 @@ class GrblPorts::Inside {
         tcp_sender_ = std::move(name);
     }
 
-    // ---- pseudo-terminal ----
+    // ---- pseudo-terminal
     Result<void> open_terminal() {
         auto made = PseudoTerminal::open(settings_.link);
         if (!made) return tl::unexpected<Error>(made.error());
         terminal_.emplace(std::move(*made));
         terminal_port_ = make_port([this](const Said& said) {
-            if (terminal_->clients() > 0) terminal_line_->write(said);  // a line that nobody reads loses what does not fit
+            if (terminal_->clients() > 0)
+                terminal_line_->write(said);  // a line that nobody reads loses what does not fit
         });
-        terminal_line_ = std::make_shared<TerminalLine>(asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);
+        terminal_line_ = std::make_shared<TerminalLine>(
+            asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);
         terminal_line_->on_bytes = [this](std::string bytes) {
             look_for_clients();
             if (deaf_ && terminal_->clients() > 0) bytes.clear();
@@ -292,13 +307,18 @@ class GrblPorts::Inside {
 GrblPorts::GrblPorts(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
 GrblPorts::~GrblPorts() = default;
 
-Result<std::unique_ptr<GrblPorts>> GrblPorts::open(const GrblPortSettings& settings, operate::Machine& machine, authority::ControlLease& lease) {
+Result<std::unique_ptr<GrblPorts>> GrblPorts::open(const GrblPortSettings& settings, operate::Machine& machine,
+                                                   authority::ControlLease& lease) {
     auto inside = std::make_unique<Inside>(settings, machine, lease);
     MOTIONRACK_CHECK(inside->open());
     return std::unique_ptr<GrblPorts>(new GrblPorts(std::move(inside)));
 }
 
-std::uint16_t GrblPorts::port() const { return inside_->port(); }
-std::string GrblPorts::sender() const { return inside_->sender(); }
+std::uint16_t GrblPorts::port() const {
+    return inside_->port();
+}
+std::string GrblPorts::sender() const {
+    return inside_->sender();
+}
 
 }  // namespace motionrack::server

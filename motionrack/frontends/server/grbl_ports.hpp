@@ -1,10 +1,11 @@
-// Where G-code senders connect: a TCP port of this computer, and a pseudo-terminal that looks like a controller on a serial line.
+// Where G-code senders connect: a TCP port of this computer, and a pseudo-terminal that looks like a controller on a
+// serial line.
 //
 //   sender ──TCP──► 127.0.0.1:PORT ─┐                          one sender writes, others look on: their ? ! and resets are heard
 //   sender ──serial──► LINK ─► pts ─┴─► grbl::Session ─► operate::Machine
 //
-// Each of the two is a Grbl of its own on the same machine; which of them may move it is the control lease's matter. The port has neither
-// pairing nor encryption, so it is there for programs of this computer only.
+// Each of the two is a Grbl of its own on the same machine; which of them may move it is the control lease's matter.
+// The port has neither pairing nor encryption, so it is there for programs of this computer only.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +21,9 @@ namespace motionrack::server {
 
 struct GrblPortSettings {
     std::optional<std::uint16_t> port = {};  ///< on 127.0.0.1; 0: any free one
-    std::string link = {};                   ///< of the pseudo-terminal: a path that is free, or a symbolic link; empty: none
-    int axes = 3;                            ///< 3 or 4 that are reported, see grbl::SessionSettings
-    std::size_t observers = 8;               ///< beside the one who writes
+    std::string link = {};      ///< of the pseudo-terminal: a path that is free, or a symbolic link; empty: none
+    int axes = 3;               ///< 3 or 4 that are reported, see grbl::SessionSettings
+    std::size_t observers = 8;  ///< beside the one who writes
     std::size_t waiting = std::size_t{1} << 20;  ///< bytes for a client that does not read; with more it is let go
     /// A sender changed a setting: a sentence. On the motion thread; must not wait.
     std::function<void(const std::string& sender, const std::string& text)> on_setting = {};
@@ -30,9 +31,10 @@ struct GrblPortSettings {
 
 class GrblPorts {
   public:
-    /// Opens what the settings name and begins to serve on a thread of its own. Before Machine::run; machine and lease must outlive it.
-    /// Errors: io, the port is taken, no pseudo-terminal, the link's path is something else.
-    static Result<std::unique_ptr<GrblPorts>> open(const GrblPortSettings& settings, operate::Machine& machine, authority::ControlLease& lease);
+    /// Opens what the settings name and begins to serve on a thread of its own. Before Machine::run; machine and lease
+    /// must outlive it. Errors: io, the port is taken, no pseudo-terminal, the link's path is something else.
+    static Result<std::unique_ptr<GrblPorts>> open(const GrblPortSettings& settings, operate::Machine& machine,
+                                                   authority::ControlLease& lease);
     /// Closes all connections, takes the link away and ends the thread. The machine is not touched.
     ~GrblPorts();
 

@@ -11,7 +11,8 @@ namespace {
 
 std::string lower(std::string_view text) {
     std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return out;
 }
 
@@ -34,7 +35,8 @@ std::string host_name(std::string_view host) {
     return name;
 }
 
-Guard::Guard(std::vector<std::string> hosts, std::vector<std::string> origins) : hosts_(std::move(hosts)), origins_(std::move(origins)) {
+Guard::Guard(std::vector<std::string> hosts, std::vector<std::string> origins)
+    : hosts_(std::move(hosts)), origins_(std::move(origins)) {
     for (std::string& host : hosts_) host = host_name(host);
     for (std::string& origin : origins_) origin = lower(origin);
 }
@@ -47,12 +49,18 @@ bool Guard::knows(const std::string& name, const Peer& peer) const {
 
 std::string Guard::problem(const Head& head) const {
     if (!knows(host_name(head.host), head.peer))
-        return fmt::format("This computer is not known by the name \"{}\". Nothing was done; start the server with --allow-host NAME if it is right.", shown(head.host));
+        return fmt::format(
+            "This computer is not known by the name \"{}\". Nothing was done; start the server with --allow-host NAME "
+            "if it is right.",
+            shown(head.host));
     if (head.origin.empty()) return "";
     const std::string origin = lower(head.origin);
     if (origin == fmt::format("{}://{}", head.peer.secure ? "https" : "http", lower(head.host))) return "";
     if (std::find(origins_.begin(), origins_.end(), origin) != origins_.end()) return "";
-    return fmt::format("Pages from \"{}\" may not ask here. Nothing was done; start the server with --allow-origin ORIGIN if it is right.", shown(head.origin));
+    return fmt::format(
+        "Pages from \"{}\" may not ask here. Nothing was done; start the server with --allow-origin ORIGIN if it is "
+        "right.",
+        shown(head.origin));
 }
 
 }  // namespace motionrack::server

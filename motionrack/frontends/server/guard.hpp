@@ -1,5 +1,5 @@
-// Which names this computer may be called by, and from which pages it may be asked: what keeps pages from elsewhere out, which a browser
-// would let ask in its user's name.
+// Which names this computer may be called by, and from which pages it may be asked: what keeps pages from elsewhere
+// out, which a browser would let ask in its user's name.
 #pragma once
 
 #include <motionrack/frontends/server/http.hpp>

@@ -20,18 +20,24 @@ Place place_of(std::string_view text, std::size_t at) {
     return place;
 }
 
-/// Of the first bracket that is nested too deeply; npos: none is. Deep values would cost stack wherever they are copied.
+/// Of the first bracket that is nested too deeply; npos: none is. Deep values would cost stack wherever they are
+/// copied.
 std::size_t too_deep(std::string_view text) {
     int depth = 0;
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (quoted) {
-            if (c == '\\') ++i;
-            else if (c == '"') quoted = false;
-        } else if (c == '"') quoted = true;
-        else if ((c == '[' || c == '{') && ++depth > deepest) return i;
-        else if (c == ']' || c == '}') --depth;
+            if (c == '\\')
+                ++i;
+            else if (c == '"')
+                quoted = false;
+        } else if (c == '"')
+            quoted = true;
+        else if ((c == '[' || c == '{') && ++depth > deepest)
+            return i;
+        else if (c == ']' || c == '}')
+            --depth;
     }
     return std::string_view::npos;
 }
@@ -46,11 +52,16 @@ int hexadecimal(char c) {
 Result<std::string> decoded(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '+') out += ' ';
-        else if (text[i] != '%') out += text[i];
+        if (text[i] == '+')
+            out += ' ';
+        else if (text[i] != '%')
+            out += text[i];
         else {
-            const int high = i + 2 < text.size() ? hexadecimal(text[i + 1]) : -1, low = i + 2 < text.size() ? hexadecimal(text[i + 2]) : -1;
-            if (high < 0 || low < 0) return fail(Trouble::bad_input, "After a % in the address there are two hexadecimal digits. Nothing was done.");
+            const int high = i + 2 < text.size() ? hexadecimal(text[i + 1]) : -1,
+                      low = i + 2 < text.size() ? hexadecimal(text[i + 2]) : -1;
+            if (high < 0 || low < 0)
+                return fail(Trouble::bad_input,
+                            "After a % in the address there are two hexadecimal digits. Nothing was done.");
             out += static_cast<char>(high * 16 + low);
             i += 2;
         }
@@ -75,14 +86,20 @@ HttpAnswer http_error(int status, std::string_view trouble, std::string sentence
 
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what) {
     if (const std::size_t at = too_deep(text); at != std::string_view::npos)
-        return fail(Trouble::bad_input, fmt::format("{} is nested deeper than {}. Nothing was done.", what, deepest), place_of(text, at));
+        return fail(Trouble::bad_input, fmt::format("{} is nested deeper than {}. Nothing was done.", what, deepest),
+                    place_of(text, at));
     try {
         nlohmann::json value = nlohmann::json::parse(text);
-        if (!value.is_object()) return fail(Trouble::bad_input, fmt::format("{} is no JSON object, {{\"name\":value, ..}}. Nothing was done.", what), {1, 1});
+        if (!value.is_object())
+            return fail(Trouble::bad_input,
+                        fmt::format("{} is no JSON object, {{\"name\":value, ..}}. Nothing was done.", what), {1, 1});
         return value;
     } catch (const nlohmann::json::parse_error& error) {
         const Place place = place_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
-        return fail(Trouble::bad_input, fmt::format("{} is no JSON: see line {}, column {}. Nothing was done.", what, place.line, place.column), place);
+        return fail(
+            Trouble::bad_input,
+            fmt::format("{} is no JSON: see line {}, column {}. Nothing was done.", what, place.line, place.column),
+            place);
     } catch (const nlohmann::json::exception&) {
         return fail(Trouble::bad_input, fmt::format("{} has a number that is too large. Nothing was done.", what));
     }

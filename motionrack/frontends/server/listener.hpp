@@ -43,11 +43,13 @@ struct Hall {
 
 /// Begins to serve a connection that was taken.
 void serve_plain(boost::asio::ip::tcp::socket socket, Peer peer, std::shared_ptr<Hall> hall);
-void serve_tls(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context& tls, Peer peer, std::shared_ptr<Hall> hall);
+void serve_tls(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context& tls, Peer peer,
+               std::shared_ptr<Hall> hall);
 
 class Listener {
   public:
-    Listener(boost::asio::io_context& io, std::shared_ptr<Hall> hall, boost::asio::ip::tcp::acceptor acceptor, std::unique_ptr<boost::asio::ssl::context> tls);
+    Listener(boost::asio::io_context& io, std::shared_ptr<Hall> hall, boost::asio::ip::tcp::acceptor acceptor,
+             std::unique_ptr<boost::asio::ssl::context> tls);
     void begin();
     /// Takes no more, says goodbye to all.
     void end();

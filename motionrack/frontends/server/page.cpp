@@ -50,31 +50,44 @@ or name its folder with <code>--page FOLDER</code>.</p>
 
 }  // namespace
 
-Page::Page() { files_["/"] = {type_of(".html"), "no-store", std::make_shared<const std::string>(no_page)}; }
+Page::Page() {
+    files_["/"] = {type_of(".html"), "no-store", std::make_shared<const std::string>(no_page)};
+}
 
 Result<Page> Page::read(const fs::path& folder) {
     Page page;
     page.files_.clear();
     std::error_code error;
     std::uintmax_t size = 0;
-    for (auto it = fs::recursive_directory_iterator(folder, error); !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    for (auto it = fs::recursive_directory_iterator(folder, error); !error && it != fs::recursive_directory_iterator();
+         it.increment(error)) {
         if (!fs::is_regular_file(it->symlink_status())) continue;
         std::ifstream in(it->path(), std::ios::binary);
         std::string text((std::istreambuf_iterator<char>(in)), {});
-        if (!in) return fail(Trouble::io, "This file of the page could not be read. Nothing was started.", {}, it->path().string());
+        if (!in)
+            return fail(Trouble::io, "This file of the page could not be read. Nothing was started.", {},
+                        it->path().string());
         size += text.size();
         if (size > greatest_size || page.files_.size() >= most_files)
-            return fail(Trouble::bad_input, fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.", greatest_size >> 20, most_files),
-                        {}, folder.string());
+            return fail(
+                Trouble::bad_input,
+                fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.",
+                            greatest_size >> 20, most_files),
+                {}, folder.string());
         const std::string name = fmt::format("/{}", it->path().lexically_relative(folder).generic_string());
         // Files in assets/ carry a hash of what is in them in their names.
         const bool for_ever = name.rfind("/assets/", 0) == 0;
-        page.files_[name == "/index.html" ? "/" : name] = {type_of(it->path().extension().string()),
-                                                           for_ever ? "public, max-age=31536000, immutable" : "no-cache",
-                                                           std::make_shared<const std::string>(std::move(text))};
+        page.files_[name == "/index.html" ? "/" : name] = {
+            type_of(it->path().extension().string()), for_ever ? "public, max-age=31536000, immutable" : "no-cache",
+            std::make_shared<const std::string>(std::move(text))};
     }
-    if (error) return fail(Trouble::io, fmt::format("The page's folder could not be read: {}. Nothing was started.", error.message()), {}, folder.string());
-    if (page.find("/") == nullptr) return fail(Trouble::bad_input, "There is no index.html in this folder, so it is no page. Nothing was started.", {}, folder.string());
+    if (error)
+        return fail(Trouble::io,
+                    fmt::format("The page's folder could not be read: {}. Nothing was started.", error.message()), {},
+                    folder.string());
+    if (page.find("/") == nullptr)
+        return fail(Trouble::bad_input, "There is no index.html in this folder, so it is no page. Nothing was started.",
+                    {}, folder.string());
     return page;
 }
 

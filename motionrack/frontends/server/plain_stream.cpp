@@ -4,7 +4,9 @@
 namespace motionrack::server {
 
 void serve_stream(PlainStream stream, Request request, Peer peer, std::shared_ptr<Hall> hall) {
-    std::make_shared<StreamConnection<PlainStream>>(std::move(stream), std::move(request), std::move(peer), std::move(hall))->begin();
+    std::make_shared<StreamConnection<PlainStream>>(std::move(stream), std::move(request), std::move(peer),
+                                                    std::move(hall))
+        ->begin();
 }
 
 }  // namespace motionrack::server

@@ -1,5 +1,3 @@
-#include <motionrack/frontends/server/pseudo_terminal.hpp>
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/inotify.h>
@@ -12,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <utility>
 
 namespace motionrack::server {
@@ -30,7 +29,9 @@ OpenFile::~OpenFile() {
     if (file_ >= 0) ::close(file_);
 }
 
-int OpenFile::give() { return std::exchange(file_, -1); }
+int OpenFile::give() {
+    return std::exchange(file_, -1);
+}
 
 namespace {
 
@@ -43,7 +44,9 @@ Result<void> lead(const std::string& link, const std::string& target) {
     std::error_code trouble;
     const fs::file_status there = fs::symlink_status(link, trouble);
     if (fs::exists(there) && !fs::is_symlink(there))
-        return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {} is there and no symbolic link. Give another path, or take it away.", link));
+        return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {} is there and no symbolic link. Give "
+                                             "another path, or take it away.",
+                                             link));
     const std::string beside = fmt::format("{}.{}", link, ::getpid());
     fs::remove(beside, trouble);
     fs::create_symlink(target, beside, trouble);
@@ -51,7 +54,8 @@ Result<void> lead(const std::string& link, const std::string& target) {
     if (!trouble) return {};
     std::error_code ignored;
     fs::remove(beside, ignored);
-    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: the link {} to {}: {}.", link, target, trouble.message()));
+    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: the link {} to {}: {}.", link, target,
+                                         trouble.message()));
 }
 
 }  // namespace
@@ -59,7 +63,8 @@ Result<void> lead(const std::string& link, const std::string& target) {
 Result<PseudoTerminal> PseudoTerminal::open(const std::string& link) {
     PseudoTerminal out;
     out.master_ = OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
-    if (out.master_.number() < 0 || ::grantpt(out.master_.number()) != 0 || ::unlockpt(out.master_.number()) != 0) return failed("posix_openpt");
+    if (out.master_.number() < 0 || ::grantpt(out.master_.number()) != 0 || ::unlockpt(out.master_.number()) != 0)
+        return failed("posix_openpt");
     std::array<char, 128> name{};
     if (::ptsname_r(out.master_.number(), name.data(), name.size()) != 0) return failed("ptsname");
     out.name_ = name.data();
@@ -71,7 +76,8 @@ Result<PseudoTerminal> PseudoTerminal::open(const std::string& link) {
     ::cfsetspeed(&line, B115200);
     if (::tcsetattr(out.slave_.number(), TCSANOW, &line) != 0) return failed(out.name_);
     out.watch_ = OpenFile(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
-    if (out.watch_.number() < 0 || ::inotify_add_watch(out.watch_.number(), name.data(), IN_OPEN | IN_CLOSE) < 0) return failed("inotify");
+    if (out.watch_.number() < 0 || ::inotify_add_watch(out.watch_.number(), name.data(), IN_OPEN | IN_CLOSE) < 0)
+        return failed("inotify");
     MOTIONRACK_CHECK(lead(link, out.name_));
     out.link_ = link;
     return out;
@@ -82,7 +88,9 @@ PseudoTerminal::~PseudoTerminal() {
     if (slave_.number() >= 0 && !link_.empty() && fs::read_symlink(link_, trouble) == name_) fs::remove(link_, trouble);
 }
 
-void PseudoTerminal::forget_unread() { ::tcflush(slave_.number(), TCIFLUSH); }
+void PseudoTerminal::forget_unread() {
+    ::tcflush(slave_.number(), TCIFLUSH);
+}
 
 PseudoTerminal::Look PseudoTerminal::look() {
     Look out;

@@ -20,11 +20,12 @@ class OpenFile {
     int file_;
 };
 
-/// The master's end is ours; the other is held open too, or who comes after the first client would find the line hung up. It is raw: no
-/// echo, no line ends changed; a baud rate that is set means nothing.
+/// The master's end is ours; the other is held open too, or who comes after the first client would find the line hung
+/// up. It is raw: no echo, no line ends changed; a baud rate that is set means nothing.
 class PseudoTerminal {
   public:
-    /// `link`: a symbolic link to the other end, replaced if there is one. Errors: io, also where something else is in its place.
+    /// `link`: a symbolic link to the other end, replaced if there is one. Errors: io, also where something else is in
+    /// its place.
     static Result<PseudoTerminal> open(const std::string& link);
     PseudoTerminal(PseudoTerminal&&) = default;
     PseudoTerminal& operator=(PseudoTerminal&&) = default;

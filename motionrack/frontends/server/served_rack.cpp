@@ -1,8 +1,7 @@
-#include <motionrack/frontends/server/served_rack.hpp>
-
 #include <fmt/format.h>
 
 #include <motionrack/frontends/server/door_orders.hpp>
+#include <motionrack/frontends/server/served_rack.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -34,12 +33,16 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
     settings.panel.boot = settings.server.boot = settings.boot;
     settings.panel.pacer = &pacer_;
     settings.panel.journal = journal_;
-    settings.panel.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->clients() : 0}}; };
+    settings.panel.link = [this] {
+        return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"},
+                              {"clients", server_ ? server_->clients() : 0}};
+    };
     settings.panel.elsewhere = door_orders(*door_);
     panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings.panel));
     settings.server.rack = config.name;
     if (journal_ != nullptr) settings.server.audit = [this](const AuditEntry& entry) { write_down(entry); };
-    MOTIONRACK_TRY(server_, Server::open(std::move(settings.server), *panel_, *door_, lease_, std::move(settings.page)));
+    MOTIONRACK_TRY(server_,
+                   Server::open(std::move(settings.server), *panel_, *door_, lease_, std::move(settings.page)));
     return {};
 }
 
@@ -50,9 +53,12 @@ void ServedRack::stop() {
 
 /// On the network thread.
 void ServedRack::write_down(const AuditEntry& entry) {
-    const nlohmann::json data = {{"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
+    const nlohmann::json data = {
+        {"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
     journal_->write(panel_->picture()->at(), "audit",
-                    fmt::format("{} from {}: {}: {}", entry.user.empty() ? "somebody" : entry.user, entry.address, entry.what, entry.outcome), panel::text_of(data));
+                    fmt::format("{} from {}: {}: {}", entry.user.empty() ? "somebody" : entry.user, entry.address,
+                                entry.what, entry.outcome),
+                    panel::text_of(data));
 }
 
 }  // namespace motionrack::server

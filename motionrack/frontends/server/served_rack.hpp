@@ -28,10 +28,11 @@ namespace motionrack::server {
 /// What a part needs of another one is filled in: the pacer, the journal, orders about people, the audit, versions.
 struct ServedSettings {
     operate::ClockMode clock = operate::ClockMode::real;
-    double factor = 1;                        ///< seconds of the rack for a second
-    std::function<void()> meanwhile = {};     ///< on the motion thread, again and again while it waits for the clock; must not wait
-    journal::Journal* journal = nullptr;      ///< what happens, what is asked and who asked is written to it
-    std::string version = {}, boot = {};      ///< as the server greets
+    double factor = 1;  ///< seconds of the rack for a second
+    std::function<void()> meanwhile =
+        {};  ///< on the motion thread, again and again while it waits for the clock; must not wait
+    journal::Journal* journal = nullptr;  ///< what happens, what is asked and who asked is written to it
+    std::string version = {}, boot = {};  ///< as the server greets
     operate::MachineSettings machine = {};
     authority::DoorkeeperSettings door = {};
     panel::PanelSettings panel = {};

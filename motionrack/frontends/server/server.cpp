@@ -24,10 +24,18 @@ Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
     error_code error;
     ::SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_2_VERSION);
     tls->use_certificate_chain_file(files.certificate, error);
-    if (error) return fail(Trouble::io, fmt::format("The certificate cannot be used: {}. It is a PEM file, yours first. Nothing was started.", error.message()), {}, files.certificate);
+    if (error)
+        return fail(
+            Trouble::io,
+            fmt::format("The certificate cannot be used: {}. It is a PEM file, yours first. Nothing was started.",
+                        error.message()),
+            {}, files.certificate);
     tls->use_private_key_file(files.key, asio::ssl::context::pem, error);
     if (error)
-        return fail(Trouble::io, fmt::format("The key cannot be used, or is not that of the certificate: {}. It is a PEM file without a password. Nothing was started.", error.message()),
+        return fail(Trouble::io,
+                    fmt::format("The key cannot be used, or is not that of the certificate: {}. It is a PEM file "
+                                "without a password. Nothing was started.",
+                                error.message()),
                     {}, files.key);
     return tls;
 }
@@ -41,10 +49,16 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (error == asio::error::address_in_use)
-        return fail(Trouble::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose another with --port, or 0 for any free one.", port, address.to_string()));
+        return fail(Trouble::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose "
+                                             "another with --port, or 0 for any free one.",
+                                             port, address.to_string()));
     if (error == asio::error::access_denied)
-        return fail(Trouble::io, fmt::format("Port {} may not be used by this user: those below 1024 are root's. Nothing was started; choose another with --port.", port));
-    if (error) return fail(Trouble::io, fmt::format("{} port {} cannot be served: {}. Nothing was started.", address.to_string(), port, error.message()));
+        return fail(Trouble::io, fmt::format("Port {} may not be used by this user: those below 1024 are root's. "
+                                             "Nothing was started; choose another with --port.",
+                                             port));
+    if (error)
+        return fail(Trouble::io, fmt::format("{} port {} cannot be served: {}. Nothing was started.",
+                                             address.to_string(), port, error.message()));
     return acceptor;
 }
 
@@ -52,19 +66,27 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
 
 class Server::Inside {
   public:
-    Inside(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page)
+    Inside(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease,
+           Page page)
         : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
-          hall_(std::make_shared<Hall>(std::make_shared<Service>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
+          hall_(std::make_shared<Hall>(
+              std::make_shared<Service>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
     ~Inside() { stop(); }
 
     Result<void> open() {
         const ServerSettings& settings = this->settings();
         error_code error;
         const asio::ip::address address = asio::ip::make_address(settings.address, error);
-        if (error) return fail(Trouble::bad_input, fmt::format("\"{}\" is no IPv4 or IPv6 address. Nothing was started.", settings.address));
+        if (error)
+            return fail(Trouble::bad_input,
+                        fmt::format("\"{}\" is no IPv4 or IPv6 address. Nothing was started.", settings.address));
         if (!address.is_loopback() && !settings.tls)
-            return fail(Trouble::refused, fmt::format("{} can be reached from other computers, which is served with TLS only. Nothing was started; "
-                                                      "add --tls-cert and --tls-key, or serve 127.0.0.1.", settings.address));
+            return fail(
+                Trouble::refused,
+                fmt::format(
+                    "{} can be reached from other computers, which is served with TLS only. Nothing was started; "
+                    "add --tls-cert and --tls-key, or serve 127.0.0.1.",
+                    settings.address));
         std::unique_ptr<asio::ssl::context> tls;
         if (settings.tls) {
             MOTIONRACK_TRY(tls, read_tls(*settings.tls));
@@ -119,22 +141,30 @@ Server::Server(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
 
 Server::~Server() = default;
 
-Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page) {
+Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door,
+                                             authority::ControlLease& lease, Page page) {
     auto inside = std::make_unique<Inside>(std::move(settings), panel, door, lease, std::move(page));
     MOTIONRACK_CHECK(inside->open());
     return std::unique_ptr<Server>(new Server(std::move(inside)));
 }
 
-void Server::stop() { inside_->stop(); }
+void Server::stop() {
+    inside_->stop();
+}
 
-std::uint16_t Server::port() const { return inside_->port(); }
+std::uint16_t Server::port() const {
+    return inside_->port();
+}
 
 std::string Server::url() const {
     const ServerSettings& settings = inside_->settings();
     const bool six = settings.address.find(':') != std::string::npos;
-    return fmt::format("{}://{}:{}/", settings.tls ? "https" : "http", six ? fmt::format("[{}]", settings.address) : settings.address, port());
+    return fmt::format("{}://{}:{}/", settings.tls ? "https" : "http",
+                       six ? fmt::format("[{}]", settings.address) : settings.address, port());
 }
 
-std::int64_t Server::clients() const { return inside_->clients(); }
+std::int64_t Server::clients() const {
+    return inside_->clients();
+}
 
 }  // namespace motionrack::server

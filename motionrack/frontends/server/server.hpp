@@ -18,8 +18,8 @@ class Server {
     /// Takes the port and begins to serve. Before Machine::run; panel, door and lease must outlive it.
     /// Errors: io (the port is taken, a TLS file cannot be used), refused (another address than loopback without TLS),
     /// bad_input (no address).
-    static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door,
-                                                authority::ControlLease& lease, Page page);
+    static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel,
+                                                authority::Doorkeeper& door, authority::ControlLease& lease, Page page);
     ~Server();
 
     /// Says goodbye to all and ends the thread; takes a second at most.

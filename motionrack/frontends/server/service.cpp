@@ -24,8 +24,8 @@ bool is_query(const panel::AskRow& row) {
     return &row >= queries.data() && &row < queries.data() + queries.size();
 }
 
-Service::Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page,
-                 std::shared_ptr<Post> post)
+Service::Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door,
+                 authority::ControlLease& lease, Page page, std::shared_ptr<Post> post)
     : settings_(std::move(settings)),
       panel_(panel),
       door_(door),
@@ -37,14 +37,20 @@ Service::Service(ServerSettings settings, panel::Panel& panel, authority::Doorke
       told_(1, 1),
       openapi_(panel::Panel::openapi().dump(2) + "\n") {}
 
-// ---- before the body -----------------------------------------------------------------------------------------------------------------
+// ---- before the body
 
 /// What holds for every request but STOP.
 std::optional<HttpAnswer> Service::refuse(const Head& head) {
     if (head.peer.spare)
-        return http_error(503, "limit", fmt::format("{} connections are open, which is the most. Only STOP is heard; close some, or try again.", settings_.limits.connections));
+        return http_error(
+            503, "limit",
+            fmt::format("{} connections are open, which is the most. Only STOP is heard; close some, or try again.",
+                        settings_.limits.connections));
     if (!requests_.take(head.peer.address, now().steady))
-        return http_error(429, "limit", fmt::format("More than {:g} requests a second came from this address. Nothing was done; ask less often.", settings_.limits.requests_per_second));
+        return http_error(
+            429, "limit",
+            fmt::format("More than {:g} requests a second came from this address. Nothing was done; ask less often.",
+                        settings_.limits.requests_per_second));
     return std::nullopt;
 }
 
@@ -54,11 +60,13 @@ Admission Service::admit(const Head& head) {
         out.answer = std::move(one);
         return out;
     };
-    if (const std::string problem = guard_.problem(head); !problem.empty()) return answer(http_error(403, "denied", problem));
+    if (const std::string problem = guard_.problem(head); !problem.empty())
+        return answer(http_error(403, "denied", problem));
     const Result<Target> target = read_target(head.target);
     if (!target) return answer(http_answer(panel::error_answer(target.error())));
     if (target->path == "/api/stop") {
-        if (head.method != "POST") return answer(with(http_error(405, "bad_input", "STOP is asked for with POST."), "Allow", "POST"));
+        if (head.method != "POST")
+            return answer(with(http_error(405, "bad_input", "STOP is asked for with POST."), "Allow", "POST"));
         stop({}, head.peer.address);
         return answer(http_answer(panel::done()));
     }
@@ -68,7 +76,8 @@ Admission Service::admit(const Head& head) {
 }
 
 HttpAnswer Service::page_answer(const Head& head, const std::string& path) const {
-    if (head.method != "GET" && head.method != "HEAD") return with(http_error(405, "bad_input", "The page is read with GET."), "Allow", "GET, HEAD");
+    if (head.method != "GET" && head.method != "HEAD")
+        return with(http_error(405, "bad_input", "The page is read with GET."), "Allow", "GET, HEAD");
     const PageFile* file = page_.find(path);
     if (file == nullptr) return http_error(404, "bad_input", "There is no such file of the page.");
     HttpAnswer answer;
@@ -87,11 +96,13 @@ Admission Service::admit_api(const Head& head, const Target& target) {
     const std::string name = target.path.substr(5);
     const bool get = head.method == "GET", post = head.method == "POST";
     if (name == "pair") {
-        if (!post) return answer(with(http_error(405, "bad_input", "Pairing is asked for with POST."), "Allow", "POST"));
+        if (!post)
+            return answer(with(http_error(405, "bad_input", "Pairing is asked for with POST."), "Allow", "POST"));
         out.body_limit = settings_.limits.small_body;
         return out;
     }
-    if (name == "stream") return answer(with(http_error(426, "bad_input", "This address is for WebSockets."), "Upgrade", "websocket"));
+    if (name == "stream")
+        return answer(with(http_error(426, "bad_input", "This address is for WebSockets."), "Upgrade", "websocket"));
     out.caller.role = role_without_token(head.peer);
     out.caller.session = std::string("h");
     if (!head.authorization.empty()) {
@@ -100,21 +111,32 @@ Admission Service::admit_api(const Head& head, const Target& target) {
         if (!who) return answer(http_error(401, "denied", who.error().sentence));
         out.caller = {who->user, who->role, fmt::format("t{}", who->id)};
     }
-    if (out.caller.role == Role::nobody) return answer(http_error(401, "denied", "Who asks from another computer has a token. Pair first: POST /api/pair."));
+    if (out.caller.role == Role::nobody)
+        return answer(
+            http_error(401, "denied", "Who asks from another computer has a token. Pair first: POST /api/pair."));
     if (name == "openapi.json" && get) {
         HttpAnswer document;
         document.body = std::make_shared<const std::string>(openapi_);
         return answer(std::move(document));
     }
     out.row = panel::find_row(name);
-    if (out.row == nullptr) return answer(http_error(404, "bad_input", "There is no such order or query; /api/openapi.json says what there is."));
+    if (out.row == nullptr)
+        return answer(
+            http_error(404, "bad_input", "There is no such order or query; /api/openapi.json says what there is."));
     const bool query = is_query(*out.row);
     if (query ? !get : !post)
-        return answer(with(http_error(405, "bad_input", fmt::format("{} is {} with {}.", name, query ? "a query, asked" : "an order, given", query ? "GET" : "POST")), "Allow",
-                           query ? "GET" : "POST"));
-    const bool long_texts = std::any_of(out.row->fields.begin(), out.row->fields.end(),
-                                        [&](const panel::FieldRow& field) { return field.greatest > static_cast<double>(settings_.limits.small_body) / 2; });
-    out.body_limit = query ? 0 : long_texts && out.caller.role >= out.row->role ? settings_.limits.big_body : settings_.limits.small_body;
+        return answer(
+            with(http_error(405, "bad_input",
+                            fmt::format("{} is {} with {}.", name, query ? "a query, asked" : "an order, given",
+                                        query ? "GET" : "POST")),
+                 "Allow", query ? "GET" : "POST"));
+    const bool long_texts =
+        std::any_of(out.row->fields.begin(), out.row->fields.end(), [&](const panel::FieldRow& field) {
+            return field.greatest > static_cast<double>(settings_.limits.small_body) / 2;
+        });
+    out.body_limit = query                                            ? 0
+                     : long_texts && out.caller.role >= out.row->role ? settings_.limits.big_body
+                                                                      : settings_.limits.small_body;
     return out;
 }
 
@@ -125,29 +147,38 @@ std::optional<HttpAnswer> Service::refuse_stream(const Head& head) {
     return std::nullopt;
 }
 
-// ---- with it -------------------------------------------------------------------------------------------------------------------------
+// ---- with it
 
-void Service::handle(const Head& head, const Admission& admission, const std::string& body, std::function<void(HttpAnswer)> reply) {
+void Service::handle(const Head& head, const Admission& admission, const std::string& body,
+                     std::function<void(HttpAnswer)> reply) {
     if (admission.row == nullptr) return reply(pair(head, body));
     const Target target = *read_target(head.target);
     Result<json> fields = json::object();
-    if (head.method == "GET") fields = panel::fields_of_texts(*admission.row, target.texts);
-    else if (!body.empty()) fields = read_object(body, "The body");
+    if (head.method == "GET")
+        fields = panel::fields_of_texts(*admission.row, target.texts);
+    else if (!body.empty())
+        fields = read_object(body, "The body");
     if (!fields) return reply(http_answer(panel::error_answer(fields.error())));
-    ask(admission.caller, head.peer.address, *admission.row, *fields, [reply = std::move(reply)](const panel::Answer& answer) { reply(http_answer(answer)); });
+    ask(admission.caller, head.peer.address, *admission.row, *fields,
+        [reply = std::move(reply)](const panel::Answer& answer) { reply(http_answer(answer)); });
 }
 
 HttpAnswer Service::pair(const Head& head, const std::string& body) {
     const Result<json> fields = read_object(body, "The body");
     if (!fields) return http_answer(panel::error_answer(fields.error()));
-    const auto text = [&](const char* key) { return fields->contains(key) && (*fields)[key].is_string() ? (*fields)[key].get<std::string>() : std::string(); };
+    const auto text = [&](const char* key) {
+        return fields->contains(key) && (*fields)[key].is_string() ? (*fields)[key].get<std::string>() : std::string();
+    };
     const std::string code = text("code"), name = text("name");
     if (code.empty() || name.empty() || fields->size() != 2)
-        return http_error(400, "bad_input", "Pairing takes {\"code\":\"ABCD-EFGH\",\"name\":\"anna\"}. Nobody was paired.");
+        return http_error(400, "bad_input",
+                          "Pairing takes {\"code\":\"ABCD-EFGH\",\"name\":\"anna\"}. Nobody was paired.");
     const auto paired = door_.pair(code, name, head.peer.address, now());
     panel::Answer answer;
     if (paired) {
-        answer = panel::done({{"token", paired->token}, {"role", authority::name_of(paired->identity.role)}, {"user", paired->identity.user},
+        answer = panel::done({{"token", paired->token},
+                              {"role", authority::name_of(paired->identity.role)},
+                              {"user", paired->identity.user},
                               {"expires", utc_text(paired->identity.expires)}});
     } else {
         using Why = authority::Denied::Why;
@@ -166,20 +197,25 @@ authority::Admitted<authority::Identity> Service::who(const std::string& token, 
     return who;
 }
 
-// ---- orders and queries --------------------------------------------------------------------------------------------------------------
+// ---- orders and queries
 
-void Service::ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row, const json& fields, std::function<void(panel::Answer)> reply) {
+void Service::ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row, const json& fields,
+                  std::function<void(panel::Answer)> reply) {
     // The motion thread answers queries: many connections together must not keep it from its work.
     if (is_query(row) && !requests_.take(fmt::format("queries of {}", address), now().steady))
-        return reply(panel::refused_answer(429, "limit", fmt::format("More than {:g} queries a second came from this address. Nothing was looked up; ask less often.",
-                                                                     settings_.limits.requests_per_second)));
-    panel_.ask(caller, row.name, fields, [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address, passing = row.passing,
-                                          what = std::string(row.name)](panel::Answer answer) {
-        (*post)([this, reply, query, user, address, passing, what, answer = std::move(answer)] {
-            if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer);
-            reply(answer);
-        });
-    });
+        return reply(panel::refused_answer(
+            429, "limit",
+            fmt::format(
+                "More than {:g} queries a second came from this address. Nothing was looked up; ask less often.",
+                settings_.limits.requests_per_second)));
+    panel_.ask(caller, row.name, fields,
+               [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address,
+                passing = row.passing, what = std::string(row.name)](panel::Answer answer) {
+                   (*post)([this, reply, query, user, address, passing, what, answer = std::move(answer)] {
+                       if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer);
+                       reply(answer);
+                   });
+               });
 }
 
 void Service::stop(const panel::Caller& caller, const std::string& address) {
@@ -188,10 +224,13 @@ void Service::stop(const panel::Caller& caller, const std::string& address) {
 }
 
 /// The same a second time within a second is not told again.
-void Service::audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer) {
-    if (!settings_.audit || !told_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), now().steady)) return;
+void Service::audit(const std::string& user, const std::string& address, std::string what,
+                    const panel::Answer& answer) {
+    if (!settings_.audit || !told_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), now().steady))
+        return;
     AuditEntry entry{user, address, std::move(what), answer.status, "done"};
-    if (answer.status != 200 && answer.body.contains("error")) entry.outcome = answer.body["error"].value("message", "");
+    if (answer.status != 200 && answer.body.contains("error"))
+        entry.outcome = answer.body["error"].value("message", "");
     settings_.audit(entry);
 }
 

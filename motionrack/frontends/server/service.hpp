@@ -53,20 +53,21 @@ bool is_query(const panel::AskRow& row);
 
 class Service {
   public:
-    Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page,
-            std::shared_ptr<Post> post);
+    Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease,
+            Page page, std::shared_ptr<Post> post);
 
-    // ---- HTTP ----
+    // ---- HTTP
     Admission admit(const Head& head);
     /// `reply` is called once, on the network thread.
-    void handle(const Head& head, const Admission& admission, const std::string& body, std::function<void(HttpAnswer)> reply);
+    void handle(const Head& head, const Admission& admission, const std::string& body,
+                std::function<void(HttpAnswer)> reply);
     /// Whether a head may become a WebSocket; else the answer.
     std::optional<HttpAnswer> refuse_stream(const Head& head);
 
-    // ---- WebSocket ----
+    // ---- WebSocket
     /// Asks the panel; `reply` is called once, on the network thread. Written into the audit unless it is a query.
-    void ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row, const nlohmann::json& fields,
-             std::function<void(panel::Answer)> reply);
+    void ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row,
+             const nlohmann::json& fields, std::function<void(panel::Answer)> reply);
     /// STOP. Never refused, never counted.
     void stop(const panel::Caller& caller, const std::string& address);
     /// The role of who comes without a token.

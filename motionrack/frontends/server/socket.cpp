@@ -34,7 +34,8 @@ Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive) 
     response.set(http::field::server, "motionrack");
     response.set(http::field::content_type, answer.type);
     response.set(http::field::cache_control, answer.cache);
-    response.set("Content-Security-Policy", "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+    response.set("Content-Security-Policy",
+                 "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Referrer-Policy", "no-referrer");
     response.set("Cross-Origin-Opener-Policy", "same-origin");

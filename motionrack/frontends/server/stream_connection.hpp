@@ -21,7 +21,8 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         : socket_(std::move(stream)),
           request_(std::move(request)),
           hall_(std::move(hall)),
-          client_(std::make_shared<Client>(*hall_->service, std::move(peer), fmt::format("w{}", hall_->next_session++), *this)) {
+          client_(std::make_shared<Client>(*hall_->service, std::move(peer), fmt::format("w{}", hall_->next_session++),
+                                           *this)) {
         hall_->seats.insert(this);
     }
     ~StreamConnection() override { leave(); }
@@ -40,7 +41,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         });
     }
 
-    // ---- Wire ----
+    // ---- Wire
     void write(const Outgoing& message) override {
         writes_ = true;
         std::array<asio::const_buffer, 2> pieces = {asio::buffer(message.own), {}};
@@ -62,7 +63,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         if (code == websocket::close_code::try_again_later) beast::get_lowest_layer(socket_).close();
     }
 
-    // ---- Open ----
+    // ---- Open
     void end(std::string_view why) override { client_->goodbye(websocket::close_code::going_away, why); }
 
   private:

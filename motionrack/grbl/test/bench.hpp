@@ -25,11 +25,16 @@ inline rack::RackConfig rack_of(const std::string& text) {
 
 /// X, Y and Z without home switches: they stand where the file says. `more` for the file.
 inline rack::RackConfig three_axes(const std::string& more = "") {
-    return rack_of("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n[axis.Z]\ncard = \"m\"\n"
-                   "channel = \"z\"\n" + more);
+    return rack_of(
+        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = "
+        "\"y\"\n[axis.Z]\ncard = \"m\"\n"
+        "channel = \"z\"\n" +
+        more);
 }
 
-inline rack::RackConfig router() { return *rack::read_rack_text(*rack::rack_template("router")).config; }
+inline rack::RackConfig router() {
+    return *rack::read_rack_text(*rack::rack_template("router")).config;
+}
 
 /// How many lines were answered in it.
 inline int answers(const std::string& text) {

@@ -13,7 +13,9 @@ struct Exchange {
     std::string out;
 };
 
-void PrintTo(const Exchange& row, std::ostream* out) { *out << row.rule; }
+void PrintTo(const Exchange& row, std::ostream* out) {
+    *out << row.rule;
+}
 
 const Exchange exchanges[] = {
     // lines
@@ -23,10 +25,18 @@ const Exchange exchanges[] = {
     {"lower case, blanks, a slash", "/ g21 g9 0\n", "ok\r\n"},
     {"no percent sign", "%\n", "error:1\r\n"},
     {"79 characters fit, comments do not count", "G1F100X (a comment) " + std::string(71, '0') + "1\n", "ok\r\n"},
-    {"80 do not, and nothing is run", "G1F100X" + std::string(72, '0') + "1\n?", "error:11\r\n<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
+    {"80 do not, and nothing is run", "G1F100X" + std::string(72, '0') + "1\n?",
+     "error:11\r\n<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"one answer a line", "G21\nG90\n\nG17\n", "ok\r\nok\r\nok\r\nok\r\n"},
-    {"bytes above 7F are nothing", "G\xC3\xA9" "21\n", "ok\r\n"},
-    {"real-time bytes inside a line", "G\x90" "2\x95" "1\n", "ok\r\n"},
+    {"bytes above 7F are nothing",
+     "G\xC3\xA9"
+     "21\n",
+     "ok\r\n"},
+    {"real-time bytes inside a line",
+     "G\x90"
+     "2\x95"
+     "1\n",
+     "ok\r\n"},
     // errors by number
     {"1 no letter", "1X\n", "error:1\r\n"},
     {"2 no number", "GX\n", "error:2\r\n"},
@@ -64,39 +74,57 @@ const Exchange exchanges[] = {
     // $ commands
     {"help", "$\n", "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]\r\nok\r\n"},
     {"modes", "$G\n", "[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
-    {"modes that were changed", "G20 G91 G1 G55 G18 T4 S900 M3 M8 F10\n$G\n", "ok\r\n[GC:G1 G55 G18 G20 G91 G94 M3 M8 T4 F254 S900]\r\nok\r\n"},
+    {"modes that were changed", "G20 G91 G1 G55 G18 T4 S900 M3 M8 F10\n$G\n",
+     "ok\r\n[GC:G1 G55 G18 G20 G91 G94 M3 M8 T4 F254 S900]\r\nok\r\n"},
     {"modes after G80", "G80\n$G\n", "ok\r\n[GC:G80 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
     {"it begins in G0", "X0\n", "ok\r\n"},
     {"build", "$I\n", "[VER:1.1h.20190830:]\r\n[OPT:V,15,128]\r\nok\r\n"},
     {"build with a name", "$I=mill 3\n$I\n", "ok\r\n[VER:1.1h.20190830:MILL3]\r\n[OPT:V,15,128]\r\nok\r\n"},
     {"startup lines", "$N\n", "$N0=\r\n$N1=\r\nok\r\n"},
-    {"a startup line is kept, and run at a reset", "$N0=G20\n$N\n\x18", "ok\r\n$N0=G20\r\n$N1=\r\nok\r\n" + banner + ">G20:ok\r\n"},
+    {"a startup line is kept, and run at a reset", "$N0=G20\n$N\n\x18",
+     "ok\r\n$N0=G20\r\n$N1=\r\nok\r\n" + banner + ">G20:ok\r\n"},
     {"a startup line must be right", "$N0=G0G1\n", "error:21\r\n"},
     {"unlock where nothing is locked", "$X\n", "ok\r\n"},
     {"offsets", "$#\n",
-     "[G54:0.000,0.000,0.000]\r\n[G55:0.000,0.000,0.000]\r\n[G56:0.000,0.000,0.000]\r\n[G57:0.000,0.000,0.000]\r\n[G58:0.000,0.000,0.000]\r\n"
-     "[G59:0.000,0.000,0.000]\r\n[G28:0.000,0.000,0.000]\r\n[G30:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n"
+     "[G54:0.000,0.000,0.000]\r\n[G55:0.000,0.000,0.000]\r\n[G56:0.000,0.000,0.000]\r\n[G57:0.000,0.000,0.000]\r\n[G58:"
+     "0.000,0.000,0.000]\r\n"
+     "[G59:0.000,0.000,0.000]\r\n[G28:0.000,0.000,0.000]\r\n[G30:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:"
+     "0.000]\r\n"
      "[PRB:0.000,0.000,0.000:0]\r\nok\r\n"},
-    {"offsets are forgotten with $RST=#", "G10 L2 P2 X5\n$RST=#\n", "ok\r\n[MSG:Restoring defaults]\r\nok\r\n" + banner},
+    {"offsets are forgotten with $RST=#", "G10 L2 P2 X5\n$RST=#\n",
+     "ok\r\n[MSG:Restoring defaults]\r\nok\r\n" + banner},
     {"$RST of something else", "$RST=1\n", "error:3\r\n"},
-    {"settings that last for the session", "$10=2\n$13=1\n?", "ok\r\nok\r\n<Idle|WPos:0.0000,0.0000,0.0000|Bf:15,128|FS:0.0,0|WCO:0.0000,0.0000,0.0000>\r\n"},
+    {"settings that last for the session", "$10=2\n$13=1\n?",
+     "ok\r\nok\r\n<Idle|WPos:0.0000,0.0000,0.0000|Bf:15,128|FS:0.0,0|WCO:0.0000,0.0000,0.0000>\r\n"},
     {"a setting of the rack as it is", "$110=6000\n$100=640.000\n", "ok\r\nok\r\n"},
-    {"a setting of the rack that is different", "$110=500\n", "[MSG:$110 is 6000.000 in the rack file. It was not changed; change the rack file]\r\nerror:3\r\n"},
-    {"check mode", "$C\nG1 X100 F10\nG1\nG0 G1\n$C\n", "[MSG:Enabled]\r\nok\r\nok\r\nok\r\nerror:21\r\n[MSG:Disabled]\r\nok\r\n" + banner},
-    {"check mode in the report", "$C\n?", "[MSG:Enabled]\r\nok\r\n<Check|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
-    {"sleep takes no line until a reset, then it is locked", "$SLP\nG0 X1\n?\x18", "ok\r\n[MSG:Sleeping]\r\n<Sleep|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + banner + unlock},
+    {"a setting of the rack that is different", "$110=500\n",
+     "[MSG:$110 is 6000.000 in the rack file. It was not changed; change the rack file]\r\nerror:3\r\n"},
+    {"check mode", "$C\nG1 X100 F10\nG1\nG0 G1\n$C\n",
+     "[MSG:Enabled]\r\nok\r\nok\r\nok\r\nerror:21\r\n[MSG:Disabled]\r\nok\r\n" + banner},
+    {"check mode in the report", "$C\n?",
+     "[MSG:Enabled]\r\nok\r\n<Check|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
+    {"sleep takes no line until a reset, then it is locked", "$SLP\nG0 X1\n?\x18",
+     "ok\r\n[MSG:Sleeping]\r\n<Sleep|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + banner + unlock},
     // real-time bytes
     {"a report gives no ok", "?", "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"two before a report are one", "??", "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"a reset in Idle does not alarm", "\x18", banner},
-    {"hold in Idle, then a reset", "!?\x18", "<Hold:0|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + banner},
-    {"a hold keeps G-code waiting, questions are answered", "!\n$G\n$$\nG0\n~", "ok\r\n[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\nerror:8\r\nok\r\n"},
-    {"a door that is shut again", "\x84?~?", "[MSG:Check Door]\r\n<Door:0|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n<Idle|MPos:0.000,0.000,0.000|FS:0,0|Ov:100,100,100>\r\n"},
-    {"jog cancel outside a jog, as UTF-8 too", "\x85\xC2\x85?", "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
+    {"hold in Idle, then a reset", "!?\x18",
+     "<Hold:0|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + banner},
+    {"a hold keeps G-code waiting, questions are answered", "!\n$G\n$$\nG0\n~",
+     "ok\r\n[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\nerror:8\r\nok\r\n"},
+    {"a door that is shut again", "\x84?~?",
+     "[MSG:Check "
+     "Door]\r\n<Door:0|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n<Idle|MPos:0.000,0.000,0.000|FS:0,0|Ov:"
+     "100,100,100>\r\n"},
+    {"jog cancel outside a jog, as UTF-8 too", "\x85\xC2\x85?",
+     "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"a line of an alarm: too far", "G0 X301\n", "ALARM:2\r\n[MSG:Reset to continue]\r\n"},
-    {"after it only a reset is heard, and the line is answered then", "G0 X301\n$X\nG0\n\x18", "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + banner + unlock},
+    {"after it only a reset is heard, and the line is answered then", "G0 X301\n$X\nG0\n\x18",
+     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + banner + unlock},
     {"a lock takes no G-code, $X ends it", "G0 X301\n\x18G0 X1\n$X\n$G\n",
-     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + banner + unlock + "error:9\r\n[MSG:Caution: Unlocked]\r\nok\r\n[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
+     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + banner + unlock +
+         "error:9\r\n[MSG:Caution: Unlocked]\r\nok\r\n[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
     {"the end of a program", "M2\n$G\n", "[MSG:Pgm End]\r\nok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
 };
 

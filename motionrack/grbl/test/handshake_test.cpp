@@ -11,7 +11,8 @@ using testing::StartsWith;
 
 const std::string idle = "<Idle|MPos:0.000,0.000,0.000|FS:0,0";
 
-/// Universal Gcode Sender 2: status (ten tries), an empty line where it is locked, build, settings, modes; then a status every 200 ms.
+/// Universal Gcode Sender 2: status (ten tries), an empty line where it is locked, build, settings, modes; then a
+/// status every 200 ms.
 TEST(UniversalGcodeSender, FindsAGrbl) {
     Bench b(three_axes());
     b.session->greet();
@@ -39,12 +40,13 @@ TEST(UniversalGcodeSender, ConnectsToALockedMachineAndHomesIt) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-/// gSender: a reset, then status until it hears something; build, settings, modes and offsets; overrides by their bytes while it streams
-/// with 127 bytes under way.
+/// gSender: a reset, then status until it hears something; build, settings, modes and offsets; overrides by their bytes
+/// while it streams with 127 bytes under way.
 TEST(GSender, StreamsByCountingCharacters) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("\x18", 0.1), "\r\nGrbl 1.1h ['$' for help]\r\n");
-    for (const char* question : {"$I\n", "$$\n", "$G\n", "$#\n"}) EXPECT_THAT(b.ask(question), EndsWith("ok\r\n")) << question;
+    for (const char* question : {"$I\n", "$$\n", "$G\n", "$#\n"})
+        EXPECT_THAT(b.ask(question), EndsWith("ok\r\n")) << question;
     std::deque<std::size_t> under_way;
     std::size_t bytes = 0;
     int answered = 0;
@@ -95,7 +97,8 @@ TEST(BCnc, HoldsResetsAndAsksForOffsetsAfterItsJob) {
 TEST(CncJs, AsksForModesWhileItStreams) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G1 X10 F600\n$G\nG1 X20\n$G\n", 0.1),
-              "ok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F600 S0]\r\nok\r\nok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F600 S0]\r\nok\r\n");
+              "ok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F600 S0]\r\nok\r\nok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 "
+              "F600 S0]\r\nok\r\n");
     EXPECT_EQ(b.ask("G4 P0.5\n", 1), "");
     EXPECT_EQ(answers(b.ask("", 3)), 1);
 }

@@ -14,17 +14,24 @@ using testing::StartsWith;
 /// MOTIONRACK_SEED=N picks the first of them.
 TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
     const char* wanted = std::getenv("MOTIONRACK_SEED");
-    const unsigned first = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10)) : std::random_device{}() % 1'000'000;
-    const std::vector<std::string> pieces = {"G0", "G1", "X1", "Y-3", "Z5", "F600", "\n", "\r\n", "$$", "$G", "$H", "$X", "$J=", "G91", "?", "!", "~", "\x18", "\x84", "\x85",
-                                             "\x90", "\x91", "\x9E", "M3", "S5", "M0", "G4P.1", "$C", "$SLP", "(", ")", ";", "%", "\n", "G2X1I1", "$10=3", "$RST=*", "\n", "G92X0"};
+    const unsigned first = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10))
+                                             : std::random_device{}() % 1'000'000;
+    const std::vector<std::string> pieces = {"G0", "G1",   "X1",     "Y-3",   "Z5",     "F600", "\n",   "\r\n",
+                                             "$$", "$G",   "$H",     "$X",    "$J=",    "G91",  "?",    "!",
+                                             "~",  "\x18", "\x84",   "\x85",  "\x90",   "\x91", "\x9E", "M3",
+                                             "S5", "M0",   "G4P.1",  "$C",    "$SLP",   "(",    ")",    ";",
+                                             "%",  "\n",   "G2X1I1", "$10=3", "$RST=*", "\n",   "G92X0"};
     for (unsigned seed = first; seed < first + 40; ++seed) {
         std::mt19937 random(seed);
         Bench b(random() % 2 == 0 ? three_axes() : router());
         for (int i = 0; i < 60; ++i) {
             std::string bytes;
-            for (auto n = random() % 12; n > 0; --n) bytes += random() % 8 == 0 ? std::string(1, static_cast<char>(random())) : pieces[random() % pieces.size()];
+            for (auto n = random() % 12; n > 0; --n)
+                bytes +=
+                    random() % 8 == 0 ? std::string(1, static_cast<char>(random())) : pieces[random() % pieces.size()];
             const std::string out = b.ask(bytes, 0.002 * static_cast<double>(1 + random() % 30));
-            for (const char c : out) ASSERT_TRUE((c >= ' ' && c <= '~') || c == '\r' || c == '\n') << "MOTIONRACK_SEED=" << seed;
+            for (const char c : out)
+                ASSERT_TRUE((c >= ' ' && c <= '~') || c == '\r' || c == '\n') << "MOTIONRACK_SEED=" << seed;
         }
         b.ask("\x18", 3);
         const double place = b.axis(0);
@@ -34,13 +41,16 @@ TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
     }
 }
 
-/// Lines without a reset, a sleep or a hold among them, however wrong, are answered once each. None leads beyond the travel: the alarm
-/// of that is the answer, as Grbl has it.
+/// Lines without a reset, a sleep or a hold among them, however wrong, are answered once each. None leads beyond the
+/// travel: the alarm of that is the answer, as Grbl has it.
 TEST(AGrblPort, AnswersEveryLineOnce) {
     const char* wanted = std::getenv("MOTIONRACK_SEED");
-    const unsigned first = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10)) : std::random_device{}() % 1'000'000;
-    const std::vector<std::string> words = {"G0", "G1", "X1", "Y3", "Z.5", "F600", "$$", "$G", "$#", "$I", "$X", "$J=X1F9", "G91", "?", "\x91", "M3", "S5", "G4P.01",
-                                            "(a)", ";b", "%", "G90", "$10=1", "$N", "\xFF", "G80", "M5", "M8", "M9", "$5=1", "Q", "=1"};
+    const unsigned first = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10))
+                                             : std::random_device{}() % 1'000'000;
+    const std::vector<std::string> words = {"G0",   "G1",     "X1",  "Y3",      "Z.5", "F600", "$$",    "$G",
+                                            "$#",   "$I",     "$X",  "$J=X1F9", "G91", "?",    "\x91",  "M3",
+                                            "S5",   "G4P.01", "(a)", ";b",      "%",   "G90",  "$10=1", "$N",
+                                            "\xFF", "G80",    "M5",  "M8",      "M9",  "$5=1", "Q",     "=1"};
     for (unsigned seed = first; seed < first + 20; ++seed) {
         std::mt19937 random(seed);
         Bench b(three_axes());

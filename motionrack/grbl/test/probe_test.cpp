@@ -9,8 +9,11 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 rack::RackConfig with_probe(const std::string& block) {
-    return rack_of("[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n"
-                   "[axis.Z]\ncard = \"m\"\nchannel = \"z\"\n[probe]\n" + block);
+    return rack_of(
+        "[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard "
+        "= \"m\"\nchannel = \"y\"\n"
+        "[axis.Z]\ncard = \"m\"\nchannel = \"z\"\n[probe]\n" +
+        block);
 }
 
 TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
@@ -23,7 +26,8 @@ TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
     EXPECT_THAT(b.report(), Not(HasSubstr("Pn")));
     const double stands = b.axis(0);
     EXPECT_NEAR(stands, 15.3, 0.15);
-    EXPECT_EQ(b.ask("G92 X0\nG38.3 X2\n", 4), "ok\r\n[PRB:" + std::to_string(stands + 2).substr(0, 6) + ",0.000,0.000:0]\r\nok\r\n");
+    EXPECT_EQ(b.ask("G92 X0\nG38.3 X2\n", 4),
+              "ok\r\n[PRB:" + std::to_string(stands + 2).substr(0, 6) + ",0.000,0.000:0]\r\nok\r\n");
 }
 
 TEST(GrblProbe, LinesBehindItWait) {

@@ -130,13 +130,14 @@ TEST(AGrblPort, WaitsAtM0UntilItIsResumed) {
     EXPECT_NEAR(b.axis(0), 10, 1e-3);
 }
 
-// ---- jog ------------------------------------------------------------------------------------------------------------------------------
+// ---- jog
 
 TEST(AGrblPort, JogsAndKeepsItsModes) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G20 G90\n$J=G91 G21 X10 Y5 F600\n"), "ok\r\nok\r\n");
     EXPECT_THAT(b.report(), StartsWith("<Jog|"));
-    EXPECT_EQ(b.ask("G0 X1\n$$\n$H\n"), "error:9\r\n" + settings_text(b.machine->rack().config(), b.session->own(), 3) + "ok\r\nerror:8\r\n");
+    EXPECT_EQ(b.ask("G0 X1\n$$\n$H\n"),
+              "error:9\r\n" + settings_text(b.machine->rack().config(), b.session->own(), 3) + "ok\r\nerror:8\r\n");
     EXPECT_EQ(b.ask("$J=G91 X1 F10\n"), "ok\r\n");
     b.until_idle();
     EXPECT_NEAR(b.axis(0), 10 + 25.4, 1e-3);
@@ -170,10 +171,11 @@ INSTANTIATE_TEST_SUITE_P(By, AJogThatIsCancelled, testing::Values("\x85", "\xC2\
 
 TEST(AGrblPort, TakesNoJogWhileItRuns) {
     Bench b(three_axes());
-    EXPECT_EQ(b.ask("G1 X50 F600\n$J=X1 F100\n$$\n$#\n$X\n$C\n$N\n"), "ok\r\nerror:8\r\nerror:8\r\nerror:8\r\nok\r\nerror:8\r\nerror:8\r\n");
+    EXPECT_EQ(b.ask("G1 X50 F600\n$J=X1 F100\n$$\n$#\n$X\n$C\n$N\n"),
+              "ok\r\nerror:8\r\nerror:8\r\nerror:8\r\nok\r\nerror:8\r\nerror:8\r\n");
 }
 
-// ---- overrides, spindle, coolant --------------------------------------------------------------------------------------------------------
+// ---- overrides, spindle, coolant
 
 TEST(AGrblPort, ChangesOverridesInStepsWithinTheirLimits) {
     Bench b(three_axes());
@@ -217,7 +219,7 @@ TEST(AGrblPort, WaitsForTheMotionBeforeAnotherSpindleSpeedButNotInLaserMode) {
     EXPECT_NEAR(b.axis(0), 7, 1e-3);
 }
 
-// ---- locks and alarms -----------------------------------------------------------------------------------------------------------------------
+// ---- locks and alarms
 
 TEST(AMachineWithHomeSwitches, IsLockedAtFirst) {
     Bench b(router());
@@ -292,7 +294,7 @@ TEST(AGrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-// ---- who may ------------------------------------------------------------------------------------------------------------------------------------
+// ---- who may
 
 TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     bool mine = false;

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 
 class AJournal : public testing::Test {
   protected:
-    AJournal() : path_((fs::path(testing::TempDir()) / ("journal_" + std::to_string(::getpid()) + ".db")).string()) { remove(); }
+    AJournal() : path_((fs::path(testing::TempDir()) / ("journal_" + std::to_string(::getpid()) + ".db")).string()) {
+        remove();
+    }
     ~AJournal() override { remove(); }
     void remove() const {
         for (const char* end : {"", "-wal", "-shm", ".lock"}) fs::remove(path_ + end);
@@ -32,7 +34,8 @@ class AJournal : public testing::Test {
     /// Waits until it is on disk.
     static std::int64_t write(Journal& journal, std::string kind, std::string text) {
         std::promise<std::int64_t> number;
-        journal.write(Instant{7}, std::move(kind), std::move(text), "{}", [&](const Result<std::int64_t>& done) { number.set_value(done ? *done : -1); });
+        journal.write(Instant{7}, std::move(kind), std::move(text), "{}",
+                      [&](const Result<std::int64_t>& done) { number.set_value(done ? *done : -1); });
         return number.get_future().get();
     }
 
@@ -55,7 +58,8 @@ class AJournal : public testing::Test {
 
 TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
     auto journal = open();
-    for (int i = 1; i <= 50; ++i) journal->write(Instant{i}, i % 2 == 0 ? "order" : "state", "entry " + std::to_string(i));
+    for (int i = 1; i <= 50; ++i)
+        journal->write(Instant{i}, i % 2 == 0 ? "order" : "state", "entry " + std::to_string(i));
     EXPECT_EQ(write(*journal, "job", "the last"), 51);
     const auto newest = journal->read({0, "", 3});
     ASSERT_TRUE(newest);
@@ -84,7 +88,8 @@ TEST_F(AJournal, KnowsWhetherTheRunBeforeEndedByItself) {
         ASSERT_TRUE(journal->before());
         EXPECT_TRUE(journal->before()->clean);
         EXPECT_EQ(journal->before()->run, 1);
-        EXPECT_EQ(journal->before()->kept, (std::map<std::string, std::string>{{"positions", "2"}, {"job", "part.ngc"}}));
+        EXPECT_EQ(journal->before()->kept,
+                  (std::map<std::string, std::string>{{"positions", "2"}, {"job", "part.ngc"}}));
         EXPECT_EQ(journal->run(), 2);
         write(*journal, "state", "moving");
     }
@@ -103,7 +108,8 @@ TEST_F(AJournal, BelongsToOneProgramAtATime) {
 }
 
 TEST_F(AJournal, LeavesFilesThatAreNoJournalAsTheyAre) {
-    std::ofstream(path_) << "these are my notes, not a database, and they are long enough to be seen as a damaged one................";
+    std::ofstream(path_)
+        << "these are my notes, not a database, and they are long enough to be seen as a damaged one................";
     const auto refused = Journal::open(path_);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("left as it is"), std::string::npos) << refused.error().message;
@@ -168,11 +174,12 @@ TEST_F(AJournal, TakesEntriesOfManyThreads) {
     auto journal = Journal::open(path);
     if (!journal) ::_exit(1);
     for (int i = 0;; ++i) {
-        (*journal)->write(Instant{i}, "order", "order " + std::to_string(i), {}, [pipe_in, i](const Result<std::int64_t>& number) {
-            if (!number) return;  // too many wait for the disk: refused, not acknowledged
-            const std::int64_t told[2] = {*number, i};
-            if (::write(pipe_in, told, sizeof told) != sizeof told) ::_exit(2);
-        });
+        (*journal)->write(Instant{i}, "order", "order " + std::to_string(i), {},
+                          [pipe_in, i](const Result<std::int64_t>& number) {
+                              if (!number) return;  // too many wait for the disk: refused, not acknowledged
+                              const std::int64_t told[2] = {*number, i};
+                              if (::write(pipe_in, told, sizeof told) != sizeof told) ::_exit(2);
+                          });
         (*journal)->keep("line", std::to_string(i));
         if (i % 16 == 15) std::this_thread::yield();
         if (i % 4096 == 4095) ::usleep(1000);  // lets the queue empty
@@ -192,7 +199,8 @@ TEST_F(AJournal, LosesNothingThatWasAcknowledgedInAHundredKills) {
         ::close(ends[1]);
         const auto wanted = std::uniform_int_distribution<int>(0, 400)(random);
         std::int64_t one[2];
-        for (int i = 0; i < wanted && ::read(ends[0], one, sizeof one) == sizeof one; ++i) told.emplace_back(one[0], one[1]);
+        for (int i = 0; i < wanted && ::read(ends[0], one, sizeof one) == sizeof one; ++i)
+            told.emplace_back(one[0], one[1]);
         ::kill(child, SIGKILL);
         while (::read(ends[0], one, sizeof one) == sizeof one) told.emplace_back(one[0], one[1]);
         ::close(ends[0]);

@@ -10,7 +10,12 @@ namespace motionrack::mark {
 namespace {
 
 TEST(Calibration, ScaleFromTwoReadingsAndADistance) {
-    const auto out = calibrate_scale({.reading1 = 1000, .reading2 = 51'000, .distance_mm = 50, .bits_per_mm = 5184, .reading_uncertainty = 1, .distance_uncertainty_mm = 0.05});
+    const auto out = calibrate_scale({.reading1 = 1000,
+                                      .reading2 = 51'000,
+                                      .distance_mm = 50,
+                                      .bits_per_mm = 5184,
+                                      .reading_uncertainty = 1,
+                                      .distance_uncertainty_mm = 0.05});
     ASSERT_TRUE(out);
     EXPECT_DOUBLE_EQ(out->per_mm.value, 1000);
     EXPECT_DOUBLE_EQ(out->scale.value, 5.184);
@@ -21,10 +26,12 @@ TEST(Calibration, ScaleFromTwoReadingsAndADistance) {
 }
 
 TEST(Calibration, CentreAndCountsATurnFromThreeMarks) {
-    const auto track = parts::Track::make({.rotary = true, .centre_mm = {-30, 12}, .profile = {{0, 10}}, .counts_per_unit = 1000});
+    const auto track =
+        parts::Track::make({.rotary = true, .centre_mm = {-30, 12}, .profile = {{0, 10}}, .counts_per_unit = 1000});
     ASSERT_TRUE(track);
     std::array<RotaryMark, 3> marks;
-    for (std::size_t i = 0; i < 3; ++i) marks[i] = {track->on_part({5, 5}, 4.0 * static_cast<double>(i)), 40'000.0 * static_cast<double>(i)};
+    for (std::size_t i = 0; i < 3; ++i)
+        marks[i] = {track->on_part({5, 5}, 4.0 * static_cast<double>(i)), 40'000.0 * static_cast<double>(i)};
     const auto out = calibrate_rotary(marks, 0.01);
     ASSERT_TRUE(out) << out.error().text();
     EXPECT_NEAR(out->centre_x.value, -30, 1e-9);
@@ -64,15 +71,23 @@ TEST(Calibration, UncertaintiesAreThoseOfRepeatedTrials) {
 TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
     // The cross' upright, marked on the simulated belt; where it is on the part says how late the mirrors are.
     const auto shift = [](double speed, int tracking_error_us) {
-        JobRead read = read_job("[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal = false\ndead_us = 50\nnatural_hz = 3183.1\ndamping = 1\ngreatest_speed = 1e7\n"
-                                "[pace]\njump_delay_us = 2000\nmark_delay_us = 1000\nlaser_on_us = 500\n[belt]\ncounts_per_mm = 20000\nspeed_mm_s = " + std::to_string(speed) +
-                                "\n[fly]\nmode = 'encoder'\ntracking_error_us = " + std::to_string(tracking_error_us) + "\n", "j");
-        const Prepared prepared = *prepare(*read.job, [](const std::string&) -> Result<std::string> { return std::string("<svg><path d='M0 -5V5'/></svg>"); });
+        JobRead read = read_job(
+            "[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal = false\ndead_us = 50\nnatural_hz = "
+            "3183.1\ndamping = 1\ngreatest_speed = 1e7\n"
+            "[pace]\njump_delay_us = 2000\nmark_delay_us = 1000\nlaser_on_us = 500\n[belt]\ncounts_per_mm = "
+            "20000\nspeed_mm_s = " +
+                std::to_string(speed) +
+                "\n[fly]\nmode = 'encoder'\ntracking_error_us = " + std::to_string(tracking_error_us) + "\n",
+            "j");
+        const Prepared prepared = *prepare(*read.job, [](const std::string&) -> Result<std::string> {
+            return std::string("<svg><path d='M0 -5V5'/></svg>");
+        });
         const Outcome out = *run_job(*read.job, prepared);
         const auto& points = out.on.points;
         return -points.at(points.size() / 2).at.x;
     };
-    const auto out = calibrate_lag({.speed_mm_s = {100, 500}, .shift_mm = {shift(100, 0), shift(500, 0)}, .shift_uncertainty_mm = 0.002});
+    const auto out = calibrate_lag(
+        {.speed_mm_s = {100, 500}, .shift_mm = {shift(100, 0), shift(500, 0)}, .shift_uncertainty_mm = 0.002});
     ASSERT_TRUE(out) << out.error().text();
     EXPECT_NEAR(out->lag_us.value, 150, 6);
     EXPECT_EQ(out->tracking_error, 15);

@@ -22,7 +22,9 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
 
 std::vector<std::string> corpus(const char* name) {
     std::vector<std::filesystem::path> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "tests/fuzz/corpus" / name)) paths.push_back(entry.path());
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "tests/fuzz/corpus" / name))
+        paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     std::vector<std::string> out;
     for (const auto& path : paths) out.push_back(text_of(path));
@@ -34,13 +36,22 @@ std::string damaged(std::string text, const std::vector<std::string>& seeds, mot
     for (std::uint32_t n = random.below(4) + 1; n > 0 && !text.empty(); --n) {
         const std::size_t at = random.below(static_cast<std::uint32_t>(text.size())), length = random.below(12) + 1;
         switch (random.below(5)) {
-            case 0: text[at] = static_cast<char>(random.word()); break;
-            case 1: text.erase(at, length); break;
-            case 2: text.insert(at, text.substr(random.below(static_cast<std::uint32_t>(text.size())), length)); break;
-            case 3: text[at] = "0123456789.-eE+ '\"<>=[]\n"[random.below(24)]; break;
+            case 0:
+                text[at] = static_cast<char>(random.word());
+                break;
+            case 1:
+                text.erase(at, length);
+                break;
+            case 2:
+                text.insert(at, text.substr(random.below(static_cast<std::uint32_t>(text.size())), length));
+                break;
+            case 3:
+                text[at] = "0123456789.-eE+ '\"<>=[]\n"[random.below(24)];
+                break;
             default: {
                 const std::string& other = seeds[random.below(static_cast<std::uint32_t>(seeds.size()))];
-                if (!other.empty()) text.insert(at, other.substr(random.below(static_cast<std::uint32_t>(other.size())), 3 * length));
+                if (!other.empty())
+                    text.insert(at, other.substr(random.below(static_cast<std::uint32_t>(other.size())), 3 * length));
             }
         }
     }
@@ -61,8 +72,12 @@ void run(const char* name, std::string (*check)(std::string_view), std::uint64_t
     }
 }
 
-TEST(MarkFuzz, DamagedDrawingsAreReadOrRefusedWithTheirPlace) { run("drawing", fuzz::check_drawing, 4'000); }
-TEST(MarkFuzz, DamagedJobsAreRunOrRefusedWithTheirPlace) { run("mark_job", fuzz::check_job, 400); }
+TEST(MarkFuzz, DamagedDrawingsAreReadOrRefusedWithTheirPlace) {
+    run("drawing", fuzz::check_drawing, 4'000);
+}
+TEST(MarkFuzz, DamagedJobsAreRunOrRefusedWithTheirPlace) {
+    run("mark_job", fuzz::check_job, 400);
+}
 
 }  // namespace
 }  // namespace motionrack::mark

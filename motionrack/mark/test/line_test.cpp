@@ -13,7 +13,9 @@ using testing::HasSubstr;
 
 /// Squares of 10 mm that take 80 ms and a little, on parts at 200 mm/s.
 std::string squares(const std::string& parts, const std::string& fly = "mode = 'encoder'") {
-    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 200\ncounts_per_mm = 1000\n[fly]\n" + fly + "\n[parts]\n" + parts;
+    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 200\ncounts_per_mm "
+           "= 1000\n[fly]\n" +
+           fly + "\n[parts]\n" + parts;
 }
 
 TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
@@ -38,8 +40,10 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
         for (const char* way : {"0", "90", "180", "30"})
             for (const char* counts : {"1000", "-1000"})
                 for (const char* speed : {"200", "-200"}) {
-                    const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nspeed_mm_s = ") + speed + "\ndirection_deg = " + way + "\ncounts_per_mm = " + counts +
-                                            "\n[fly]\nmode = '" + mode + "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";
+                    const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nspeed_mm_s = ") + speed +
+                                            "\ndirection_deg = " + way + "\ncounts_per_mm = " + counts +
+                                            "\n[fly]\nmode = '" + mode +
+                                            "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";
                     const Outcome out = run(job_of(job));
                     EXPECT_LE(out.on.deviation.worst_mm, 0.0065) << job;
                     EXPECT_EQ(out.on.deviation.missing_mm, 0) << job;
@@ -48,8 +52,10 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
 
 TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
     for (const char* start : {"track_delay_deg = 15", "start = 'equidistant'"}) {
-        const Outcome out = run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_y_mm = -40\ncounts_per_deg = 2000\n[fly]\nmode = 'encoder'\n"
-                                                   "[parts]\ncount = 8\nspacing_deg = 45\n") + start + "\n"));
+        const Outcome out = run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_y_mm = "
+                                                   "-40\ncounts_per_deg = 2000\n[fly]\nmode = 'encoder'\n"
+                                                   "[parts]\ncount = 8\nspacing_deg = 45\n") +
+                                       start + "\n"));
         ASSERT_EQ(out.on.parts.size(), 8u);
         for (const PartMarked& part : out.on.parts) {
             EXPECT_EQ(part.fate, PartFate::marked);
@@ -75,13 +81,15 @@ TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
     // It fits when the way of a part takes longer than its square.
     ASSERT_TRUE(out.fits_factor);
     EXPECT_TRUE(out.starts_limit);
-    EXPECT_NEAR(*out.fits_factor * 200, 10 / (out.on.parts[0].end_s - out.on.parts[0].begin_s), 4) << "the way back to the middle is shorter on a slower belt";
+    EXPECT_NEAR(*out.fits_factor * 200, 10 / (out.on.parts[0].end_s - out.on.parts[0].begin_s), 4)
+        << "the way back to the middle is shorter on a slower belt";
 }
 
 TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
     const Outcome out = run(job_of(squares("count = 10\nspacing_mm = 20\ntrack_delay_mm = 170\n")));
     // At 160 mm the ninth edge comes, the first part is due at 170 mm.
-    for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(out.on.parts[i].fate, i == 8 ? PartFate::lost_too_many : PartFate::marked) << i;
+    for (std::size_t i = 0; i < 10; ++i)
+        EXPECT_EQ(out.on.parts[i].fate, i == 8 ? PartFate::lost_too_many : PartFate::marked) << i;
     EXPECT_NEAR(out.on.parts[8].begin_s, 160.0 / 200, 2e-5);
 }
 
@@ -100,8 +108,9 @@ TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
 }
 
 TEST(MarkLine, EachPartGetsItsNumber) {
-    const Job job = job_of("[drawing]\ntext = 'N{n:03}'\nheight_mm = 3\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"
-                           "[parts]\nat_mm = [0, 40, 75, 130, 190]\ntrack_delay_mm = 50\nfirst_number = 98\nnumber_step = 7\n");
+    const Job job = job_of(
+        "[drawing]\ntext = 'N{n:03}'\nheight_mm = 3\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"
+        "[parts]\nat_mm = [0, 40, 75, 130, 190]\ntrack_delay_mm = 50\nfirst_number = 98\nnumber_step = 7\n");
     const Outcome out = run(job);
     ASSERT_EQ(out.on.parts.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -119,9 +128,12 @@ TEST(MarkLine, EachPartGetsItsNumber) {
 }
 
 TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
-    const Outcome out = run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_mm_s = 200\n[belt]\nspeed_mm_s = 200\n[fly]\nmode = 'encoder'\n"
-                                   "[parts]\nat_mm = [0, 5, 60, 65, 120]\ntrack_delay_mm = 5\n"));
-    const std::vector<PartFate> fates = {PartFate::marked, PartFate::lost_busy, PartFate::marked, PartFate::lost_busy, PartFate::marked};
+    const Outcome out =
+        run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_mm_s = 200\n[belt]\nspeed_mm_s = "
+                   "200\n[fly]\nmode = 'encoder'\n"
+                   "[parts]\nat_mm = [0, 5, 60, 65, 120]\ntrack_delay_mm = 5\n"));
+    const std::vector<PartFate> fates = {PartFate::marked, PartFate::lost_busy, PartFate::marked, PartFate::lost_busy,
+                                         PartFate::marked};
     std::int64_t number = 0;
     for (std::size_t i = 0; i < fates.size(); ++i) {
         EXPECT_EQ(out.on.parts[i].fate, fates[i]) << i;
@@ -135,7 +147,8 @@ TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
 }
 
 TEST(MarkLine, OverflowsAreOnTheirPartInItsCoordinates) {
-    const Outcome out = run(job_of(squares("count = 3\nspacing_mm = 200\ntrack_delay_mm = 20\n", "mode = 'encoder'\n[optics]\nbits_per_mm = 40000")));
+    const Outcome out = run(job_of(squares("count = 3\nspacing_mm = 200\ntrack_delay_mm = 20\n",
+                                           "mode = 'encoder'\n[optics]\nbits_per_mm = 40000")));
     ASSERT_FALSE(out.on.overflows.empty());
     std::vector<std::size_t> seen;
     for (const Overflow& o : out.on.overflows) {
@@ -150,22 +163,35 @@ TEST(MarkLine, OverflowsAreOnTheirPartInItsCoordinates) {
 }
 
 TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
-    const Job job = job_of("[drawing]\nsvg = 's'\n[belt]\nprofile = [[0, 100], [1, 0]]\n[fly]\nmode = 'encoder'\n[parts]\ncount = 4\nspacing_mm = 20\n");
-    EXPECT_THAT(refusal(job), HasSubstr("Part 4 does not come to the sensor within 1000 s: the belt goes 50 until then, the part is 60 away"));
+    const Job job = job_of(
+        "[drawing]\nsvg = 's'\n[belt]\nprofile = [[0, 100], [1, 0]]\n[fly]\nmode = 'encoder'\n[parts]\ncount = "
+        "4\nspacing_mm = 20\n");
+    EXPECT_THAT(
+        refusal(job),
+        HasSubstr(
+            "Part 4 does not come to the sensor within 1000 s: the belt goes 50 until then, the part is 60 away"));
 }
 
 TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
-    const std::string all = errors_of("[drawing]\ntext = 'N{m}'\n[belt]\nspeed_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = 50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");
+    const std::string all = errors_of(
+        "[drawing]\ntext = 'N{m}'\n[belt]\nspeed_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
+        "50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");
     EXPECT_THAT(all, HasSubstr("j.toml:2:8: Character 2 of the text: in braces"));
     EXPECT_THAT(all, HasSubstr("j.toml:7:21: The card makes up for tracking errors of encoders only"));
     EXPECT_THAT(all, HasSubstr("j.toml:8:2: 3 parts need a 'spacing_mm'"));
     EXPECT_THAT(all, HasSubstr("j.toml:8:2: McBSP words say where the part is"));
     EXPECT_THAT(all, HasSubstr("j.toml:10:9: Equidistant parts need no sensor"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[parts]\ncount = 2\nspacing_mm = 5\n"), HasSubstr("a belt or table that moves"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\nat_mm = [0, 7, 5]\n"), HasSubstr("j.toml:6:16: 'at_mm' must be"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\ncount = 2\nat_mm = [0, 7]\n"), HasSubstr("leave 'count' out"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\nspacing_deg = 2\n"), HasSubstr("j.toml:6:1: "));
-    EXPECT_THAT(errors_of("[drawing]\ntext = '{n:02}'\n[belt]\nspeed_mm_s = 1\n[parts]\ncount = 5\nspacing_mm = 5\nfirst_number = 96\n"), HasSubstr("The number 100 has more than the 2 digits"));
+    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[parts]\ncount = 2\nspacing_mm = 5\n"),
+                HasSubstr("a belt or table that moves"));
+    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\nat_mm = [0, 7, 5]\n"),
+                HasSubstr("j.toml:6:16: 'at_mm' must be"));
+    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\ncount = 2\nat_mm = [0, 7]\n"),
+                HasSubstr("leave 'count' out"));
+    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\nspacing_deg = 2\n"),
+                HasSubstr("j.toml:6:1: "));
+    EXPECT_THAT(errors_of("[drawing]\ntext = '{n:02}'\n[belt]\nspeed_mm_s = 1\n[parts]\ncount = 5\nspacing_mm = "
+                          "5\nfirst_number = 96\n"),
+                HasSubstr("The number 100 has more than the 2 digits"));
     EXPECT_THAT(errors_of("drawing = [1]\n"), HasSubstr("j.toml:1:"));
 }
 
@@ -180,7 +206,8 @@ TEST(Numbered, FillsWithZerosAndRefusesOtherBraces) {
     EXPECT_EQ(*numbered("SN {n:04}/{n}", 42), "SN 0042/42");
     EXPECT_EQ(*numbered("none", 42), "none");
     EXPECT_EQ(*numbered("{n:03}", -4), "-04");
-    for (const char* bad : {"{", "}", "{}", "{m}", "{n:4}", "{n:0}", "{n:00}", "{n:019}", "{n:0004}", "a{n", "{{n}}"}) EXPECT_FALSE(numbered(bad, 1)) << bad;
+    for (const char* bad : {"{", "}", "{}", "{m}", "{n:4}", "{n:0}", "{n:00}", "{n:019}", "{n:0004}", "a{n", "{{n}}"})
+        EXPECT_FALSE(numbered(bad, 1)) << bad;
     EXPECT_FALSE(numbered("{n:02}", 100));
 }
 

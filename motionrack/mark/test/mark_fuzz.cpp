@@ -13,9 +13,12 @@ namespace motionrack::mark::fuzz {
 
 namespace {
 
-constexpr double greatest_run_s = 0.02;  // of marks, of a drawing that is marked: runs are a hundred times slower with sanitizers
+constexpr double greatest_run_s =
+    0.02;  // of marks, of a drawing that is marked: runs are a hundred times slower with sanitizers
 
-bool finite(Spot p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+bool finite(Spot p) {
+    return std::isfinite(p.x) && std::isfinite(p.y);
+}
 
 std::string drawing_problem(const Drawing& drawing) {
     for (const Stroke& stroke : drawing.strokes) {
@@ -32,7 +35,8 @@ std::string error_problem(const Error& error, std::string_view text) {
     // G-code takes a carriage return alone as the end of a line, too.
     const auto lines = std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }) + 1;
     if (error.place.line < 0 || error.place.line > lines || error.place.column < 0)
-        return fmt::format("the place {}:{} is not in a text of {} lines: {}", error.place.line, error.place.column, lines, error.message);
+        return fmt::format("the place {}:{} is not in a text of {} lines: {}", error.place.line, error.place.column,
+                           lines, error.message);
     return "";
 }
 
@@ -49,7 +53,8 @@ std::string run_problem(const Job& job, const Prepared& prepared, std::string_vi
     if (!out) return error_problem(out.error(), text);
     for (const Marked* m : {&out->on, out->off ? &*out->off : nullptr}) {
         if (m == nullptr) continue;
-        if (!std::isfinite(m->deviation.worst_mm) || !std::isfinite(m->deviation.rms_mm) || !(m->duty >= 0 && m->duty <= 1.0001) || !(m->energy_j >= 0))
+        if (!std::isfinite(m->deviation.worst_mm) || !std::isfinite(m->deviation.rms_mm) ||
+            !(m->duty >= 0 && m->duty <= 1.0001) || !(m->energy_j >= 0))
             return "the table has a number that is none";
     }
     if (outcome_text(job, *out).empty() || warnings_of(*out).size() > 10) return "no table";
@@ -63,7 +68,9 @@ std::string check_drawing(std::string_view bytes) {
     if (bytes.empty()) return "";
     const std::string_view text = bytes.substr(1);
     const char kind = bytes[0];
-    const Result<Drawing> read = kind == 'g' ? read_gcode(text, "f") : kind == 't' ? text_drawing(text, 5) : read_svg(text, "f");
+    const Result<Drawing> read = kind == 'g'   ? read_gcode(text, "f")
+                                 : kind == 't' ? text_drawing(text, 5)
+                                               : read_svg(text, "f");
     return read ? drawing_problem(*read) : error_problem(read.error(), text);
 }
 
@@ -76,7 +83,8 @@ std::string check_job(std::string_view text) {
     read.job->optics.correction = false;  // making a lens's table is the same work each time, and long
     const Load load = [](const std::string& path) -> Result<std::string> {
         if (path.find("ngc") != std::string::npos) return "G21 G90 G0 X1 Y1\nG1 X5 F100\nG3 X5 Y6 I0 J2.5\nM2\n";
-        if (path.find("svg") != std::string::npos) return "<svg width='10mm' viewBox='0 0 10 10'><path d='M0 0H10V10'/><circle cx='5' cy='5' r='3'/></svg>";
+        if (path.find("svg") != std::string::npos)
+            return "<svg width='10mm' viewBox='0 0 10 10'><path d='M0 0H10V10'/><circle cx='5' cy='5' r='3'/></svg>";
         return fail(Trouble::io, "no such file");
     };
     const Result<Prepared> prepared = prepare(*read.job, load);

@@ -12,7 +12,8 @@ namespace {
 using testing::HasSubstr;
 
 /// The reference job: a square of 10 mm from its corner on, at 500 mm/s on a belt at 100 mm/s.
-const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 100\n";
+const std::string belt_job =
+    "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 100\n";
 
 /// Whether a point was marked within `near_mm`, as the end of a piece.
 bool has_corner(const Marked& marked, Spot corner, double near_mm) {
@@ -29,7 +30,8 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
     EXPECT_EQ(out.on.deviation.missing_mm, 0);
     EXPECT_TRUE(out.on.overflows.empty());
     ASSERT_TRUE(out.off);
-    for (const Spot corner : {Spot{0, 0}, Spot{8, 0}, Spot{6, 10}, Spot{-6, 10}, Spot{-8, 0}}) EXPECT_TRUE(has_corner(*out.off, corner, 0.005)) << corner.x << ' ' << corner.y;
+    for (const Spot corner : {Spot{0, 0}, Spot{8, 0}, Spot{6, 10}, Spot{-6, 10}, Spot{-8, 0}})
+        EXPECT_TRUE(has_corner(*out.off, corner, 0.005)) << corner.x << ' ' << corner.y;
     EXPECT_NEAR(out.on.seconds, 0.08, 0.006);
     EXPECT_NEAR(out.on.duty, 0.08 / out.on.seconds, 0.01);
     EXPECT_NEAR(out.on.energy_j, 20 * 0.08, 0.01);
@@ -56,10 +58,14 @@ TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
     for (const char* mode : {"encoder", "simulated", "mcbsp"})
         for (const char* way : {"0", "90", "180", "270", "30"}) {
             Job job = job_of(belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
-            EXPECT_LE(run(job).on.deviation.worst_mm, std::string(mode) == "mcbsp" ? 0.0045 : 0.003) << mode << ' ' << way;
+            EXPECT_LE(run(job).on.deviation.worst_mm, std::string(mode) == "mcbsp" ? 0.0045 : 0.003)
+                << mode << ' ' << way;
         }
     for (const char* mode : {"encoder", "simulated", "mcbsp"}) {
-        const Outcome out = run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_x_mm = -30\ncounts_per_deg = 10000\n[sender]\nbits_per_unit = 10000\n[fly]\nmode = '") + mode + "'\n"));
+        const Outcome out =
+            run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_x_mm = -30\ncounts_per_deg "
+                                   "= 10000\n[sender]\nbits_per_unit = 10000\n[fly]\nmode = '") +
+                       mode + "'\n"));
         EXPECT_LE(out.on.deviation.worst_mm, 0.003) << mode;
         EXPECT_GT(out.off->deviation.worst_mm, 0.1);
     }
@@ -103,7 +109,8 @@ TEST(MarkJob, CirclesTextAndGcodeAreMarkedAsDrawn) {
     const Outcome text = run(job_of("[drawing]\ntext = 'SN 0042 g'\nheight_mm = 3\n"));
     EXPECT_LE(text.on.deviation.worst_mm, 0.001);
     EXPECT_EQ(text.on.deviation.missing_mm, 0);
-    const Outcome gcode = run(job_of("[drawing]\ngcode = 'p'\nanchor = 'origin'\n"), "G21 G90 G0 X5 Y0\nG1 X10 F100\nG3 X10 Y10 I0 J5\nG0 X0 Y0\nM2\n");
+    const Outcome gcode = run(job_of("[drawing]\ngcode = 'p'\nanchor = 'origin'\n"),
+                              "G21 G90 G0 X5 Y0\nG1 X10 F100\nG3 X10 Y10 I0 J5\nG0 X0 Y0\nM2\n");
     EXPECT_EQ(gcode.strokes, 1u);
     EXPECT_NEAR(gcode.drawing_mm, 5 + 5 * 3.14159265, 1e-6);
     EXPECT_LE(gcode.on.deviation.worst_mm, 0.001);
@@ -126,7 +133,8 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(strange.error().text(), HasSubstr("Character 2"));
     const Job fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n");
     EXPECT_THAT(run_job(fast, *prepare(fast, one_file(""))).error().text(), HasSubstr("bits/ms"));
-    EXPECT_THAT(prepare(job_of("[drawing]\nsvg = 's'\n"), one_file("<svg><circle r='1e7'/></svg>")).error().text(), HasSubstr("100000 mm"));
+    EXPECT_THAT(prepare(job_of("[drawing]\nsvg = 's'\n"), one_file("<svg><circle r='1e7'/></svg>")).error().text(),
+                HasSubstr("100000 mm"));
     EXPECT_FALSE(prepare(job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n"), one_file("no table")));
 }
 

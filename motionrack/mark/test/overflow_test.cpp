@@ -24,7 +24,9 @@ Engine card_with_a_list() {
     Engine card;
     EXPECT_TRUE(card.simulate_encoder(3));
     EXPECT_TRUE(card.set_start_list(1));
-    const auto put = [&](Op op, std::initializer_list<double> p = {}) { EXPECT_TRUE(card.put(*rtc5::list_command(op, p))); };
+    const auto put = [&](Op op, std::initializer_list<double> p = {}) {
+        EXPECT_TRUE(card.put(*rtc5::list_command(op, p)));
+    };
     put(Op::set_mark_speed, {20'000});
     put(Op::set_jump_speed, {60'000});
     put(Op::set_fly_x, {0.6});
@@ -68,13 +70,17 @@ TEST(OverflowLog, HasTheTicksInWhichTheFlagsAreSetAnew) {
         const double beyond[4] = {-524288 - at.x, at.x - 524287, -524288 - at.y, at.y - 524287};
         for (std::size_t bit = 0; bit < 4; ++bit) {
             const bool set = (word >> bit & 1) != 0;
-            if (set && open[bit] < 0) open[bit] = static_cast<int>(seen.size()), seen.push_back({static_cast<int>(bit), tick, 0, 0});
+            if (set && open[bit] < 0)
+                open[bit] = static_cast<int>(seen.size()), seen.push_back({static_cast<int>(bit), tick, 0, 0});
             if (!set && open[bit] >= 0) seen[static_cast<std::size_t>(open[bit])].to = tick, open[bit] = -1;
-            if (set) seen[static_cast<std::size_t>(open[bit])].beyond = std::max(seen[static_cast<std::size_t>(open[bit])].beyond, beyond[bit]);
+            if (set)
+                seen[static_cast<std::size_t>(open[bit])].beyond =
+                    std::max(seen[static_cast<std::size_t>(open[bit])].beyond, beyond[bit]);
         }
     }
     ASSERT_GT(seen.size(), 40u);
-    std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.to != b.to ? a.to < b.to : a.bit < b.bit; });
+    std::sort(seen.begin(), seen.end(),
+              [](const Seen& a, const Seen& b) { return a.to != b.to ? a.to < b.to : a.bit < b.bit; });
     ASSERT_EQ(log.all().size(), seen.size());
     static constexpr const char* names[4] = {"FLY_X_UNDERFLOW", "FLY_X_OVERFLOW", "FLY_Y_UNDERFLOW", "FLY_Y_OVERFLOW"};
     bool some_marking = false, some_dark = false;

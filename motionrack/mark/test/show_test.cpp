@@ -15,7 +15,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* square_svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
+constexpr const char* square_svg =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
 const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 100\n";
 
 struct Shown {
@@ -56,23 +57,27 @@ void expect_drawable(const std::string& svg) {
 
 TEST(MarkPicture, ShowsTheDrawingBothPartsTheFieldAndTheWorstPlace) {
     const Shown s = shown(belt_job + "[fly]\nmode = 'encoder'\n");
-    EXPECT_THAT(titles(s), ElementsAre("As drawn", "With correction", "Without correction", "In the field", "Worst place with correction"));
+    EXPECT_THAT(titles(s), ElementsAre("As drawn", "With correction", "Without correction", "In the field",
+                                       "Worst place with correction"));
     const std::string sheet = picture_svg(s.prepared, s.out);
     expect_drawable(sheet);
-    for (const char* seen : {"class=\"planned\"", "class=\"driven\"", "class=\"without\"", "class=\"ring\"", "class=\"box\"", ">5 mm<", "worst 8.001 mm at -8.001", "46.57 mm left at the right edge"})
+    for (const char* seen : {"class=\"planned\"", "class=\"driven\"", "class=\"without\"", "class=\"ring\"",
+                             "class=\"box\"", ">5 mm<", "worst 8.001 mm at -8.001", "46.57 mm left at the right edge"})
         EXPECT_THAT(sheet, HasSubstr(seen));
     EXPECT_THAT(pictures_of(s.prepared, s.out)[0].svg, HasSubstr("<path class=\"drawn\" d=\"M"));
 }
 
 TEST(MarkPicture, WithoutCorrectionItHasOnlyThatPart) {
     const Shown s = shown("[drawing]\nsvg = 's'\n");
-    EXPECT_THAT(titles(s), ElementsAre("As drawn", "Without correction", "In the field")) << "all marks are on the drawing";
+    EXPECT_THAT(titles(s), ElementsAre("As drawn", "Without correction", "In the field"))
+        << "all marks are on the drawing";
     expect_drawable(picture_svg(s.prepared, s.out));
 }
 
 TEST(MarkPicture, OfAVeryWideAVeryHighAndAFlatDrawingIsDrawable) {
     for (const char* path : {"M0 0H60V1", "M0 0V60H1", "M0 0H10", "M0 0V10", "M0 0h0.0001"}) {
-        const Shown s = shown(belt_job + "[fly]\nmode = 'encoder'\n", std::string("<svg><path d='") + path + "'/></svg>");
+        const Shown s =
+            shown(belt_job + "[fly]\nmode = 'encoder'\n", std::string("<svg><path d='") + path + "'/></svg>");
         expect_drawable(picture_svg(s.prepared, s.out));
         for (const trace::ReportPicture& p : pictures_of(s.prepared, s.out)) expect_drawable(p.svg);
     }
@@ -105,12 +110,14 @@ TEST(Plot, ThinsWhatNobodySeesAndCutsWhatIsOutside) {
 
 TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndSaysHowMuchIsLeft) {
     EXPECT_TRUE(warnings_of(shown(belt_job + "[fly]\nmode = 'encoder'\n").out).empty());
-    const Shown near = shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 720\n[fly]\nmode = 'encoder'\n");
+    const Shown near =
+        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 720\n[fly]\nmode = 'encoder'\n");
     EXPECT_TRUE(near.out.on.overflows.empty());
     ASSERT_EQ(warnings_of(near.out).size(), 1u);
     EXPECT_THAT(warnings_of(near.out)[0], HasSubstr("mm are left at the right edge of the field"));
     EXPECT_THAT(outcome_text(near.job, near.out), HasSubstr("mm are left in the field, at its right edge"));
-    const Shown over = shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
+    const Shown over =
+        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     ASSERT_FALSE(over.out.on.overflows.empty());
     EXPECT_LT(room_of(over.out, over.out.on).mm, 0);
     EXPECT_TRUE(warnings_of(over.out).empty()) << "it is no warning any more";
@@ -119,7 +126,8 @@ TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndSaysHowMuchIsLeft) {
 TEST(MarkReport, HasPicturesTablesChartsAndTheJobInOneFile) {
     const Shown s = shown(belt_job + "# <b>written so</b>\n[fly]\nmode = 'encoder'\n");
     const std::string page = trace::report_html(report_of(s.job, s.prepared, s.out, s.text));
-    for (const char* seen : {"Job <b>job.toml</b>", "Marked within", "With correction", "<h2>Deviations</h2>", "X of the spot in the field, mm", "Laser on, %", "# &lt;b&gt;written so&lt;/b&gt;\n[fly]",
+    for (const char* seen : {"Job <b>job.toml</b>", "Marked within", "With correction", "<h2>Deviations</h2>",
+                             "X of the spot in the field, mm", "Laser on, %", "# &lt;b&gt;written so&lt;/b&gt;\n[fly]",
                              "It just fits at", "field -60.569", "class=\"ring\""})
         EXPECT_THAT(page, HasSubstr(seen));
     EXPECT_THAT(page, Not(HasSubstr("<h2>Overflows</h2>")));
@@ -127,7 +135,8 @@ TEST(MarkReport, HasPicturesTablesChartsAndTheJobInOneFile) {
 }
 
 TEST(MarkReport, TellsEveryOverflow) {
-    const Shown s = shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
+    const Shown s =
+        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     const trace::ReportData data = report_of(s.job, s.prepared, s.out, s.text);
     EXPECT_FALSE(data.verdict.ok);
     EXPECT_THAT(data.verdict.text, HasSubstr("FLY_X_OVERFLOW"));

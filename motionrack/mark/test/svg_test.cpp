@@ -22,7 +22,9 @@ std::string refusal(const std::string& text) {
     return out ? "not refused" : out.error().text();
 }
 /// Without a size user units are mm and Y is mirrored about 0.
-Drawing path(const std::string& d) { return read("<svg><path d=\"" + d + "\"/></svg>"); }
+Drawing path(const std::string& d) {
+    return read("<svg><path d=\"" + d + "\"/></svg>");
+}
 
 TEST(SvgReader, LinesAbsoluteAndRelativeEndWhereTheyShould) {
     const Drawing d = path("m1 2 3 4L10-5h-2v1.5e1zl.5.5-1,-1M0 0");
@@ -43,11 +45,14 @@ TEST(SvgReader, CurvesAreWithinTheToleranceOfTheirFormula) {
     const parts::Nearest nearest(segments);
     for (int i = 0; i <= 1000; ++i) {
         const double t = i / 1000.0, s = 1 - t;
-        worst = std::max(worst, nearest.distance({60 * s * t * t + 20 * t * t * t, -(30 * s * s * t - 30 * s * t * t)}));
+        worst =
+            std::max(worst, nearest.distance({60 * s * t * t + 20 * t * t * t, -(30 * s * s * t - 30 * s * t * t)}));
     }
     EXPECT_LE(worst, default_tolerance_mm);
     EXPECT_GT(worst, default_tolerance_mm / 50) << "not finer than it needs to be";
-    const Drawing q = path("M0 0Q5 10 10 0T20 0"), c = path("M0 0C3.3333333333 6.6666666667 6.6666666667 6.6666666667 10 0S16.6666666667 -6.6666666667 20 0");
+    const Drawing q = path("M0 0Q5 10 10 0T20 0"),
+                  c = path(
+                      "M0 0C3.3333333333 6.6666666667 6.6666666667 6.6666666667 10 0S16.6666666667 -6.6666666667 20 0");
     EXPECT_NEAR(length_of(q), length_of(c), 1e-6);
 }
 
@@ -60,17 +65,24 @@ TEST(SvgReader, ArcsOfCirclesStayArcsAndThoseOfEllipsesAreOnThem) {
     EXPECT_NEAR(length_of(path("M0 0A5 5 0 1 1 5 5")), 2 * 3.141592653589793 * 5 * 0.75, 1e-6);
     EXPECT_NEAR(length_of(path("M0 0a5 5 0 005 5")), 2 * 3.141592653589793 * 5 * 0.25, 1e-6) << "flags without blanks";
     EXPECT_NEAR(length_of(path("M0 0A1 1 0 0 0 10 0")), 3.141592653589793 * 5, 1e-6) << "radii that are too small grow";
-    for (const parts::Segment& s : segments_of(path("M10 0A10 4 0 0 1 0 4"))) EXPECT_NEAR(s.to.x * s.to.x / 100 + s.to.y * s.to.y / 16, 1, 1e-9);
+    for (const parts::Segment& s : segments_of(path("M10 0A10 4 0 0 1 0 4")))
+        EXPECT_NEAR(s.to.x * s.to.x / 100 + s.to.y * s.to.y / 16, 1, 1e-9);
 }
 
 TEST(SvgReader, SizesAndTransformsGiveMillimetres) {
-    const Drawing d = read("<svg width='2in' height='1in' viewBox='0 0 200 100'><g transform='translate(10 20) rotate(90)'><line x1='0' y1='0' x2='10' y2='0'/></g></svg>");
+    const Drawing d = read(
+        "<svg width='2in' height='1in' viewBox='0 0 200 100'><g transform='translate(10 20) rotate(90)'><line x1='0' "
+        "y1='0' x2='10' y2='0'/></g></svg>");
     EXPECT_NEAR(d.strokes[0].from.x, 10 * 0.254, 1e-9);
     EXPECT_NEAR(d.strokes[0].from.y, 80 * 0.254, 1e-9);
     EXPECT_NEAR(d.strokes[0].elements[0].to.x, 10 * 0.254, 1e-9);
     EXPECT_NEAR(d.strokes[0].elements[0].to.y, 70 * 0.254, 1e-9);
-    EXPECT_NEAR(length_of(read("<svg><rect width='10' height='6' rx='1'/><polygon points='0,0 3,0 3,4'/><ellipse rx='2' ry='2'/></svg>")), 24 + 2 * 3.14159265359 + 12 + 4 * 3.14159265359, 1e-6);
-    EXPECT_TRUE(read("<svg><defs><path d='M0 0L1 1'/></defs><title>x</title><g display='none'><text/></g></svg>").strokes.empty());
+    EXPECT_NEAR(
+        length_of(read(
+            "<svg><rect width='10' height='6' rx='1'/><polygon points='0,0 3,0 3,4'/><ellipse rx='2' ry='2'/></svg>")),
+        24 + 2 * 3.14159265359 + 12 + 4 * 3.14159265359, 1e-6);
+    EXPECT_TRUE(read("<svg><defs><path d='M0 0L1 1'/></defs><title>x</title><g display='none'><text/></g></svg>")
+                    .strokes.empty());
 }
 
 TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsPlace) {
@@ -85,36 +97,57 @@ TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsPlace) {
     EXPECT_THAT(refusal("<svg><path stroke-dasharray='1 2' d=''/></svg>"), HasSubstr("stroke-dasharray"));
     EXPECT_THAT(refusal("<svg viewBox='0 0 0 5'/>"), HasSubstr("viewBox"));
     EXPECT_THAT(refusal("<svg>\n<g>"), HasSubstr("not XML"));
-    EXPECT_THAT(refusal("<svg><g transform='scale(1e9)'><g transform='scale(1e9)'><circle r='1'/></g></g></svg>"), HasSubstr("too large"));
+    EXPECT_THAT(refusal("<svg><g transform='scale(1e9)'><g transform='scale(1e9)'><circle r='1'/></g></g></svg>"),
+                HasSubstr("too large"));
     EXPECT_THAT(refusal("<html/>"), HasSubstr("not svg"));
     EXPECT_THAT(refusal(""), HasSubstr("not XML"));
 }
 
 TEST(SvgReader, WhatAStyleSaysCountsAsMuchAsAnAttribute) {
-    EXPECT_THAT(refusal("<svg><path\nstyle='fill:none; stroke-dasharray: 1,2 !important' d='M0 0L1 1'/></svg>"), HasSubstr("d.svg:2:8: stroke-dasharray in a style of path"));
-    EXPECT_THAT(refusal("<svg><g style='clip-path:url(#c)'><path d='M0 0L1 1'/></g></svg>"), HasSubstr("clip-path in a style of g"));
-    EXPECT_THAT(refusal("<svg><path style='transform: scale(2)' d='M0 0L1 1'/></svg>"), HasSubstr("transform in a style"));
+    EXPECT_THAT(refusal("<svg><path\nstyle='fill:none; stroke-dasharray: 1,2 !important' d='M0 0L1 1'/></svg>"),
+                HasSubstr("d.svg:2:8: stroke-dasharray in a style of path"));
+    EXPECT_THAT(refusal("<svg><g style='clip-path:url(#c)'><path d='M0 0L1 1'/></g></svg>"),
+                HasSubstr("clip-path in a style of g"));
+    EXPECT_THAT(refusal("<svg><path style='transform: scale(2)' d='M0 0L1 1'/></svg>"),
+                HasSubstr("transform in a style"));
     EXPECT_THAT(refusal("<svg mask='url(#m)'/>"), HasSubstr("mask of svg"));
     EXPECT_THAT(refusal("<svg><path filter='url(#f)' d='M0 0L1 1'/></svg>"), HasSubstr("filter of path"));
     EXPECT_THAT(refusal("<svg><path marker-end='url(#arrow)' d='M0 0L1 1'/></svg>"), HasSubstr("marker-end of path"));
-    EXPECT_THAT(refusal("<svg><defs>\n<style>.a { fill: red } .b { stroke-dasharray: 2 }</style></defs></svg>"), HasSubstr("d.svg:2:2: the style sheet sets stroke-dasharray"));
+    EXPECT_THAT(refusal("<svg><defs>\n<style>.a { fill: red } .b { stroke-dasharray: 2 }</style></defs></svg>"),
+                HasSubstr("d.svg:2:2: the style sheet sets stroke-dasharray"));
     EXPECT_THAT(refusal("<svg><style>.hidden { display: none }</style></svg>"), HasSubstr("sets display"));
-    EXPECT_EQ(read("<svg><style>path { fill: none; stroke: #000; display: inline }</style><path style='stroke-dasharray:none;filter:none' mask='none' d='M0 0L3 4'/></svg>").strokes.size(), 1u);
+    EXPECT_EQ(read("<svg><style>path { fill: none; stroke: #000; display: inline }</style><path "
+                   "style='stroke-dasharray:none;filter:none' mask='none' d='M0 0L3 4'/></svg>")
+                  .strokes.size(),
+              1u);
 }
 
 TEST(SvgReader, DrawsWhatIsVisible) {
-    EXPECT_TRUE(read("<svg><g style='display : none'><text/></g><path visibility='hidden' d='M0 0L1 1'/></svg>").strokes.empty());
-    EXPECT_EQ(read("<svg style='visibility:hidden'><path d='M0 0L1 1'/><g><path visibility='visible' d='M0 0L1 1'/></g></svg>").strokes.size(), 1u);
+    EXPECT_TRUE(read("<svg><g style='display : none'><text/></g><path visibility='hidden' d='M0 0L1 1'/></svg>")
+                    .strokes.empty());
+    EXPECT_EQ(
+        read(
+            "<svg style='visibility:hidden'><path d='M0 0L1 1'/><g><path visibility='visible' d='M0 0L1 1'/></g></svg>")
+            .strokes.size(),
+        1u);
     EXPECT_TRUE(read("<svg display='none'><path d='M0 0L1 1'/></svg>").strokes.empty());
 }
 
 TEST(SvgReader, ReadsSvgUnderAnyPrefixAndPassesOtherLanguagesOver) {
-    EXPECT_EQ(read("<s:svg xmlns:s='http://www.w3.org/2000/svg' xmlns:i='http://inkscape'><i:view/><s:path d='M0 0L1 1'/></s:svg>").strokes.size(), 1u);
-    EXPECT_EQ(read("<svg xmlns='&ns_svg;'><path d='M0 0L1 1'/><x:path d='M0 0L1 1'/><p xmlns='http://www.w3.org/1999/xhtml'/></svg>").strokes.size(), 1u);
+    EXPECT_EQ(read("<s:svg xmlns:s='http://www.w3.org/2000/svg' xmlns:i='http://inkscape'><i:view/><s:path d='M0 0L1 "
+                   "1'/></s:svg>")
+                  .strokes.size(),
+              1u);
+    EXPECT_EQ(read("<svg xmlns='&ns_svg;'><path d='M0 0L1 1'/><x:path d='M0 0L1 1'/><p "
+                   "xmlns='http://www.w3.org/1999/xhtml'/></svg>")
+                  .strokes.size(),
+              1u);
 }
 
 TEST(SvgReader, DamagedFilesAreReadOrRefusedAndNothingElse) {
-    const std::string good = "<svg width='10mm' viewBox='0 0 10 10'><g transform='matrix(1 0 0 1 2 3)'><path d='M0 0C1 2 3 4 5 6S1 1 2 2Q3 3 4 4T1 1A5 4 10 1 0 9 9z'/><circle r='3'/></g></svg>";
+    const std::string good =
+        "<svg width='10mm' viewBox='0 0 10 10'><g transform='matrix(1 0 0 1 2 3)'><path d='M0 0C1 2 3 4 5 6S1 1 2 2Q3 "
+        "3 4 4T1 1A5 4 10 1 0 9 9z'/><circle r='3'/></g></svg>";
     const unsigned seed = 20260;
     std::mt19937 random(seed);
     int refused = 0;
@@ -129,7 +162,8 @@ TEST(SvgReader, DamagedFilesAreReadOrRefusedAndNothingElse) {
             continue;
         }
         for (const Stroke& stroke : out->strokes)
-            for (const Element& e : stroke.elements) EXPECT_TRUE(std::isfinite(e.to.x) && std::isfinite(e.to.y)) << "seed " << seed << ": " << text;
+            for (const Element& e : stroke.elements)
+                EXPECT_TRUE(std::isfinite(e.to.x) && std::isfinite(e.to.y)) << "seed " << seed << ": " << text;
     }
     EXPECT_GT(refused, 1000);
 }

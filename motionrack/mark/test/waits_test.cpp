@@ -13,9 +13,12 @@ namespace {
 using testing::HasSubstr;
 
 /// A frame 300 mm long and 20 mm wide with a circle in it; the field has 121 mm.
-constexpr const char* long_svg = R"(<svg><rect x='-380' y='-10' width='300' height='20'/><circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
+constexpr const char* long_svg =
+    R"(<svg><rect x='-380' y='-10' width='300' height='20'/><circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
 std::string long_job(const std::string& belt, const std::string& fly) {
-    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 3000\njump_mm_s = 6000\n[belt]\ncounts_per_mm = 1000\n" + belt + "\n[fly]\nwaits = 'auto'\n" + fly + "\n";
+    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 3000\njump_mm_s = 6000\n[belt]\ncounts_per_mm "
+           "= 1000\n" +
+           belt + "\n[fly]\nwaits = 'auto'\n" + fly + "\n";
 }
 
 TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
@@ -62,7 +65,9 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
             EXPECT_LT(out.off->deviation.worst_mm, 20);
         }
     // Without waits nearly all of it is outside the field.
-    const Outcome none = run(job_of("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"), long_svg);
+    const Outcome none =
+        run(job_of("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"),
+            long_svg);
     EXPECT_FALSE(none.on.overflows.empty());
     EXPECT_GT(none.on.deviation.missing_mm, 300);
 }
@@ -93,29 +98,39 @@ TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
 
 TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
     const std::string belt = "speed_mm_s = 100", fly = "mode = 'encoder'";
-    EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M0 70 H10'/></svg>"), HasSubstr("never is in the field"));
-    EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M65 0 H70'/></svg>"), HasSubstr("has left the field 10.431 mm before"));
-    EXPECT_THAT(refusal(job_of(long_job(belt, fly + "\nmargin_mm = 61")), long_svg), HasSubstr("leaves nothing of a field of 121."));
+    EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M0 70 H10'/></svg>"),
+                HasSubstr("never is in the field"));
+    EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M65 0 H70'/></svg>"),
+                HasSubstr("has left the field 10.431 mm before"));
+    EXPECT_THAT(refusal(job_of(long_job(belt, fly + "\nmargin_mm = 61")), long_svg),
+                HasSubstr("leaves nothing of a field of 121."));
     EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("Waits need a correction"));
     EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never backwards"));
-    EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")), HasSubstr("two values of 16 bits"));
-    EXPECT_THAT(errors_of("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 10\n[fly]\nmode = 'encoder'\nwaits = 'auto'\n"), HasSubstr("j.toml:7:9: Waits are for drawings along a belt"));
+    EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")),
+                HasSubstr("two values of 16 bits"));
+    EXPECT_THAT(errors_of("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 10\n[fly]\nmode = 'encoder'\nwaits = 'auto'\n"),
+                HasSubstr("j.toml:7:9: Waits are for drawings along a belt"));
 }
 
 TEST(Waits, GoTogetherWithPartsAndProfiles) {
-    const Outcome parts = run(job_of(long_job("speed_mm_s = 150", "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")), long_svg);
+    const Outcome parts =
+        run(job_of(long_job("speed_mm_s = 150",
+                            "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")),
+            long_svg);
     for (const PartMarked& part : parts.on.parts) {
         EXPECT_EQ(part.fate, PartFate::marked);
         EXPECT_LE(part.deviation.worst_mm, 0.006);
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }
-    const Outcome profile = run(job_of(long_job("profile = [[0, 50], [1, 300], [2, 0], [3, 0], [4, 200]]", "mode = 'encoder'")), long_svg);
+    const Outcome profile =
+        run(job_of(long_job("profile = [[0, 50], [1, 300], [2, 0], [3, 0], [4, 200]]", "mode = 'encoder'")), long_svg);
     EXPECT_LE(profile.on.deviation.worst_mm, 0.008);
     EXPECT_EQ(profile.on.deviation.missing_mm, 0);
 }
 
 TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsSpeed) {
-    const std::string job = "[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nprofile = [[0, 100], [0.04, 100], [0.08, 60]]\n[fly]\n";
+    const std::string job =
+        "[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nprofile = [[0, 100], [0.04, 100], [0.08, 60]]\n[fly]\n";
     const Outcome encoder = run(job_of(job + "mode = 'encoder'\n"));
     EXPECT_LE(encoder.on.deviation.worst_mm, 0.003);
     const Outcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_speed_mm_s = 100\n"));
@@ -127,7 +142,8 @@ TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsSpeed) {
 
 TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantSpeed) {
     const auto job = [](const std::string& belt, const std::string& offset) {
-        return "[drawing]\nsvg = 's'\nanchor = 'origin'\n" + belt + "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
+        return "[drawing]\nsvg = 's'\nanchor = 'origin'\n" + belt +
+               "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
     };
     const std::string belt = "[belt]\nspeed_mm_s = 200", table = "[table]\nspeed_deg_s = 60\ncentre_y_mm = -50";
     EXPECT_NEAR(run(job_of(job(belt, ""))).on.deviation.worst_mm, 0.3, 0.005) << "1.5 ms at 200 mm/s";

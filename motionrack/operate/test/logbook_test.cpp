@@ -17,13 +17,18 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 rack::RackConfig table() {
-    return *rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n").config;
+    return *rack::read_rack_text(
+                "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
+                "\"m\"\nchannel = \"y\"\n")
+                .config;
 }
 
 /// A machine whose pictures go into a journal.
 class ALogbook : public testing::Test {
   protected:
-    ALogbook() : path_((fs::path(testing::TempDir()) / ("logbook_" + std::to_string(::getpid()) + ".db")).string()) { remove(); }
+    ALogbook() : path_((fs::path(testing::TempDir()) / ("logbook_" + std::to_string(::getpid()) + ".db")).string()) {
+        remove();
+    }
     ~ALogbook() override {
         journal_.reset();
         remove();
@@ -36,7 +41,8 @@ class ALogbook : public testing::Test {
         book_.emplace(*journal_);
     }
     /// Runs a machine; `order` is called once, when `when` is true of a picture.
-    void run(MachineSettings settings, std::function<bool(const Status&)> when, std::function<void(Machine&)> order, std::function<void(Machine&)> begin) {
+    void run(MachineSettings settings, std::function<bool(const Status&)> when, std::function<void(Machine&)> order,
+             std::function<void(Machine&)> begin) {
         Machine* machine = nullptr;
         bool done = false;
         settings.on_status = [&](const Status& status) {
@@ -78,7 +84,12 @@ class ALogbook : public testing::Test {
 
 TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
     open();
-    run({}, [](const Status& s) { return s.program == "part.ngc" && !s.program_runs && s.state == MachineState::standstill; }, [](Machine& m) { m.quit(); },
+    run(
+        {},
+        [](const Status& s) {
+            return s.program == "part.ngc" && !s.program_runs && s.state == MachineState::standstill;
+        },
+        [](Machine& m) { m.quit(); },
         [](Machine& m) { ASSERT_TRUE(m.begin_program("G0 X12\nG1 Y3 F600\nM30\n", "part.ngc")); });
     end(true);
     open();
@@ -96,13 +107,17 @@ TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
 
 TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
     open();
-    run({}, [](const Status& s) { return s.axes[0].commanded == 12 && s.state == MachineState::standstill; }, [](Machine& m) { m.quit(); },
-        [](Machine& m) { ASSERT_TRUE(m.line("G0 X12", 1)); });
+    run(
+        {}, [](const Status& s) { return s.axes[0].commanded == 12 && s.state == MachineState::standstill; },
+        [](Machine& m) { m.quit(); }, [](Machine& m) { ASSERT_TRUE(m.line("G0 X12", 1)); });
     end(true);
     open();
     MachineSettings settings;
     settings.standing = read_last(*journal_->before(), table()).axes;
-    run(std::move(settings), [](const Status& s) { return s.axes[0].commanded == 15 && s.state == MachineState::standstill; }, [](Machine& m) { m.quit(); },
+    run(
+        std::move(settings),
+        [](const Status& s) { return s.axes[0].commanded == 15 && s.state == MachineState::standstill; },
+        [](Machine& m) { m.quit(); },
         [](Machine& m) {
             EXPECT_EQ(m.status().axes[0].commanded, 12);
             EXPECT_TRUE(m.status().axes[0].trusted);
@@ -114,7 +129,8 @@ TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
 TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     open();
     // Nothing that the program says as it ends comes into the journal: as if it had been killed in the move.
-    run({}, [](const Status& s) { return s.axes[0].commanded > 50; },
+    run(
+        {}, [](const Status& s) { return s.axes[0].commanded > 50; },
         [this](Machine& m) {
             journal_.reset();
             open();
@@ -143,7 +159,8 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
 
 TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
     open();
-    run({}, [](const Status& s) { return s.axes[0].commanded > 50; },
+    run(
+        {}, [](const Status& s) { return s.axes[0].commanded > 50; },
         [this](Machine& m) {
             m.set_overrides(0.5, 1);
             m.set_single_step(true);
@@ -160,7 +177,10 @@ TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
 }
 
 TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
-    for (const char* kept : {"", "[]", "7", "{\"axes\": 3}", "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"place\": 1, \"commanded\": 1}, {\"letter\": \"Q\", \"place\": 1, \"commanded\": 1}]}", "{\"line\": \"x\", \"state\": 4"}) {
+    for (const char* kept : {"", "[]", "7", "{\"axes\": 3}",
+                             "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"place\": 1, "
+                             "\"commanded\": 1}, {\"letter\": \"Q\", \"place\": 1, \"commanded\": 1}]}",
+                             "{\"line\": \"x\", \"state\": 4"}) {
         const LastStanding last = read_last({1, false, 0, {{"machine", kept}}}, table());
         EXPECT_TRUE(last.axes.empty()) << kept;
         EXPECT_THAT(last.sentence, HasSubstr("cut off")) << kept;

@@ -14,7 +14,9 @@ using testing::HasSubstr;
 
 TEST(AMachine, DrivesAProgramToItsEnd) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("%\nG21 G90 F1200\nG1 X30\nG2 X40 Y10 I10\nM2\nG1 X0\n", "p.ngc")); });
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.begin_program("%\nG21 G90 F1200\nG1 X30\nG2 X40 Y10 I10\nM2\nG1 X0\n", "p.ngc"));
+    });
     o.run(10);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "standstill"));
     EXPECT_NEAR(o.x(), 40, 0.5 / 640);
@@ -33,7 +35,8 @@ TEST(AMachine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
     });
     std::vector<std::int32_t> lines;
     o.machine->listen([&](const Status& status) {
-        if (status.program == "second.ngc" && (lines.empty() || lines.back() != status.line)) lines.push_back(status.line);
+        if (status.program == "second.ngc" && (lines.empty() || lines.back() != status.line))
+            lines.push_back(status.line);
     });
     o.run(6);
     EXPECT_THAT(lines, testing::AnyOf(ElementsAre(0, 2), ElementsAre(2)));
@@ -49,7 +52,10 @@ TEST(AMachine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
 TEST(AMachine, DrivesAProgramWithLoopsAndSubprogramsAndTakesPlainLinesAfterIt) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        EXPECT_TRUE(m.begin_program("o1 sub\nG1 X#1\no1 endsub\nG21 G90 F1200\n#1 = 10\no2 repeat [3]\n#1 = [#1 + 5]\no1 call [#1]\no2 endrepeat\nG10 L2 P1 R90\nM2\n", "p"));
+        EXPECT_TRUE(
+            m.begin_program("o1 sub\nG1 X#1\no1 endsub\nG21 G90 F1200\n#1 = 10\no2 repeat [3]\n#1 = [#1 + 5]\no1 call "
+                            "[#1]\no2 endrepeat\nG10 L2 P1 R90\nM2\n",
+                            "p"));
     });
     o.at(6, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
@@ -105,7 +111,8 @@ TEST(AMachine, StoppedStandsAndTheNextLineBeginsThere) {
         EXPECT_TRUE(m.line("G91 G1 X-2 F600", 1));
     });
     o.run(4);
-    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "stopping", "standstill", "moving", "standstill"));
+    EXPECT_THAT(o.states,
+                ElementsAre("disabled", "standstill", "moving", "stopping", "standstill", "moving", "standstill"));
     EXPECT_NEAR(o.x(), stopped_x - 2, 0.6 / 640);
     EXPECT_DOUBLE_EQ(o.y(), 0);
 }
@@ -240,7 +247,8 @@ TEST(AMachine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "standstill"));
     EXPECT_NEAR(o.x(), 50, 0.5 / 640);
     EXPECT_NEAR(o.y(), 20, 0.5 / 640);
-    EXPECT_TRUE(o.machine->stream().interpreter().modes().inch && o.machine->stream().interpreter().modes().incremental);
+    EXPECT_TRUE(o.machine->stream().interpreter().modes().inch &&
+                o.machine->stream().interpreter().modes().incremental);
     EXPECT_EQ(o.machine->stream().moves(), 0u);
 }
 
@@ -254,14 +262,16 @@ TEST(AMachine, StopsAJogAlongALineAndGoesOnFromThere) {
         EXPECT_TRUE(m.line("G91 G1 Y-1 F600", 1));
     });
     o.run(4);
-    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "stopping", "standstill", "moving", "standstill"));
+    EXPECT_THAT(o.states,
+                ElementsAre("disabled", "standstill", "jogging", "stopping", "standstill", "moving", "standstill"));
     EXPECT_NEAR((o.x() - 10) / 190, (o.y() + 1) / 100, 1e-3);
 }
 
 TEST(AMachine, JogsNeitherPastItsTravelNorWithoutASpeed) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message, HasSubstr("axis X goes from 0 to 300, not to 301"));
+        EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message,
+                    HasSubstr("axis X goes from 0 to 300, not to 301"));
         EXPECT_THAT(m.jog_to({11, 0, 1, 0, 0, 0}, 20).error().message, HasSubstr("no axis Z"));
         EXPECT_THAT(m.jog_to({11, 0, 0, 0, 0, 0}, 0).error().message, HasSubstr("a speed of 0"));
     });

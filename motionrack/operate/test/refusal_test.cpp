@@ -83,7 +83,8 @@ TEST(AMachine, MovesNoAxisThatIsDisabled) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_TRUE(m.status().axes[0].enabled);
         EXPECT_FALSE(m.status().axes[1].enabled);
-        EXPECT_EQ(m.jog_by('Y', 5, 10).error().message, "Not jogged: axis Y is disabled; enable it first. Nothing was moved.");
+        EXPECT_EQ(m.jog_by('Y', 5, 10).error().message,
+                  "Not jogged: axis Y is disabled; enable it first. Nothing was moved.");
         EXPECT_THAT(m.begin_program("G21 G90 F600\nG1 X20\n", "p").error().message, HasSubstr("axis Y is disabled"));
         EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("axis Y is disabled"));
         EXPECT_THAT(m.enable(true, "XQ").error().message, HasSubstr("no axis Q"));

@@ -1,4 +1,5 @@
-// A machine with its panel, asked at given instants of virtual time; everything in one thread but the panel's own worker.
+// A machine with its panel, asked at given instants of virtual time; everything in one thread but the panel's own
+// worker.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,18 +32,23 @@ inline rack::RackConfig config_of(const std::string& text) {
     EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
     return *reading.config;
 }
-inline rack::RackConfig demonstration() { return config_of(text_of_file("examples/15_panel/demonstration.toml")); }
+inline rack::RackConfig demonstration() {
+    return config_of(text_of_file("examples/15_panel/demonstration.toml"));
+}
 /// Two axes without switches that stand where the file says.
 inline rack::RackConfig two_axes() {
-    return config_of("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
+    return config_of(
+        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
+        "\"m\"\nchannel = \"y\"\n");
 }
 
-inline const Caller anna{"anna", authority::Role::maintain, "w1"}, bert{"bert", authority::Role::operate, "w2"}, eve{"eve", authority::Role::observe, "w3"},
-    nobody{"", authority::Role::nobody, "w4"};
+inline const Caller anna{"anna", authority::Role::maintain, "w1"}, bert{"bert", authority::Role::operate, "w2"},
+    eve{"eve", authority::Role::observe, "w3"}, nobody{"", authority::Role::nobody, "w4"};
 
 class Asked {
   public:
-    explicit Asked(const rack::RackConfig& config, PanelSettings settings = {}, operate::MachineSettings machine_settings = {}) {
+    explicit Asked(const rack::RackConfig& config, PanelSettings settings = {},
+                   operate::MachineSettings machine_settings = {}) {
         machine_settings.pace = [this](Instant now) { return pace(to_seconds(now)); };
         auto made = operate::Machine::make(config, std::move(machine_settings));
         EXPECT_TRUE(made) << made.error().message;
@@ -51,18 +57,24 @@ class Asked {
         panel = std::make_unique<Panel>(*machine, lease, std::move(settings));
     }
     /// Asks when `seconds` have come; the world waits for answers that come from the worker.
-    void at(double seconds, const Caller& caller, const std::string& name, json fields = json::object(), std::function<void(const Answer&)> look = {}) {
-        at(seconds, [this, caller, name, fields = std::move(fields), look = std::move(look)] { ask(caller, name, fields, look); });
+    void at(double seconds, const Caller& caller, const std::string& name, json fields = json::object(),
+            std::function<void(const Answer&)> look = {}) {
+        at(seconds, [this, caller, name, fields = std::move(fields), look = std::move(look)] {
+            ask(caller, name, fields, look);
+        });
     }
     void at(double seconds, std::function<void()> work) {
-        const auto later = std::find_if(orders_.begin(), orders_.end(), [&](const Timed& one) { return one.seconds > seconds; });
+        const auto later =
+            std::find_if(orders_.begin(), orders_.end(), [&](const Timed& one) { return one.seconds > seconds; });
         orders_.insert(later, {seconds, std::move(work)});
     }
     /// An order that must be taken; anna holds control.
     void good(double seconds, const std::string& name, json fields = json::object()) {
-        at(seconds, anna, name, std::move(fields), [name](const Answer& answer) { EXPECT_EQ(answer.status, 200) << name << ": " << answer.body.dump(); });
+        at(seconds, anna, name, std::move(fields),
+           [name](const Answer& answer) { EXPECT_EQ(answer.status, 200) << name << ": " << answer.body.dump(); });
     }
-    void ask(const Caller& caller, const std::string& name, const json& fields, std::function<void(const Answer&)> look) {
+    void ask(const Caller& caller, const std::string& name, const json& fields,
+             std::function<void(const Answer&)> look) {
         ++open_;
         panel->ask(caller, name, fields, [this, look = std::move(look)](const Answer& answer) {
             if (look) look(answer);

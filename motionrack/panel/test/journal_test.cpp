@@ -13,7 +13,9 @@ using testing::HasSubstr;
 
 /// A folder that goes with the test.
 struct Folder {
-    Folder() : path(std::filesystem::temp_directory_path() / ("motionrack-panel-" + std::to_string(::getpid()))) { std::filesystem::create_directories(path); }
+    Folder() : path(std::filesystem::temp_directory_path() / ("motionrack-panel-" + std::to_string(::getpid()))) {
+        std::filesystem::create_directories(path);
+    }
     ~Folder() { std::filesystem::remove_all(path); }
     std::filesystem::path path;
 };

@@ -18,16 +18,19 @@ TEST(Looking, LeavesTheTraceOfAJobAsItIs) {
         std::shared_ptr<ChannelSet> set;
         a.good(0.1, "take_control");
         a.good(0.2, "enable", {{"on", true}});
-        for (const char* axis : {"X", "Y", "Z", "A"}) a.good(0.3, "declare_position", {{"axis", axis}, {"position", *axis == 'Z' ? 80 : 0}});
+        for (const char* axis : {"X", "Y", "Z", "A"})
+            a.good(0.3, "declare_position", {{"axis", axis}, {"position", *axis == 'Z' ? 80 : 0}});
         a.good(0.6, "begin", {{"name", "p"}, {"text", part}});
         if (viewer) {
             a.at(0.2, [&] {
-                a.panel->subscribe({"X.actual", "X.position_mm", "motion.x.LP", "motion.xpp", "glass.0.POSITION", "scan.XOUT", "host.sequence", "head.spot_x_mm", "mask_x.position_mm"},
+                a.panel->subscribe({"X.actual", "X.position_mm", "motion.x.LP", "motion.xpp", "glass.0.POSITION",
+                                    "scan.XOUT", "host.sequence", "head.spot_x_mm", "mask_x.position_mm"},
                                    [&](Result<std::shared_ptr<ChannelSet>> made) { set = *made; });
             });
             for (double at = 0.3; at < 1.6; at += 0.1)
                 for (const char* card : {"motion", "positioner", "glass", "decoder", "host", "mask", "scan"})
-                    a.at(at, eve, "card", {{"name", card}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+                    a.at(at, eve, "card", {{"name", card}},
+                         [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
             for (const char* query : {"status", "rack", "frames", "path", "channels"}) a.at(1, eve, query);
             a.at(1, eve, "workpiece", {{"scanner", "head"}});
             a.at(1, eve, "slopes", {{"name", "positioner"}});
@@ -50,8 +53,10 @@ TEST(Channels, AreSharedRefusedAndDropped) {
     a.at(0.1, [&] {
         a.panel->subscribe({"X.actual", "estop"}, [&](auto made) { one = *made; });
         a.panel->subscribe({"X.actual", "estop"}, [&](auto made) { other = *made; });
-        a.panel->subscribe({"X.weight"}, [&](auto made) { EXPECT_THAT(made.error().message, HasSubstr("no channel 'X.weight'")); });
-        a.panel->subscribe(std::vector<std::string>(65, "estop"), [&](auto made) { EXPECT_THAT(made.error().message, HasSubstr("64 are the most")); });
+        a.panel->subscribe({"X.weight"},
+                           [&](auto made) { EXPECT_THAT(made.error().message, HasSubstr("no channel 'X.weight'")); });
+        a.panel->subscribe(std::vector<std::string>(65, "estop"),
+                           [&](auto made) { EXPECT_THAT(made.error().message, HasSubstr("64 are the most")); });
     });
     a.at(0.3, [&] {
         EXPECT_EQ(one.get(), other.get());
@@ -114,7 +119,8 @@ TEST(TheRack, IsDescribedWithCardsWiresPartsAndFaults) {
         EXPECT_EQ(bus["cards"][1]["positions"].size(), 2U);
     });
     a.at(0.3, eve, "slopes", {{"name", "motion"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
-    a.at(0.3, eve, "slopes", {{"name", "positioner"}}, [](const Answer& answer) { EXPECT_EQ(answer.body["slopes"].size(), 2U); });
+    a.at(0.3, eve, "slopes", {{"name", "positioner"}},
+         [](const Answer& answer) { EXPECT_EQ(answer.body["slopes"].size(), 2U); });
     a.at(0.3, eve, "card", {{"name", "nobody"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
     a.at(0.3, eve, "workpiece", {{"scanner", "nobody"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
     a.run(0.5);
@@ -124,7 +130,8 @@ TEST(TheRack, HasNoFramesWithoutABusAndNoJournalWithoutOne) {
     Asked a(two_axes());
     a.at(0.1, eve, "frames", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.status, 409); });
     a.at(0.1, eve, "journal", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.status, 409); });
-    a.at(0.1, eve, "homing", json::object(), [](const Answer& answer) { EXPECT_TRUE(answer.body["homing"].is_null()); });
+    a.at(0.1, eve, "homing", json::object(),
+         [](const Answer& answer) { EXPECT_TRUE(answer.body["homing"].is_null()); });
     a.at(0.1, eve, "users", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.status, 403); });
     a.run(0.2);
 }
@@ -162,7 +169,13 @@ TEST(TheScope, HasEveryEdgeOfAPulseOutputAndSamplesFromBeforeTheTrigger) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "scope_arm", {{"channels", {"m.xpp", "X.position_mm", "X.actual"}}, {"trigger", "m.xpp"}, {"edge", "either"}, {"period_us", 50}, {"length", 0.05}, {"pre", 0.01}});
+    a.good(0.3, "scope_arm",
+           {{"channels", {"m.xpp", "X.position_mm", "X.actual"}},
+            {"trigger", "m.xpp"},
+            {"edge", "either"},
+            {"period_us", 50},
+            {"length", 0.05},
+            {"pre", 0.01}});
     a.at(0.5, eve, "scope", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["state"], "armed");
         EXPECT_FALSE(answer.body.contains("capture"));
@@ -181,7 +194,8 @@ TEST(TheScope, HasEveryEdgeOfAPulseOutputAndSamplesFromBeforeTheTrigger) {
         EXPECT_DOUBLE_EQ(place[0].get<double>(), 10);
         EXPECT_GT(place.back().get<double>(), 10.01);
     });
-    a.at(1.1, eve, "scope", {{"since", 1}}, [](const Answer& answer) { EXPECT_FALSE(answer.body.contains("capture")); });
+    a.at(1.1, eve, "scope", {{"since", 1}},
+         [](const Answer& answer) { EXPECT_FALSE(answer.body.contains("capture")); });
     a.run(3);
 }
 
@@ -189,7 +203,15 @@ TEST(TheScope, TriggersOnANumberRunsAgainAndIsStopped) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "scope_arm", {{"channels", {"X.position_mm"}}, {"trigger", "X.position_mm"}, {"edge", "rise"}, {"level", 15}, {"period_us", 1000}, {"length", 0.2}, {"pre", 0.1}, {"mode", "run"}});
+    a.good(0.3, "scope_arm",
+           {{"channels", {"X.position_mm"}},
+            {"trigger", "X.position_mm"},
+            {"edge", "rise"},
+            {"level", 15},
+            {"period_us", 1000},
+            {"length", 0.2},
+            {"pre", 0.1},
+            {"mode", "run"}});
     a.good(0.5, "line", {{"text", "G1 X20 F600"}});
     a.good(0.5, "line", {{"text", "G1 X10 F600"}});
     a.good(0.5, "line", {{"text", "G1 X20 F600"}});
@@ -202,8 +224,10 @@ TEST(TheScope, TriggersOnANumberRunsAgainAndIsStopped) {
     });
     a.good(5.1, "scope_stop");
     a.at(5.2, eve, "scope", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.body["state"], "idle"); });
-    a.at(5.2, anna, "scope_arm", {{"channels", {"X.position_mm"}}, {"period_us", 1}, {"length", 1}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 409); });
-    a.at(5.2, anna, "scope_arm", {{"channels", {"X.position_mm"}}, {"trigger", "estop"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
+    a.at(5.2, anna, "scope_arm", {{"channels", {"X.position_mm"}}, {"period_us", 1}, {"length", 1}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 409); });
+    a.at(5.2, anna, "scope_arm", {{"channels", {"X.position_mm"}}, {"trigger", "estop"}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
     a.at(5.2, eve, "scope_arm", {{"channels", {"estop"}}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 403); });
     a.run(5.5);
 }
@@ -212,24 +236,32 @@ TEST(ALaserCard, MarksWhileTheRackRunsAndTheWorkPieceGrows) {
     Asked a(demonstration());
     const char* const job = "[drawing]\ntext = \"AB\"\nheight_mm = 4\n[pace]\nmark_mm_s = 200\n";
     a.good(0.1, "take_control");
-    a.at(0.2, anna, "mark", {{"card", "motion"}, {"job", job}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
-    a.at(0.2, anna, "mark", {{"card", "scan"}, {"job", "[drawing]\nsvg = \"/etc/passwd\"\n"}}, [](const Answer& answer) {
-        EXPECT_EQ(answer.status, 409);
-        EXPECT_THAT(answer.body["error"]["message"].get<std::string>(), HasSubstr("are not read"));
-    });
-    a.at(0.2, anna, "mark", {{"card", "scan"}, {"job", "nonsense"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
-    a.at(0.3, anna, "mark", {{"card", "scan"}, {"job", job}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
-    a.at(0.31, anna, "mark", {{"card", "scan"}, {"job", job}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 409) << answer.body; });
+    a.at(0.2, anna, "mark", {{"card", "motion"}, {"job", job}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
+    a.at(0.2, anna, "mark", {{"card", "scan"}, {"job", "[drawing]\nsvg = \"/etc/passwd\"\n"}},
+         [](const Answer& answer) {
+             EXPECT_EQ(answer.status, 409);
+             EXPECT_THAT(answer.body["error"]["message"].get<std::string>(), HasSubstr("are not read"));
+         });
+    a.at(0.2, anna, "mark", {{"card", "scan"}, {"job", "nonsense"}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
+    a.at(0.3, anna, "mark", {{"card", "scan"}, {"job", job}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+    a.at(0.31, anna, "mark", {{"card", "scan"}, {"job", job}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 409) << answer.body; });
     a.at(1, eve, "workpiece", {{"scanner", "head"}}, [](const Answer& answer) {
         EXPECT_NEAR(answer.body["marked_mm"].get<double>(), 25, 20);
         EXPECT_GT(answer.body["marks"].size(), 2U);
         EXPECT_EQ(answer.body["part"]["name"], "line");
     });
     a.good(1.1, "mark_stop", {{"card", "scan"}});
-    a.at(1.2, anna, "mark", {{"card", "scan"}, {"job", job}, {"start", "parts"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+    a.at(1.2, anna, "mark", {{"card", "scan"}, {"job", job}, {"start", "parts"}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
     double before = 0;
-    a.at(1.25, eve, "workpiece", {{"scanner", "head"}}, [&](const Answer& answer) { before = answer.body["marked_mm"]; });
-    a.at(4.5, eve, "workpiece", {{"scanner", "head"}}, [&](const Answer& answer) { EXPECT_GT(answer.body["marked_mm"].get<double>(), 1.9 * before); });
+    a.at(1.25, eve, "workpiece", {{"scanner", "head"}},
+         [&](const Answer& answer) { before = answer.body["marked_mm"]; });
+    a.at(4.5, eve, "workpiece", {{"scanner", "head"}},
+         [&](const Answer& answer) { EXPECT_GT(answer.body["marked_mm"].get<double>(), 1.9 * before); });
     a.run(5);
 }
 
@@ -243,7 +275,8 @@ TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
         EXPECT_TRUE(status["axes"][0]["can_home"].get<bool>());
         EXPECT_TRUE(status["axes"][0]["leds"].contains("hard_plus"));
         EXPECT_FALSE(status["axes"][0]["leds"]["hard_plus"].get<bool>());
-        for (const char* led : {"index", "alarm", "capture", "compare"}) EXPECT_TRUE(status["axes"][0]["leds"].contains(led)) << led;
+        for (const char* led : {"index", "alarm", "capture", "compare"})
+            EXPECT_TRUE(status["axes"][0]["leds"].contains(led)) << led;
         EXPECT_TRUE(status["axes"][0]["leds"]["in_position"].get<bool>());
         EXPECT_FALSE(status["axes"][0]["enabled"].get<bool>());
         EXPECT_EQ(status["clock"]["mode"], "free");
@@ -263,7 +296,9 @@ TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
         EXPECT_TRUE(answer.body["status"]["axes"][1]["leds"]["alarm"].get<bool>());
         EXPECT_FALSE(answer.body["status"]["axes"][0]["leds"]["alarm"].get<bool>());
     });
-    a.at(30, eve, "homing", json::object(), [](const Answer& answer) { EXPECT_TRUE(answer.body["homing"]["axes"][0]["homed"].get<bool>()) << answer.body; });
+    a.at(30, eve, "homing", json::object(), [](const Answer& answer) {
+        EXPECT_TRUE(answer.body["homing"]["axes"][0]["homed"].get<bool>()) << answer.body;
+    });
     a.run(31);
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string message(const Answer& answer) { return answer.body.contains("error") ? answer.body["error"]["message"].get<std::string>() : ""; }
+std::string message(const Answer& answer) {
+    return answer.body.contains("error") ? answer.body["error"]["message"].get<std::string>() : "";
+}
 
 /// Looks that an answer is refused so.
 std::function<void(const Answer&)> refused(int status, const std::string& words) {
@@ -119,7 +121,8 @@ TEST(AnOperator, SeesAnAlarmAcknowledgesItAndResets) {
     a.at(0.6, anna, "acknowledge", {{"alarm", 7}}, refused(400, "no alarm 7"));
     a.good(0.7, "press_estop", {{"pressed", false}});
     a.good(0.8, "reset");
-    a.at(0.9, eve, "events", {{"limit", 50}}, [](const Answer& answer) { EXPECT_GT(answer.body["events"].size(), 5U); });
+    a.at(0.9, eve, "events", {{"limit", 50}},
+         [](const Answer& answer) { EXPECT_GT(answer.body["events"].size(), 5U); });
     a.run(1);
     EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
     EXPECT_THAT(kinds, testing::IsSupersetOf({"alarm", "state", "order"}));
@@ -134,7 +137,8 @@ TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
     a.at(0.6, bert, "take_control", {{"force", true}}, refused(409, ""));
     a.at(5, bert, "take_control", {{"force", true}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200); });
     a.at(5.1, anna, "jog", {{"axis", "X"}, {"speed", 1}}, refused(409, "bert"));
-    a.at(5.2, eve, "control", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.body["holder_session"], session_mark("w2")); });
+    a.at(5.2, eve, "control", json::object(),
+         [](const Answer& answer) { EXPECT_EQ(answer.body["holder_session"], session_mark("w2")); });
     a.at(5.3, bert, "release_control");
     a.run(5.5);
     EXPECT_FALSE(a.lease.holder());
@@ -143,14 +147,17 @@ TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
 TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
-    a.at(0.2, anna, "read_register", {{"card", "m"}, {"bits", 16}, {"address", 0}}, [](const Answer& answer) { EXPECT_TRUE(answer.body["value"].is_number()) << answer.body; });
+    a.at(0.2, anna, "read_register", {{"card", "m"}, {"bits", 16}, {"address", 0}},
+         [](const Answer& answer) { EXPECT_TRUE(answer.body["value"].is_number()) << answer.body; });
     a.at(0.3, anna, "read_register", {{"card", "m"}, {"bits", 32}, {"address", 0}}, refused(409, "not of 32"));
     a.at(0.3, anna, "read_register", {{"card", "q"}, {"bits", 16}, {"address", 0}}, refused(400, "no card"));
     a.good(0.4, "enable", {{"on", true}});
     a.good(0.5, "line", {{"text", "G1 X30 F600"}});
-    a.at(0.8, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0}}, refused(409, "state 'moving'"));
+    a.at(0.8, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0}},
+         refused(409, "state 'moving'"));
     a.at(4, [&] { EXPECT_TRUE(a.machine->status().axes[0].trusted); });
-    a.at(4.1, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0x0F00}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+    a.at(4.1, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0x0F00}},
+         [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
     a.run(4.5);
     EXPECT_FALSE(a.machine->status().axes[0].trusted);
 }
@@ -182,13 +189,16 @@ TEST(TheTables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
 }
 
 TEST(TheTables, AreThePageOfTheReference) {
-    EXPECT_EQ(text_of_file("docs/reference/api.md"), api_reference()) << "make it anew: motionrack describe api --markdown > docs/reference/api.md";
+    EXPECT_EQ(text_of_file("docs/reference/api.md"), api_reference())
+        << "make it anew: motionrack describe api --markdown > docs/reference/api.md";
 }
 
 TEST(TheFuzzer, FindsNothingInItsSeeds) {
     int seeds = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(std::string(MOTIONRACK_SOURCE_DIR) + "/tests/fuzz/corpus/panel")) {
-        EXPECT_EQ(fuzz::check_orders(text_of_file("tests/fuzz/corpus/panel/" + entry.path().filename().string())), "") << entry.path();
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(MOTIONRACK_SOURCE_DIR) + "/tests/fuzz/corpus/panel")) {
+        EXPECT_EQ(fuzz::check_orders(text_of_file("tests/fuzz/corpus/panel/" + entry.path().filename().string())), "")
+            << entry.path();
         ++seeds;
     }
     EXPECT_GT(seeds, 4);
@@ -196,13 +206,17 @@ TEST(TheFuzzer, FindsNothingInItsSeeds) {
 
 /// Any JSON, three levels deep at most.
 rc::Gen<json> any_json(int depth = 3) {
-    const auto leaf = rc::gen::oneOf(rc::gen::map(rc::gen::arbitrary<double>(), [](double v) { return json(v); }),
-                                     rc::gen::map(rc::gen::arbitrary<std::int64_t>(), [](std::int64_t v) { return json(v); }),
-                                     rc::gen::map(rc::gen::arbitrary<bool>(), [](bool v) { return json(v); }), rc::gen::just(json()),
-                                     rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange('\x20', '\x7f')), [](const std::string& v) { return json(v); }),
-                                     rc::gen::element(json("X"), json("m"), json(std::nan("")), json(1e308), json(-1), json("estop"), json("m.xin0")));
+    const auto leaf =
+        rc::gen::oneOf(rc::gen::map(rc::gen::arbitrary<double>(), [](double v) { return json(v); }),
+                       rc::gen::map(rc::gen::arbitrary<std::int64_t>(), [](std::int64_t v) { return json(v); }),
+                       rc::gen::map(rc::gen::arbitrary<bool>(), [](bool v) { return json(v); }), rc::gen::just(json()),
+                       rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange('\x20', '\x7f')),
+                                    [](const std::string& v) { return json(v); }),
+                       rc::gen::element(json("X"), json("m"), json(std::nan("")), json(1e308), json(-1), json("estop"),
+                                        json("m.xin0")));
     if (depth == 0) return leaf;
-    return rc::gen::oneOf(leaf, rc::gen::map(rc::gen::resize(4, rc::gen::container<std::vector<json>>(rc::gen::lazy([depth] { return any_json(depth - 1); }))),
+    return rc::gen::oneOf(leaf, rc::gen::map(rc::gen::resize(4, rc::gen::container<std::vector<json>>(rc::gen::lazy(
+                                                                    [depth] { return any_json(depth - 1); }))),
                                              [](const std::vector<json>& v) { return json(v); }));
 }
 
@@ -231,11 +245,14 @@ RC_GTEST_PROP(AskingThePanel, AnswersAnyJsonWithASentenceAndMovesNothing, ()) {
     Asked a(two_axes());
     std::size_t answers = 0;
     for (std::size_t i = 0; i < questions.size(); ++i)
-        a.at(0.01 * static_cast<double>(i + 1), bert, questions[i].name, questions[i].fields, [&](const Answer& answer) {
-            ++answers;
-            EXPECT_NE(answer.body.contains("done"), answer.body.contains("error"));
-            if (answer.status != 200) { EXPECT_GT(message(answer).size(), 10U); }
-        });
+        a.at(0.01 * static_cast<double>(i + 1), bert, questions[i].name, questions[i].fields,
+             [&](const Answer& answer) {
+                 ++answers;
+                 EXPECT_NE(answer.body.contains("done"), answer.body.contains("error"));
+                 if (answer.status != 200) {
+                     EXPECT_GT(message(answer).size(), 10U);
+                 }
+             });
     a.run(0.5);
     RC_ASSERT(answers == questions.size());
     RC_ASSERT(a.x() == 10);

@@ -14,7 +14,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* rack_text =
-    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n"
+    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
+    "\"m\"\nchannel = \"y\"\n"
     "[card.p]\ntype = \"databoard4002\"\n[card.l]\ntype = \"rtc5\"\nlist_memory = 2000\n[scanner.head]\ncard = \"l\"\n";
 constexpr int most_lines = 16;
 
@@ -51,8 +52,10 @@ class Asker {
         ++asked_;
         panel_->ask({"anna", authority::Role::maintain, "w1"}, name, fields, [this, name](const Answer& answer) {
             ++answered_;
-            if (answer.body.contains("done") == answer.body.contains("error")) problem_ = name + " was answered by neither done nor error";
-            if (answer.body.contains("error") && answer.body["error"]["message"].get<std::string>().size() < 10) problem_ = name + " was refused without a sentence";
+            if (answer.body.contains("done") == answer.body.contains("error"))
+                problem_ = name + " was answered by neither done nor error";
+            if (answer.body.contains("error") && answer.body["error"]["message"].get<std::string>().size() < 10)
+                problem_ = name + " was refused without a sentence";
             static_cast<void>(text_of(answer.body));
         });
     }

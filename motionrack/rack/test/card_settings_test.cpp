@@ -12,7 +12,9 @@ namespace {
 class OneCard {
   public:
     explicit OneCard(const std::string& settings)
-        : rack_(*read_rack_text("[card.c]\ntype = \"mcx314\"\n" + settings + "[axis.X]\ncard = \"c\"\nchannel = \"x\"\n").config) {
+        : rack_(
+              *read_rack_text("[card.c]\ntype = \"mcx314\"\n" + settings + "[axis.X]\ncard = \"c\"\nchannel = \"x\"\n")
+                   .config) {
         rack_.start();
     }
     void command(unsigned code, std::uint32_t value = 0) {

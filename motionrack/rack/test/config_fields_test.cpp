@@ -22,7 +22,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// ---- Every key's range ------------------------------------------------------------------------------------------
+// ---- Every key's range
 
 struct FieldCase {
     const Field* field;
@@ -160,7 +160,7 @@ TEST(RackKeys, TakesWholeNumbersWrittenWithAnExponentOrAPoint) {
     EXPECT_EQ(config.cards[1].mcx314.bus_access_ns, 125);
 }
 
-// ---- Templates and the reference page ---------------------------------------------------------------------------
+// ---- Templates and the reference page
 
 TEST(RackTemplate, EveryVariantReadsWithoutErrorsOrWarnings) {
     for (const TemplateVariant& variant : template_variants()) {
@@ -186,7 +186,8 @@ TEST(RackTemplate, SaysOfEveryKeyItsRangeAndDefault) {
     const std::string router = *rack_template("router"), carriage = *rack_template("carriage");
     for (const FieldCase& c : all_fields()) {
         const bool servo = c.header.find(".servo") != std::string::npos;
-        if ((servo && c.axis != 'X') || c.type == "ioflex02" || c.type == "rtc5" || c.type.rfind("grating", 0) == 0) continue;  // no template has a rotary servo or these cards
+        if ((servo && c.axis != 'X') || c.type == "ioflex02" || c.type == "rtc5" || c.type.rfind("grating", 0) == 0)
+            continue;  // no template has a rotary servo or these cards
         const std::string& text = servo || c.type == "databoard4002" ? carriage : router;
         const std::string key = with_unit(c.field->key, c.unit);
         std::size_t at = text.find('\n' + key + " = ");
@@ -226,7 +227,8 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
         EXPECT_THAT(page, HasSubstr(std::string(c.field->doc)));
     }
     for (const CardType& type : card_types()) {
-        for (const PinType& pin : type.channel_pins) EXPECT_THAT(page, HasSubstr(fmt::format("`{}{}`", type.channel_name(0), pin.name)));
+        for (const PinType& pin : type.channel_pins)
+            EXPECT_THAT(page, HasSubstr(fmt::format("`{}{}`", type.channel_name(0), pin.name)));
         // Where the settings say how many pins there are, the first and the last of both kinds stand for all.
         const bool numbered = type.chip_pin_count != nullptr;
         for (std::size_t i = 0; i < type.chip_pins.size(); ++i)

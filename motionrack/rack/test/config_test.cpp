@@ -31,7 +31,7 @@ std::string driver_of(const RackConfig& config, const std::string& to) {
     return {};
 }
 
-// ---- Bad files --------------------------------------------------------------------------------------------------
+// ---- Bad files
 
 struct BadFile {
     std::string text;
@@ -90,7 +90,9 @@ const std::vector<BadFile>& bad_files() {
         {rack_with("[axis.x]\n"), {6, 7}, {"no axis 'x'", "did you mean 'X'?"}},
         {rack_with("[axis.U]\n"), {6, 7}, {"no axis 'U'", "X Y Z", "A B C"}},
         {rack_with("[axis.Y]\nchannel = \"y\"\n"), {6, 7}, {"axis Y has no card"}},
-        {rack_with("[axis.Y]\ncard = \"m\"\n"), {6, 7}, {"Axis Y names no channel; a card of type mcx314 has the channels x y z u"}},
+        {rack_with("[axis.Y]\ncard = \"m\"\n"),
+         {6, 7},
+         {"Axis Y names no channel; a card of type mcx314 has the channels x y z u"}},
         {rack_with("[axis.Y]\ncard = \"q\"\nchannel = \"y\"\n[card.motion]\ntype = \"mcx314\"\n"),
          {7, 8},
          {"Axis Y", "'q'", "which the rack does not have."}},
@@ -218,7 +220,7 @@ TEST(RackFile, WarnsOfWhatAMachineCanDoButNobodyWants) {
     EXPECT_THAT(warnings("[axis.X.switches]\nlimit_minus_mm = 0\n"), HasSubstr("within the travel (min_mm is 0)"));
 }
 
-// ---- What a rack is ---------------------------------------------------------------------------------------------
+// ---- What a rack is
 
 TEST(RackFile, GivesThePlannerItsLimits) {
     const RackConfig config = good(
@@ -303,7 +305,7 @@ TEST(RackFile, TheShortFormBesideAxesIsACardWithDefaultSettings) {
     EXPECT_EQ(driver_of(config, "B.step"), "c1.zpp");
 }
 
-// ---- Text, paths, sizes -----------------------------------------------------------------------------------------
+// ---- Text, paths, sizes
 
 TEST(RackFile, NamesAFileThatIsNotThere) {
     const RackReading reading = read_rack("no/such/rack.toml");

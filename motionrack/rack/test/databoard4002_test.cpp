@@ -1,4 +1,5 @@
-// The DataBoard 4002 in a rack: driven by its ports, wires and quantities as a host and a hand with a test lead have them.
+// The DataBoard 4002 in a rack: driven by its ports, wires and quantities as a host and a hand with a test lead have
+// them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,9 @@ using ::testing::HasSubstr;
 /// A host with IN and OUT instructions.
 struct Host {
     explicit Host(const std::string& text) : session(std::move(*Session::open(text))) {}
-    void out(std::uint32_t port, unsigned value, const char* card = "c1") { ASSERT_TRUE(session->write(card, 8, port, value)); }
+    void out(std::uint32_t port, unsigned value, const char* card = "c1") {
+        ASSERT_TRUE(session->write(card, 8, port, value));
+    }
     unsigned in(std::uint32_t port, const char* card = "c1") { return *session->read(card, 8, port); }
     void ready(const char* card = "c1") {
         for (int i = 0; i < 12'700 && (in(1, card) & 0x80) == 0; ++i) ASSERT_TRUE(session->advance(10'000));
@@ -113,17 +116,20 @@ TEST(Databoard4002InARack, ACopyGoesTheSameWay) {
 }
 
 TEST(Databoard4002InARack, WrongRackFilesAreRefusedWithThePlace) {
-    const RackReading same = read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[card.c2]\ntype = \"databoard4002\"\n");
+    const RackReading same =
+        read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[card.c2]\ntype = \"databoard4002\"\n");
     ASSERT_EQ(same.errors.size(), 1u);
     EXPECT_THAT(same.errors[0].message, HasSubstr("both the number 13"));
     const RackReading straps = read_rack_text("[card.c1]\ntype = \"databoard4002\"\nfirst_pair = 2\n");
     ASSERT_EQ(straps.errors.size(), 1u);
     EXPECT_EQ(straps.errors[0].place.line, 3);
     EXPECT_THAT(straps.errors[0].message, HasSubstr("quadrature x4"));
-    const RackReading axis = read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n");
+    const RackReading axis =
+        read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n");
     ASSERT_FALSE(axis.errors.empty());
     EXPECT_THAT(axis.errors[0].message, HasSubstr("has but one, without a name: leave the key out"));
-    EXPECT_THAT(Session::open("card.c1 = \"databoard4002\"").value()->part("c1.speed").error().message, HasSubstr("fout_hz"));
+    EXPECT_THAT(Session::open("card.c1 = \"databoard4002\"").value()->part("c1.speed").error().message,
+                HasSubstr("fout_hz"));
 }
 
 }  // namespace

@@ -74,11 +74,13 @@ TEST(FrameTap, NamesTheCardsThatThereAre) {
     Rack rack(*read_rack_text(two_cards).config);
     const auto wrong = FrameTap::create(rack, "nobody");
     ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().message, "The rack's grating bus has no card 'nobody'; its cards are: host, scan. Nothing was done.");
+    EXPECT_EQ(wrong.error().message,
+              "The rack's grating bus has no card 'nobody'; its cards are: host, scan. Nothing was done.");
     Rack router(*read_rack_text(*rack_template("router")).config);
     const auto none = FrameTap::create(router, "");
     ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().message, "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");
+    EXPECT_EQ(none.error().message,
+              "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");
 }
 
 }  // namespace

@@ -15,8 +15,9 @@ namespace gb = grating_bus;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* three_cards = "[card.decoder]\ntype = \"grating_decoder\"\n[card.c1]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\n"
-                                    "[card.c3]\ntype = \"grating_bus\"\n";
+constexpr const char* three_cards =
+    "[card.decoder]\ntype = \"grating_decoder\"\n[card.c1]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\n"
+    "[card.c3]\ntype = \"grating_bus\"\n";
 
 std::unique_ptr<Session> open(const std::string& text) {
     auto out = Session::open(text);
@@ -91,9 +92,12 @@ TEST(GratingBusInARack, WhatDoesNotFitIsRefusedWithItsPlace) {
     };
     EXPECT_THAT(errors("[card.d]\ntype = \"grating_decoder\"\n[card.c1]\ntype = \"grating_bus\"\nscales = 5\n"),
                 AllOf(HasSubstr("r.toml:4"), HasSubstr("scales 0 to 4, but the decoder has 4")));
-    EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\nscales = 255\nperiod_us = 25\n"), AllOf(HasSubstr("r.toml:3"), HasSubstr("28060.0 ns")));
-    EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\nscales = 3\n"), HasSubstr("all cards of a bus take the same"));
-    EXPECT_THAT(errors("[card.d]\ntype = \"grating_decoder\"\n[card.e]\ntype = \"grating_decoder\"\n"), HasSubstr("two decoders"));
+    EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\nscales = 255\nperiod_us = 25\n"),
+                AllOf(HasSubstr("r.toml:3"), HasSubstr("28060.0 ns")));
+    EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\nscales = 3\n"),
+                HasSubstr("all cards of a bus take the same"));
+    EXPECT_THAT(errors("[card.d]\ntype = \"grating_decoder\"\n[card.e]\ntype = \"grating_decoder\"\n"),
+                HasSubstr("two decoders"));
     EXPECT_THAT(errors(std::string(three_cards) + "[wires]\n\"decoder.a4\" = \"estop\"\n"), HasSubstr("decoder.a4"));
 }
 
@@ -151,7 +155,8 @@ TEST(GratingBusInARack, AFrameIsDrawnWithAllItsStatesAndLines) {
     const RackReading reading = read_rack_text(three_cards);
     const auto picture = frame_picture(*reading.config);
     ASSERT_TRUE(picture);
-    for (const char* text : {"S1<", "S9<", "read_n", "word 3", "450 ns", "conflict"}) EXPECT_THAT(*picture, HasSubstr(text));
+    for (const char* text : {"S1<", "S9<", "read_n", "word 3", "450 ns", "conflict"})
+        EXPECT_THAT(*picture, HasSubstr(text));
     EXPECT_FALSE(frame_picture(*read_rack_text("card.m = \"mcx314\"").config));
 }
 

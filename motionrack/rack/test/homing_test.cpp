@@ -1,8 +1,8 @@
 // Homing the axes of a rack: what its file orders, several axes, what is refused, what is told.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/template.hpp>
 #include <nlohmann/json.hpp>
@@ -64,7 +64,8 @@ TEST(RackHomes, AllAxesWithASwitchAtOnceAndTheirCountersAreTheMachine) {
 }
 
 TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
-    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\nposition_mm = -3.5\nspeed_mm_s = 10\nslow_speed_mm_s = 0.25\n");
+    const HomingOutcome out =
+        homed(std::string(two_axes) + "[axis.Y.homing]\nposition_mm = -3.5\nspeed_mm_s = 10\nslow_speed_mm_s = 0.25\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[1].counter_position, -3.5, 0.5 / 640);
     EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
@@ -112,13 +113,16 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     EXPECT_THAT(message(two_axes, unknown), HasSubstr("no axis 'Q'; its axes are X, Y"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin0\" = \"open\"\n"),
                 HasSubstr("not wired to a stop input of its channel (xin0, xin1, xin2, xin3 of card motion)"));
-    EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"), HasSubstr("type 4 needs the encoder's index"));
-    EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\n"), HasSubstr("the speed is 101 mm/s, but may be above 0 and up to 100"));
+    EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"),
+                HasSubstr("type 4 needs the encoder's index"));
+    EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\n"),
+                HasSubstr("the speed is 101 mm/s, but may be above 0 and up to 100"));
     EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));
 }
 
 TEST(RackHomes, ThroughAnotherStopInputToo) {
-    const HomingOutcome out = homed(std::string(two_axes) + "[wires]\n\"motion.yin0\" = \"open\"\n\"motion.yin3\" = \"Y.home\"\n");
+    const HomingOutcome out =
+        homed(std::string(two_axes) + "[wires]\n\"motion.yin0\" = \"open\"\n\"motion.yin3\" = \"Y.home\"\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(out.axes[1].order.switch_input, 3);
     EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
@@ -206,10 +210,12 @@ TEST(RackHomes, EveryTemplateHomesItsAxes) {
 }
 
 TEST(RackHomes, ChecksWarnOfAHomingThatWillBeRefused) {
-    const RackReading reading = read_rack_text(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\nslow_speed_mm_s = 3\n");
+    const RackReading reading =
+        read_rack_text(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\nslow_speed_mm_s = 3\n");
     ASSERT_TRUE(reading.config);
     ASSERT_EQ(reading.warnings.size(), 2u);
-    EXPECT_THAT(reading.warnings[0].message, HasSubstr("speed_mm_s of axis Y is 101, above its max_speed_mm_s, which is 100"));
+    EXPECT_THAT(reading.warnings[0].message,
+                HasSubstr("speed_mm_s of axis Y is 101, above its max_speed_mm_s, which is 100"));
     EXPECT_THAT(reading.warnings[1].message, HasSubstr("slow_speed_mm_s of axis Y is 3, above its start_speed_mm_s"));
 }
 

@@ -32,7 +32,9 @@ struct Bench {
             set(card + (a ? ".a" : ".b") + std::to_string(channel), level);
         }
     }
-    std::uint32_t read(const char* reg, const char* card = "p1", std::uint32_t base = 0x2300) { return *session->read(card, 16, base + offset(reg)); }
+    std::uint32_t read(const char* reg, const char* card = "p1", std::uint32_t base = 0x2300) {
+        return *session->read(card, 16, base + offset(reg));
+    }
     void write(const char* reg, unsigned value, const char* card = "p1", std::uint32_t base = 0x2300) {
         ASSERT_TRUE(session->write(card, 16, base + offset(reg), value));
     }
@@ -42,7 +44,9 @@ struct Bench {
         ADD_FAILURE() << reg;
         return 0;
     }
-    std::int64_t position(int axis, const char* card = "p1") { return *session->peek(card, std::to_string(axis) + ".POSITION"); }
+    std::int64_t position(int axis, const char* card = "p1") {
+        return *session->peek(card, std::to_string(axis) + ".POSITION");
+    }
 
     std::unique_ptr<Session> session;
     int phase = 0;
@@ -129,13 +133,16 @@ TEST(Ioflex02InARack, ItsLinesCanHaveFaultsThatOtherCardsDoNotSee) {
     const JobOutcome out = job.run();
     ASSERT_TRUE(out.ended);
     EXPECT_EQ(out.axes[0].counts_read, 16'000);
-    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12) << "three lines of four counts in each of four turns";
+    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12)
+        << "three lines of four counts in each of four turns";
     ASSERT_TRUE(inject_fault(rack, "encoder.noise=50", "X"));
     rack.kernel().run_until(rack.kernel().now() + whole_seconds(1));
-    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12) << "what comes and goes counts nothing in the end";
+    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12)
+        << "what comes and goes counts nothing in the end";
     EXPECT_THAT(inject_fault(rack, "encoder.noise=-1", "X").error().message, HasSubstr("with the value -1"));
     Rack plain(good("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"));
-    EXPECT_THAT(inject_fault(plain, "encoder.noise=5", "X").error().message, HasSubstr("nothing that could have the fault"));
+    EXPECT_THAT(inject_fault(plain, "encoder.noise=5", "X").error().message,
+                HasSubstr("nothing that could have the fault"));
 }
 
 TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
@@ -144,7 +151,8 @@ TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
         const char* says;
     } wrong[] = {
         {"[card.p1]\ntype = \"ioflex02\"\nbase_address = 0x2310\n", "a multiple of 256, such as 8960"},
-        {"[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\n", "both the serial number 1"},
+        {"[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\n",
+         "both the serial number 1"},
         {"[card.p1]\ntype = \"ioflex02\"\n[axis.X]\ncard = \"p1\"\n", "moves no axis"},
         {"[card.p1]\ntype = \"ioflex02\"\n[wires]\n\"p1.a4\" = \"estop\"\n", "p1.a4"},
     };

@@ -15,7 +15,9 @@ using ::testing::IsEmpty;
 
 const std::string second_axis = "[axis.A]\ncard = \"m\"\nchannel = \"u\"\n";
 
-std::string wired(const std::string& wires) { return rack_with("[wires]\n" + wires); }
+std::string wired(const std::string& wires) {
+    return rack_with("[wires]\n" + wires);
+}
 
 TEST(Links, FollowTheDefaultRule) {
     const RackConfig config = good(rack_with(second_axis));
@@ -64,10 +66,12 @@ TEST(Links, RefusesWhatCannotBeObeyedBeforeAnythingMoves) {
 }
 
 TEST(Links, AnAxisWithoutItsChannelOrCardIsAnExampleOfTheFirstOne) {
-    const RackReading no_channel = read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\n[wires]\nX.step = \"m.xout0\"\n");
+    const RackReading no_channel =
+        read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\n[wires]\nX.step = \"m.xout0\"\n");
     EXPECT_FALSE(no_channel.config);
     EXPECT_THAT(all_texts(no_channel.errors), HasSubstr("such as m.xpp"));
-    const RackReading no_card = read_rack_text("[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[wires]\nX.step = \"X.enc_z\"\n");
+    const RackReading no_card =
+        read_rack_text("[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[wires]\nX.step = \"X.enc_z\"\n");
     EXPECT_FALSE(no_card.config);
     EXPECT_THAT(all_texts(no_card.errors), HasSubstr("does not have"));
 }
@@ -103,7 +107,7 @@ TEST(Wires, OneOutputDrivesThirtyOneInputs) {
     EXPECT_GT(reading.errors[0].place.line, 8);
 }
 
-// ---- On a running rack ----------------------------------------------------------------------------------------------
+// ---- On a running rack
 
 struct Ended {
     std::unique_ptr<Rack> rack;

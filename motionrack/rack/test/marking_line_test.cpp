@@ -36,7 +36,9 @@ struct Line {
     }
 
     rtc5::Engine& engine() { return rtc5_card_of(session->rack(), "scan")->engine(); }
-    void put(Op op, std::initializer_list<double> parameters = {}) { ASSERT_TRUE(engine().put(*rtc5::list_command(op, parameters))); }
+    void put(Op op, std::initializer_list<double> parameters = {}) {
+        ASSERT_TRUE(engine().put(*rtc5::list_command(op, parameters)));
+    }
     void ms(int time) { ASSERT_TRUE(session->advance(static_cast<std::uint64_t>(time) * 1'000'000)); }
     double part(const char* name) {
         const auto value = session->part(name);
@@ -50,7 +52,8 @@ struct Line {
         put(Op::set_mark_speed, {5184 * 0.5});
         put(Op::set_jump_speed, {50'000});
         if (scale != 0) put(Op::set_fly_x, {scale});
-        for (const auto& [x, y] : {std::pair{10, 0}, std::pair{10, 10}, std::pair{0, 10}, std::pair{0, 0}}) put(Op::mark_abs, {x * 5184.0, y * 5184.0});
+        for (const auto& [x, y] : {std::pair{10, 0}, std::pair{10, 10}, std::pair{0, 10}, std::pair{0, 0}})
+            put(Op::mark_abs, {x * 5184.0, y * 5184.0});
         if (scale != 0) put(Op::fly_return, {0, 0});
         put(Op::set_end_of_list);
     }
@@ -82,7 +85,11 @@ TEST(MarkingLine, ASquareOnTheMovingPartIsASquareOnlyWithCorrection) {
         // The part goes 2 mm to +X while a side is marked: without correction the corners are further back on it.
         const sim::Spot at = marked.points()[0].at;
         const double late = corrected ? 0 : 2;
-        const sim::Spot corners[] = {at, {at.x + 10 - late, at.y}, {at.x + 10 - 2 * late, at.y + 10}, {at.x - 3 * late, at.y + 10}, {at.x - 4 * late, at.y}};
+        const sim::Spot corners[] = {at,
+                                     {at.x + 10 - late, at.y},
+                                     {at.x + 10 - 2 * late, at.y + 10},
+                                     {at.x - 3 * late, at.y + 10},
+                                     {at.x - 4 * late, at.y}};
         std::vector<parts::Segment> drawing;
         for (int i = 0; i < 4; ++i) drawing.push_back({corners[i], corners[i + 1]});
         const parts::Deviation off = marked.compare(drawing);
@@ -114,7 +121,9 @@ TEST(MarkingLine, WhatIsMarkedCanBeSeenWhileItRunsAndLooksChangeNothing) {
 }
 
 TEST(MarkingLine, ACopyInTheMiddleOfAMarkGoesOnAlike) {
-    Line bench(std::string(line) + "[scanner.head.galvo]\nideal = false\ndead_us = 100\n[scanner.head.laser]\non_delay_us = 35\noff_delay_us = 12\n");
+    Line bench(std::string(line) +
+               "[scanner.head.galvo]\nideal = false\ndead_us = 100\n[scanner.head.laser]\non_delay_us = "
+               "35\noff_delay_us = 12\n");
     bench.square(5184.0 / 1000);
     ASSERT_TRUE(bench.engine().execute_list(1));
     bench.ms(37);
@@ -165,7 +174,8 @@ TEST(MarkingLine, TheSpeedCanBeChangedAndTheEncoderBroken) {
     bench.ms(100);
     EXPECT_LE(std::llabs(bench.peek("ENCODER0") - broken), 2) << "one line alone goes to and fro";
     EXPECT_THAT(bench.session->set_part("line.position_mm", 0).error().message, HasSubstr("only speed_mm_s"));
-    EXPECT_THAT(bench.session->set_part("line.speed_mm_s", NAN).error().message, HasSubstr("-10000 to 10000 are possible"));
+    EXPECT_THAT(bench.session->set_part("line.speed_mm_s", NAN).error().message,
+                HasSubstr("-10000 to 10000 are possible"));
     EXPECT_FALSE(bench.session->fault("drive.speed=20000", "line"));
     EXPECT_THAT(bench.session->fault("sender.silent", "line").error().message, HasSubstr("drive.speed"));
     EXPECT_THAT(bench.session->part("line.height").error().message, HasSubstr("encoder_counts"));
@@ -178,10 +188,13 @@ TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
         const Result<void> set = bench.session->set_part(name, 1);
         ASSERT_FALSE(set) << name;
         EXPECT_EQ(set.error().trouble, Trouble::refused) << name;
-        EXPECT_THAT(set.error().message, HasSubstr(std::string(name) + " follows from the machine and cannot be set")) << name;
+        EXPECT_THAT(set.error().message, HasSubstr(std::string(name) + " follows from the machine and cannot be set"))
+            << name;
     }
-    EXPECT_THAT(bench.session->set_part("head.height", 1).error().message, HasSubstr("head has no quantity 'height'; it has: spot_x_mm"));
-    EXPECT_THAT(bench.session->set_part("tail.light", 1).error().message, HasSubstr("There is no quantity 'tail.light'"));
+    EXPECT_THAT(bench.session->set_part("head.height", 1).error().message,
+                HasSubstr("head has no quantity 'height'; it has: spot_x_mm"));
+    EXPECT_THAT(bench.session->set_part("tail.light", 1).error().message,
+                HasSubstr("There is no quantity 'tail.light'"));
 }
 
 TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
@@ -233,8 +246,10 @@ TEST(MarkingLine, PartsThatPassTheSensorStartTheList) {
 }
 
 TEST(MarkingLine, ATableTurnsThePartAndItsEncoderCountsDegrees) {
-    Line bench("[card.scan]\ntype = \"rtc5\"\nlist_memory = 64\n[table.dial]\ncard = \"scan\"\nencoder = 1\nspeed_deg_s = 90\ncounts_per_deg = 100\n"
-               "centre_x_mm = 20\n[scanner.head]\ncard = \"scan\"\npart_on = \"dial\"\nbits_per_mm = 1000\n");
+    Line bench(
+        "[card.scan]\ntype = \"rtc5\"\nlist_memory = 64\n[table.dial]\ncard = \"scan\"\nencoder = 1\nspeed_deg_s = "
+        "90\ncounts_per_deg = 100\n"
+        "centre_x_mm = 20\n[scanner.head]\ncard = \"scan\"\npart_on = \"dial\"\nbits_per_mm = 1000\n");
     ASSERT_TRUE(bench.engine().set_start_list(1));
     bench.put(Op::laser_on_list, {400'000});
     bench.put(Op::set_end_of_list);
@@ -243,14 +258,17 @@ TEST(MarkingLine, ATableTurnsThePartAndItsEncoderCountsDegrees) {
     EXPECT_DOUBLE_EQ(bench.part("dial.position_deg"), 360);
     EXPECT_NEAR(static_cast<double>(bench.peek("ENCODER1")), 36'000, 1);
     EXPECT_EQ(bench.peek("ENCODER0"), 0);
-    EXPECT_NEAR(bench.part("head.marked_mm"), 2 * 3.14159265 * 20, 0.01) << "the spot stands still and draws a circle on the part";
+    EXPECT_NEAR(bench.part("head.marked_mm"), 2 * 3.14159265 * 20, 0.01)
+        << "the spot stands still and draws a circle on the part";
 }
 
 TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
     Line bench(std::string(line) + "[wires]\n\"scan.enc0_a\" = \"line.enc_b\"\n\"scan.enc0_b\" = \"line.enc_a\"\n");
     bench.ms(10);
     EXPECT_NEAR(static_cast<double>(bench.peek("ENCODER0")), -1'000, 1) << "the lines crossed over count backwards";
-    Line ramp("[card.scan]\ntype = \"rtc5\"\nlist_memory = 64\n[belt.line]\ncard = \"scan\"\nprofile = [[0, 0], [0.1, 100]]\ncounts_per_mm = -100\n");
+    Line ramp(
+        "[card.scan]\ntype = \"rtc5\"\nlist_memory = 64\n[belt.line]\ncard = \"scan\"\nprofile = [[0, 0], [0.1, "
+        "100]]\ncounts_per_mm = -100\n");
     ramp.ms(200);
     EXPECT_NEAR(ramp.part("line.position_mm"), 15, 1e-9);
     EXPECT_NEAR(static_cast<double>(ramp.peek("ENCODER0")), -1500, 1);
@@ -258,7 +276,8 @@ TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
 
 TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     const auto refused = [](const std::string& text) {
-        const RackReading reading = read_rack_text("[card.scan]\ntype = \"rtc5\"\n[card.m]\ntype = \"mcx314\"\n" + text);
+        const RackReading reading =
+            read_rack_text("[card.scan]\ntype = \"rtc5\"\n[card.m]\ntype = \"mcx314\"\n" + text);
         EXPECT_FALSE(reading.config) << text;
         return reading.errors.empty() ? std::string() : all_texts(reading.errors);
     };
@@ -269,18 +288,25 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1\nprofile = [[0, 1]]\n"), HasSubstr("leave one out"));
     EXPECT_THAT(refused("[belt.line]\nprofile = [[1, 1], [0, 2]]\n"), HasSubstr("rise"));
     EXPECT_THAT(refused("[belt.line]\nprofile = [1, 2]\n"), HasSubstr("pair [seconds, speed]"));
-    EXPECT_THAT(refused("[belt.one]\ncard = \"scan\"\n[belt.two]\ncard = \"scan\"\n"), HasSubstr("encoder input 0 of card scan has the encoder of one"));
-    EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nperiod_us = 10\ndelay_us = 5000\n"), HasSubstr("2550 us is possible"));
+    EXPECT_THAT(refused("[belt.one]\ncard = \"scan\"\n[belt.two]\ncard = \"scan\"\n"),
+                HasSubstr("encoder input 0 of card scan has the encoder of one"));
+    EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nperiod_us = 10\ndelay_us = 5000\n"),
+                HasSubstr("2550 us is possible"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nbits_per_mm = 0\n"), HasSubstr("measures nothing"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.parts]\nevery_mm = 5\n"), HasSubstr("the next one comes after 5"));
     EXPECT_THAT(refused("[table.dial]\n[table.dial.sender]\ntwo_axes = true\n"), HasSubstr("two_axes"));
     EXPECT_THAT(refused("[scanner.head]\n"), HasSubstr("scanner head has no card"));
-    EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\npart_on = \"line\"\n"), HasSubstr("there is no belt or table 'line'"));
-    EXPECT_THAT(refused("[scanner.one]\ncard = \"scan\"\n[scanner.two]\ncard = \"scan\"\n"), HasSubstr("drives scanner one already"));
-    EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nbits_per_mm = 5000\n[scanner.head.lens]\n"), HasSubstr("in the table lens"));
+    EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\npart_on = \"line\"\n"),
+                HasSubstr("there is no belt or table 'line'"));
+    EXPECT_THAT(refused("[scanner.one]\ncard = \"scan\"\n[scanner.two]\ncard = \"scan\"\n"),
+                HasSubstr("drives scanner one already"));
+    EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nbits_per_mm = 5000\n[scanner.head.lens]\n"),
+                HasSubstr("in the table lens"));
     EXPECT_THAT(refused("[belt.line]\n[wires]\n\"scan.start_n\" = \"line.sensor_n\"\n"), HasSubstr("section parts"));
-    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1000\ncounts_per_mm = 20000\n"), HasSubstr("at more than 500 mm/s its encoder"));
-    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1000\n[belt.line.parts]\nevery_mm = 0.002\nlength_mm = 0.001\n"), HasSubstr("at more than 200 mm/s"));
+    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1000\ncounts_per_mm = 20000\n"),
+                HasSubstr("at more than 500 mm/s its encoder"));
+    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1000\n[belt.line.parts]\nevery_mm = 0.002\nlength_mm = 0.001\n"),
+                HasSubstr("at more than 200 mm/s"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Probing on a running rack: the place of the edge is exact at every feed, and the program goes on where the machine stands.
+// Probing on a running rack: the place of the edge is exact at every feed, and the program goes on where the machine
+// stands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +20,8 @@ constexpr double pulses_per_mm = 640;
 std::string rack_text(const std::string& block, const std::string& more = {}) {
     std::string text = "[card.motion]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n";
     for (const char* axis : {"X\nx", "Y\ny", "Z\nz"}) {
-        text += std::string("[axis.") + axis[0] + "]\ncard = \"motion\"\nchannel = \"" + axis[2] + "\"\nmotor.pull_out_hz = 200000\n";
+        text += std::string("[axis.") + axis[0] + "]\ncard = \"motion\"\nchannel = \"" + axis[2] +
+                "\"\nmotor.pull_out_hz = 200000\n";
         if (axis[0] == 'Z') text += "min_mm = 0\nmax_mm = 80\nstart_mm = 80\n";
     }
     return text + "[probe]\n" + block + more;
@@ -49,11 +51,14 @@ std::string at(const char* what, double x, double y, double z) {
 }
 
 /// A place in mm as the card has it, whole pulses.
-double whole(double mm) { return std::floor(mm * pulses_per_mm + 0.5) / pulses_per_mm; }
+double whole(double mm) {
+    return std::floor(mm * pulses_per_mm + 0.5) / pulses_per_mm;
+}
 
 TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
     for (const int feed : {2, 30, 60, 150, 600, 1800, 3000, 6000}) {
-        const std::string program = "G21 G90\nG38.2 X" + std::string(feed < 10 ? "1" : "250") + " F" + std::to_string(feed) + "\nM2\n";
+        const std::string program =
+            "G21 G90\nG38.2 X" + std::string(feed < 10 ? "1" : "250") + " F" + std::to_string(feed) + "\nM2\n";
         const double edge = feed < 10 ? 0.321 : 187.123;
         const JobOutcome out = run(rack_text("x_from_mm = " + std::to_string(edge) + "\n"), program);
         ASSERT_TRUE(out.ended) << out.ended.error().message;
@@ -67,8 +72,9 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
 }
 
 TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
-    const JobOutcome out = run(rack_text("x_from_mm = 41.7\ny_from_mm = 0\ny_to_mm = 100\nz_from_mm = 0\nz_to_mm = 75\n"),
-                               "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
+    const JobOutcome out =
+        run(rack_text("x_from_mm = 41.7\ny_from_mm = 0\ny_to_mm = 100\nz_from_mm = 0\nz_to_mm = 75\n"),
+            "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const auto texts = probed(out);
     ASSERT_EQ(texts.size(), 1u);
@@ -81,23 +87,29 @@ TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
 
 TEST(Probing, LeavesAndTouchesWithinOneProgram) {
     // The classic: fast down, back until it leaves, slowly down again; then up by increments from where it stands.
-    const JobOutcome out = run(rack_text("z_to_mm = 12.34\n"),
-                               "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
+    const JobOutcome out =
+        run(rack_text("z_to_mm = 12.34\n"),
+            "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
-    EXPECT_EQ(probed(out), (std::vector{at("touched", 0, 0, edge), at("left", 0, 0, edge + 1 / pulses_per_mm), at("touched", 0, 0, edge)}));
+    EXPECT_EQ(probed(out), (std::vector{at("touched", 0, 0, edge), at("left", 0, 0, edge + 1 / pulses_per_mm),
+                                        at("touched", 0, 0, edge)}));
     EXPECT_NEAR(out.axes[2].real_end, edge + 5, 0.01);
     EXPECT_EQ(out.axes[0].real_end, 10);
     EXPECT_EQ(out.run.moves, 5);
 }
 
-/// Down in steps until the probe touches, three times along X, with what it found kept; then up above the lowest place, and X to where a sub
-/// says. Subs, loops and conditions go by what the probe did.
+/// Down in steps until the probe touches, three times along X, with what it found kept; then up above the lowest place,
+/// and X to where a sub says. Subs, loops and conditions go by what the probe did.
 constexpr const char* measures =
-    "G21 G90 G94\n#<least> = 1000\no<down> sub (step)\n  G91\n  o10 do\n    G38.3 Z-#1 F1200\n  o10 while [#5070 EQ 0]\n  G90\n"
-    "o<down> endsub [#5063]\n#<k> = 0\no20 while [#<k> LT 3]\n  o<down> call [7.5 + #<k>]\n  #[100 + #<k>] = #<_value>\n"
-    "  o21 if [#<_value> LT #<least>]\n    #<least> = #<_value>\n  o21 endif\n  G0 Z60\n  #<k> = [#<k> + 1]\n  G0 X[#<k> * 10]\no20 endwhile\n"
-    "G0 Z[#<least> + 5]\no30 if [ABS[#100 - #102] LT 0.0001]\n  G41.1 D4\n  G1 X50 Y20 F1200\n  X80\n  G40 G0 X90 Y10\no30 endif\n"
+    "G21 G90 G94\n#<least> = 1000\no<down> sub (step)\n  G91\n  o10 do\n    G38.3 Z-#1 F1200\n  o10 while [#5070 EQ "
+    "0]\n  G90\n"
+    "o<down> endsub [#5063]\n#<k> = 0\no20 while [#<k> LT 3]\n  o<down> call [7.5 + #<k>]\n  #[100 + #<k>] = "
+    "#<_value>\n"
+    "  o21 if [#<_value> LT #<least>]\n    #<least> = #<_value>\n  o21 endif\n  G0 Z60\n  #<k> = [#<k> + 1]\n  G0 "
+    "X[#<k> * 10]\no20 endwhile\n"
+    "G0 Z[#<least> + 5]\no30 if [ABS[#100 - #102] LT 0.0001]\n  G41.1 D4\n  G1 X50 Y20 F1200\n  X80\n  G40 G0 X90 "
+    "Y10\no30 endif\n"
     "(DEBUG, lowest #<least>)\nM2\n";
 
 void expect_measured(const JobOutcome& out) {
@@ -122,7 +134,8 @@ TEST(Probing, LoopsSubsAndConditionsGoByWhatTheProbeDid) {
 
 TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
     Rack rack(good(rack_text("z_to_mm = 12.34\n")));
-    auto orders = OrderPlan::create(rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
+    auto orders =
+        OrderPlan::create(rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
     ASSERT_TRUE(orders) << orders.error().message;
     JobSettings settings;
     settings.program = measures;
@@ -134,7 +147,8 @@ TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
 }
 
 TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
-    const JobOutcome out = run(rack_text("x_from_mm = 100\nx_to_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
+    const JobOutcome out =
+        run(rack_text("x_from_mm = 100\nx_to_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(probed(out), std::vector{at("touched", 100, 0, 80)});
     EXPECT_EQ(out.axes[0].real_end, 120);
@@ -144,7 +158,8 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     const std::string rack = rack_text("x_from_mm = 200\n");
     const JobOutcome may = run(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
-    EXPECT_EQ(probed(may), std::vector<std::string>{"probe did not touch on its way, which ended at X 50.0000 Y 0.0000 Z 80.0000"});
+    EXPECT_EQ(probed(may),
+              std::vector<std::string>{"probe did not touch on its way, which ended at X 50.0000 Y 0.0000 Z 80.0000"});
     EXPECT_EQ(may.axes[0].real_end, 60);
     const JobOutcome must = run(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
@@ -171,10 +186,13 @@ TEST(Probing, GoesWithLimitedJerkToo) {
     EXPECT_NEAR(out.axes[1].real_end, 15, 0.002);
 }
 
-std::string bad(const std::string& text) { return all_texts(read_rack_text(text).errors); }
+std::string bad(const std::string& text) {
+    return all_texts(read_rack_text(text).errors);
+}
 
 TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
-    EXPECT_THAT(bad("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\n"), HasSubstr("cannot catch positions"));
+    EXPECT_THAT(bad("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\n"),
+                HasSubstr("cannot catch positions"));
     EXPECT_THAT(bad(rack_text("x_from_mm = 5\nx_to_mm = 4\n")), HasSubstr("its first end must be below the other"));
 }
 
@@ -215,9 +233,12 @@ struct Fed {
 
 class ProbingByLines : public testing::TestWithParam<const char*> {
   protected:
-    RackConfig config(const std::string& block) { return good(rack_text(block, std::string("[controller]\nprofile = \"") + GetParam() + "\"\n")); }
+    RackConfig config(const std::string& block) {
+        return good(rack_text(block, std::string("[controller]\nprofile = \"") + GetParam() + "\"\n"));
+    }
 };
-INSTANTIATE_TEST_SUITE_P(With, ProbingByLines, testing::Values("trapezoid", "jerk_limited"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(With, ProbingByLines, testing::Values("trapezoid", "jerk_limited"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST_P(ProbingByLines, TheLineAfterBeginsWhereTheMachineStands) {
     Fed fed(config("x_from_mm = 187.123\n"));

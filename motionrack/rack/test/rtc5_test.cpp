@@ -22,7 +22,9 @@ struct Bench {
     explicit Bench(const std::string& text = small) : session(std::move(*Session::open(text))) {}
 
     rtc5::Engine& engine() { return rtc5_card_of(session->rack(), "c1")->engine(); }
-    void put(Op op, std::initializer_list<double> parameters = {}) { ASSERT_TRUE(engine().put(*rtc5::list_command(op, parameters))); }
+    void put(Op op, std::initializer_list<double> parameters = {}) {
+        ASSERT_TRUE(engine().put(*rtc5::list_command(op, parameters)));
+    }
     void begin() { ASSERT_TRUE(engine().set_start_list(1)); }
     void go() {
         put(Op::set_end_of_list);
@@ -87,7 +89,8 @@ TEST(Rtc5InARack, AWordOnItsMcbspIsANumberOf32Bits) {
     bench.set("mcbsp", 70);
     EXPECT_EQ(*bench.session->wire("c1.mcbsp"), 70);
     EXPECT_EQ(bench.peek("MCBSP1"), 70);
-    EXPECT_THAT(bench.session->set_wire("c1.mcbsp", 2'147'483'648.0).error().message, HasSubstr("-2147483648 to 2147483647"));
+    EXPECT_THAT(bench.session->set_wire("c1.mcbsp", 2'147'483'648.0).error().message,
+                HasSubstr("-2147483648 to 2147483647"));
     EXPECT_THAT(bench.session->set_wire("c1.mcbsp", 0.5).error().message, HasSubstr("whole numbers"));
     EXPECT_THAT(bench.session->set_wire("c1.start_n", 70).error().message, HasSubstr("digital"));
 }
@@ -97,7 +100,8 @@ TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
     EXPECT_THAT(bench.session->read("c1", 16, 0).error().message, HasSubstr("no registers on a bus"));
     EXPECT_THAT(bench.session->write("c1", 16, 0, 0).error().message, HasSubstr("no registers on a bus"));
     const std::string known = bench.session->peek("c1", "HEIGHT").error().message;
-    for (const char* name : {"STATUS", "MARKING_INFO", "XOUT", "LIST_POSITION", "TICK"}) EXPECT_THAT(known, HasSubstr(name));
+    for (const char* name : {"STATUS", "MARKING_INFO", "XOUT", "LIST_POSITION", "TICK"})
+        EXPECT_THAT(known, HasSubstr(name));
     EXPECT_THAT(bench.session->part("c1.height").error().message, HasSubstr("mark_speed_bits_ms"));
 }
 
@@ -124,7 +128,8 @@ TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTablesAndWhatWasRecorded) {
     EXPECT_NE(*copy->wire("c1.xout"), 0);
     const rtc5::Engine& ended = rtc5_card_of(copy->rack(), "c1")->engine();
     ASSERT_GT(ended.recording().count, 40);
-    for (std::int64_t i = 0; i < ended.recording().count; ++i) EXPECT_EQ(ended.recorded(0, i), bench.engine().recorded(0, i)) << i;
+    for (std::int64_t i = 0; i < ended.recording().count; ++i)
+        EXPECT_EQ(ended.recorded(0, i), bench.engine().recorded(0, i)) << i;
 }
 
 TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {

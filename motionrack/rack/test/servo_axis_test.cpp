@@ -264,7 +264,8 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
             ASSERT_TRUE(out.all_homed()) << out.axes[0].outcome.sentence;
             // The zero pulses are at whole turns from the start at 100 mm; the one under the cam is at 130 mm.
             const double home = type >= 3 ? 130 : plus ? 126 : 132, called = plus ? 126 : 132;
-            EXPECT_NEAR(out.axes[0].counter_position - called, out.axes[0].machine_position - home, 0.0101) << "to a count";
+            EXPECT_NEAR(out.axes[0].counter_position - called, out.axes[0].machine_position - home, 0.0101)
+                << "to a count";
             if (type % 2 == 0) EXPECT_NEAR(out.axes[0].counter_position, called, 0.05) << "it stands there";
             EXPECT_THAT(homing_text(out), HasSubstr("the position is trusted"));
         }

@@ -45,8 +45,10 @@ TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
 
 TEST(ServoProgram, SeveralCardsEachMoveTheirOwnAxis) {
     const std::string two = carriage() +
-        "[card.lift]\ntype = \"databoard4002\"\nselect = 14\n[axis.Z]\ncard = \"lift\"\nlead_mm = 5\nencoder_counts_per_rev = 2000\n"
-        "max_speed_mm_s = 100\nmax_accel_mm_s2 = 400\nmax_mm = 500\n[axis.Z.servo]\nspeed_per_volt_mm_s = 20\nfriction_mm_s2 = 20\n";
+                            "[card.lift]\ntype = \"databoard4002\"\nselect = 14\n[axis.Z]\ncard = \"lift\"\nlead_mm = "
+                            "5\nencoder_counts_per_rev = 2000\n"
+                            "max_speed_mm_s = 100\nmax_accel_mm_s2 = 400\nmax_mm = "
+                            "500\n[axis.Z.servo]\nspeed_per_volt_mm_s = 20\nfriction_mm_s2 = 20\n";
     const JobOutcome out = run(two, "G90\nG0 X600 Z200\nG1 Z50 F3000\nG1 X0 F6000\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[0].real_end, 0, 0.3);
@@ -55,16 +57,19 @@ TEST(ServoProgram, SeveralCardsEachMoveTheirOwnAxis) {
     const JobOutcome both = run(two, "G90 F600\nG1 X600 Z200\n");
     ASSERT_FALSE(both.ended);
     EXPECT_EQ(both.ended.error().place.line, 2);
-    EXPECT_THAT(both.ended.error().message, HasSubstr("G1 moves X, Z together, but the axes of this rack position one by one"));
+    EXPECT_THAT(both.ended.error().message,
+                HasSubstr("G1 moves X, Z together, but the axes of this rack position one by one"));
     const JobOutcome arc = run(two, "G90 F600\nG2 X50 I10\n");
     ASSERT_FALSE(arc.ended);
     EXPECT_THAT(arc.ended.error().message, HasSubstr("G2 is an arc"));
 }
 
 TEST(ServoProgram, ASteppingMotorAtTheFrequencyOutputLosesNoSteps) {
-    const JobOutcome out = run("[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\nmotor_steps_per_rev = 200\nmicrosteps = 5\n"
-                               "lead_mm = 10\nencoder_counts_per_rev = 1000\nmax_speed_mm_s = 100\nstart_speed_mm_s = 5\nmax_mm = 500\n",
-                               "G0 X300\nG1 X100 F1200\n");
+    const JobOutcome out =
+        run("[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\nmotor_steps_per_rev = 200\nmicrosteps "
+            "= 5\n"
+            "lead_mm = 10\nencoder_counts_per_rev = 1000\nmax_speed_mm_s = 100\nstart_speed_mm_s = 5\nmax_mm = 500\n",
+            "G0 X300\nG1 X100 F1200\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(out.axes[0].lost_pulses, 0);
     EXPECT_NEAR(out.axes[0].real_end, 100, 0.011);
@@ -73,12 +78,13 @@ TEST(ServoProgram, ASteppingMotorAtTheFrequencyOutputLosesNoSteps) {
 }
 
 TEST(ServoProgram, AMixOfPathsAndPositioningIsRefused) {
-    const JobOutcome out = run(carriage() + "[card.m]\ntype = \"mcx314\"\n[axis.Y]\ncard = \"m\"\nchannel = \"x\"\n", "G0 X1\n");
+    const JobOutcome out =
+        run(carriage() + "[card.m]\ntype = \"mcx314\"\n[axis.Y]\ncard = \"m\"\nchannel = \"x\"\n", "G0 X1\n");
     ASSERT_FALSE(out.ended);
     EXPECT_THAT(out.ended.error().message, HasSubstr("one card"));
 }
 
-// ---- rack files -------------------------------------------------------------------------------------------------------
+// ---- rack files
 
 TEST(ServoRackFile, TellsWhatIsWrong) {
     const struct {
@@ -90,12 +96,15 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
         {carriage("", "[axis.X.motor]\nstart_stop_hz = 100\n"), "so motor means nothing"},
         {carriage("", "[axis.Y]\ncard = \"board\"\n"), "both on card board"},
         {carriage("", "[wires]\n\"X.drive\" = \"board.sign\"\n"), "X.drive is a voltage and board.sign a logic level"},
-        {carriage("", "[wires]\n\"board.esr\" = \"board.vout\"\n"), "board.esr is a logic level and board.vout a voltage"},
+        {carriage("", "[wires]\n\"board.esr\" = \"board.vout\"\n"),
+         "board.esr is a logic level and board.vout a voltage"},
         {carriage("", "[wires]\n\"X.step\" = \"board.fout\"\n"), "needs a stepping motor"},
         {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nencoder_counts_per_rev = 0\n", "positions by it"},
-        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\n[axis.X.switches]\ncam_from_mm = 3\n", "a cam needs both ends"},
+        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\n[axis.X.switches]\ncam_from_mm = 3\n",
+         "a cam needs both ends"},
         {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_mm = 20000\n", "8388607 at most"},
-        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_speed_mm_s = 600\n", "follow 400000 counts/s"},
+        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_speed_mm_s = 600\n",
+         "follow 400000 counts/s"},
     };
     for (const auto& each : wrong) {
         const RackReading reading = read_rack_text(each.text);
@@ -103,9 +112,11 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
         EXPECT_THAT(all_texts(reading.errors), HasSubstr(each.says)) << each.text;
         EXPECT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
     }
-    EXPECT_THAT(all_texts(read_rack_text(carriage("lag_ms = 100\nfriction_mm_s2 = 30\n")).warnings), HasSubstr("stop short of its target"));
+    EXPECT_THAT(all_texts(read_rack_text(carriage("lag_ms = 100\nfriction_mm_s2 = 30\n")).warnings),
+                HasSubstr("stop short of its target"));
     EXPECT_THAT(all_texts(read_rack_text(carriage("load = 9\n")).warnings), HasSubstr("run past its target"));
-    EXPECT_THAT(all_texts(read_rack_text(carriage("speed_per_volt_mm_s = 40\n")).warnings), HasSubstr("reaches at 10 V"));
+    EXPECT_THAT(all_texts(read_rack_text(carriage("speed_per_volt_mm_s = 40\n")).warnings),
+                HasSubstr("reaches at 10 V"));
     EXPECT_TRUE(read_rack_text(*rack_template("carriage")).warnings.empty());
 }
 

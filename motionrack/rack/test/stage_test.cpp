@@ -71,17 +71,21 @@ TEST(StageSections, SayWhatDoesNotFit) {
         {cards + "[stage]\nmask = 3\n", "stage.mask is a whole number, but must be a table"},
         {cards + "[stage.mask]\ninput = 0\n", "card"},
         {cards + "[stage.mask]\ncard = \"third\"\ninput = 0\n", "Stage mask: there is no card 'third'."},
-        {cards + "[stage.mask]\ncard = \"decoder\"\ninput = 0\n", "card decoder is of type grating_decoder; one of type grating_bus drives a stage."},
-        {cards + "[stage.mask]\ncard = \"host\"\ninput = 3\n", "its scale is number 3, but the decoder has 3 (0 to 2)."},
+        {cards + "[stage.mask]\ncard = \"decoder\"\ninput = 0\n",
+         "card decoder is of type grating_decoder; one of type grating_bus drives a stage."},
+        {cards + "[stage.mask]\ncard = \"host\"\ninput = 3\n",
+         "its scale is number 3, but the decoder has 3 (0 to 2)."},
         {stage + "[stage.other]\ncard = \"second\"\ninput = 1\n", "output 0 of card second drives stage mask already."},
-        {stage + "[stage.other]\ncard = \"host\"\ninput = 2\n", "scale 2 of the decoder is that of stage mask already."},
+        {stage + "[stage.other]\ncard = \"host\"\ninput = 2\n",
+         "scale 2 of the decoder is that of stage mask already."},
         {stage + "start_mm = 2000\n", "it starts at 2000 mm, beyond its ends of travel at -1000 and 1000 mm."},
         {stage + "end_minus_mm = 5\nend_plus_mm = 5\n", "the first must be the smaller."},
         {stage + "scale = { interpolation = 6 }\n", "6 counts of a pitch are no multiple of 4"},
         {stage + "scale = { pitch_um = 0.0012345 }\n", "a pitch of 0.0012345 um is no whole number of picometres"},
         {stage + "scale = { pitch_nm = 5 }\n", "did you mean 'pitch_um'?"},
         {stage + "servo = { compute_us = 200 }\n", "computing takes 200 us, but there is a frame every 200 us."},
-        {stage + "servo = { profile = \"scan\", from_mm = 5, to_mm = 5 }\n", "from_mm is 5 and to_mm is 5; a scan goes from the smaller to the greater."},
+        {stage + "servo = { profile = \"scan\", from_mm = 5, to_mm = 5 }\n",
+         "from_mm is 5 and to_mm is 5; a scan goes from the smaller to the greater."},
         {stage + "servo = { profile = \"steps\", step_mm = 0 }\n", "step_mm is 0; a step goes somewhere."},
         {stage + "servo = { profile = \"steps\", step_mm = 50, every_ms = 100 }\n", "A step of 50 mm takes"},
         {stage + "servo = { profile = \"jump\" }\n", "jump"},
@@ -130,7 +134,8 @@ TEST(RunningStages, FollowTheirProfileThroughTheFrames) {
     EXPECT_NE(r.get("mask.drive_v"), 0);
     EXPECT_EQ(r.get("mask.unused_frames"), 0);
     EXPECT_EQ(r.get("table.position_mm"), 7);
-    EXPECT_THAT(get_quantity(r.rack, "table.closed").error().message, HasSubstr("Stage table has no quantity 'closed'; it has: position_mm"));
+    EXPECT_THAT(get_quantity(r.rack, "table.closed").error().message,
+                HasSubstr("Stage table has no quantity 'closed'; it has: position_mm"));
     EXPECT_THAT(get_quantity(r.rack, "chair.closed").error().message, HasSubstr("mask, table"));
 }
 
@@ -149,8 +154,10 @@ TEST(RunningStages, FaultsOfMotorAndScaleOpenTheLoop) {
     const auto conditions = r.rack.kernel().conditions();
     ASSERT_FALSE(conditions.empty());
     ASSERT_EQ(conditions.size(), 2u);
-    EXPECT_THAT(r.rack.describe(conditions[0]), HasSubstr("scale mask: at 0.100000 s it counts again and has lost 100000 counts"));
-    EXPECT_THAT(r.rack.describe(conditions[1]), HasSubstr("nm from where it was to be, more than limit_um = 100; card second opened its loop: 0 V"));
+    EXPECT_THAT(r.rack.describe(conditions[0]),
+                HasSubstr("scale mask: at 0.100000 s it counts again and has lost 100000 counts"));
+    EXPECT_THAT(r.rack.describe(conditions[1]),
+                HasSubstr("nm from where it was to be, more than limit_um = 100; card second opened its loop: 0 V"));
     EXPECT_FALSE(inject_fault(r.rack, "motor.load=-1", "table"));
 }
 

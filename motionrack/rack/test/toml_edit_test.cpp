@@ -8,7 +8,9 @@
 namespace motionrack::rack {
 namespace {
 
-std::string text_of(const TomlNode& root) { return toml_of(toml_lines(root)); }
+std::string text_of(const TomlNode& root) {
+    return toml_of(toml_lines(root));
+}
 
 TomlNode number(double value) {
     TomlNode out;
@@ -30,8 +32,12 @@ TEST(TomlEdit, WritesEveryTemplateSoThatItReadsTheSame) {
 }
 
 TEST(TomlEdit, KeepsTextsOfAllKinds) {
-    const TomlNode root = *parse_toml("a.\"b.c\" = \"x\\\"\\\\\\n\\u0001\xC3\xA4\"\nd = {}\ne = [1, 2.5, [true], {f = 'g'}]\nh = 1e300\ni = -0.1\n", "");
-    EXPECT_EQ(text_of(root), "a.\"b.c\" = \"x\\\"\\\\\\u000A\\u0001\xC3\xA4\"\nd = {}\ne = [1, 2.5, [true], {f = \"g\"}]\nh = 1e+300\ni = -0.1\n");
+    const TomlNode root = *parse_toml(
+        "a.\"b.c\" = \"x\\\"\\\\\\n\\u0001\xC3\xA4\"\nd = {}\ne = [1, 2.5, [true], {f = 'g'}]\nh = 1e300\ni = -0.1\n",
+        "");
+    EXPECT_EQ(text_of(root),
+              "a.\"b.c\" = \"x\\\"\\\\\\u000A\\u0001\xC3\xA4\"\nd = {}\ne = [1, 2.5, [true], {f = \"g\"}]\nh = "
+              "1e+300\ni = -0.1\n");
     EXPECT_EQ(text_of(*parse_toml(text_of(root), "")), text_of(root));
 }
 
@@ -40,7 +46,8 @@ TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
     EXPECT_TRUE(put_value(root, toml_path("axis.X.max_mm"), number(5)));
     EXPECT_TRUE(put_value(root, toml_path("axis.Y.servo.lag_ms"), number(2.5)));
     EXPECT_TRUE(put_value(root, toml_path("wires.\"m.xin1\""), number(0)));
-    const std::string before = "axis.X.max_mm = 5\naxis.X.card = \"m\"\naxis.Y.servo.lag_ms = 2.5\nwires.\"m.xin1\" = 0\n";
+    const std::string before =
+        "axis.X.max_mm = 5\naxis.X.card = \"m\"\naxis.Y.servo.lag_ms = 2.5\nwires.\"m.xin1\" = 0\n";
     EXPECT_EQ(text_of(root), before);
     EXPECT_FALSE(put_value(root, toml_path("axis.X"), number(5)));
     EXPECT_FALSE(put_value(root, toml_path("axis.X.card.name"), number(5)));
@@ -52,7 +59,8 @@ TEST(TomlEdit, TakesNamesApart) {
     EXPECT_EQ(toml_path("axis.X.max_mm"), (Path{"axis", "X", "max_mm"}));
     EXPECT_EQ(toml_path("wires.\"m.xin1\""), (Path{"wires", "m.xin1"}));
     EXPECT_EQ(toml_name(toml_path("wires.\"m.xin1\"")), "wires.\"m.xin1\"");
-    for (const char* bad : {"", ".", "a.", ".a", "a..b", "\"a", "a b", "\"a\"b", "\"\""}) EXPECT_TRUE(toml_path(bad).empty()) << bad;
+    for (const char* bad : {"", ".", "a.", ".a", "a..b", "\"a", "a b", "\"a\"b", "\"\""})
+        EXPECT_TRUE(toml_path(bad).empty()) << bad;
 }
 
 }  // namespace

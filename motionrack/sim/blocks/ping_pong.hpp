@@ -33,7 +33,8 @@ struct PingPong {
         if (filling == published) published = claimed;
         filling = none;
     }
-    /// The reader takes what was published last; if that is being overwritten, it keeps what it had. nullptr: nothing yet.
+    /// The reader takes what was published last; if that is being overwritten, it keeps what it had. nullptr: nothing
+    /// yet.
     const T* claim() {
         if (published != filling) claimed = published;
         return held();
@@ -42,7 +43,9 @@ struct PingPong {
     /// What the reader has claimed; nullptr if nothing.
     const T* held() const { return claimed != none ? &buffers[static_cast<std::size_t>(claimed)] : nullptr; }
     /// What was published last, whoever reads it; nullptr if nothing or if it is being overwritten.
-    const T* last() const { return published != none && published != filling ? &buffers[static_cast<std::size_t>(published)] : nullptr; }
+    const T* last() const {
+        return published != none && published != filling ? &buffers[static_cast<std::size_t>(published)] : nullptr;
+    }
 
     std::array<T, 2> buffers{};
     std::int32_t published = none;

@@ -55,7 +55,7 @@ void PulseTrain::stop(Instant now) {
     tell_rate(before, now);
 }
 
-// ---- Motion ---------------------------------------------------------------------------------------------------------
+// ---- Motion
 
 std::int64_t PulseTrain::count(Instant t) const {
     return state_.count + pulses(t) * state_.direction;
@@ -88,7 +88,7 @@ void PulseTrain::act(Instant now) {
     listeners_.tell_crossed(state_.watches, count(now), now);
 }
 
-// ---- the line and its edges -----------------------------------------------------------------------------------------
+// ---- the line and its edges
 
 int PulseTrain::level(Instant now) const {
     if (!running()) return 0;
@@ -124,7 +124,8 @@ void PulseTrain::hand_over(Instant now) {
     std::int64_t n = from < state_.origin ? 0 : pulses(from);
     while (n < last) {
         batch_.origin = pulse_instant(n + 1);
-        // Edge i of the batch is i periods after its first; the first period may be another one, so it is in a batch of its own.
+        // Edge i of the batch is i periods after its first; the first period may be another one, so it is in a batch of
+        // its own.
         const std::int64_t most = n == 0 && state_.first != state_.then ? 1 : std::int64_t{EdgeBatch::capacity};
         batch_.tick = clock_ * state_.then;
         batch_.step = state_.direction;

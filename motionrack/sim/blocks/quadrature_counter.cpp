@@ -5,7 +5,7 @@
 
 namespace motionrack::sim {
 
-// ---- Closed form ----------------------------------------------------------------------------------------------------
+// ---- Closed form
 
 void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std::int64_t above) const {
     const bool no_below = below == unwatched_below;
@@ -28,7 +28,7 @@ void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std:
     motion.watch(slot, low, high);
 }
 
-// ---- Edge by edge ---------------------------------------------------------------------------------------------------
+// ---- Edge by edge
 
 namespace {
 
@@ -70,7 +70,7 @@ void QuadratureDecoder::index(int level, bool clear) {
     if (clear) count_ = 0;
 }
 
-// ---- In bulk --------------------------------------------------------------------------------------------------------
+// ---- In bulk
 
 namespace {
 

@@ -30,7 +30,7 @@ constexpr std::int64_t divided(std::int64_t count, Edges edges) {
     return (count + 3) >> 2;                                 // A rises (B low) at 0|1
 }
 
-// ---- Closed form ----------------------------------------------------------------------------------------------------
+// ---- Closed form
 
 /// A settable counter over a Motion: counter(t) = divided(motion) + offset. Its whole state is the offset.
 class ClosedFormCounter {
@@ -56,7 +56,7 @@ class ClosedFormCounter {
     std::int64_t first_ = 0;
 };
 
-// ---- Edge by edge ---------------------------------------------------------------------------------------------------
+// ---- Edge by edge
 
 /// State only; trivially copyable.
 class QuadratureDecoder {
@@ -91,7 +91,7 @@ class QuadratureDecoder {
     [[maybe_unused]] std::uint8_t reserved_ = 0;
 };
 
-// ---- In bulk --------------------------------------------------------------------------------------------------------
+// ---- In bulk
 
 /// Decodes rows of line states, one byte a sample. The same count and illegal transitions as QuadratureDecoder with
 /// Edges::all.

@@ -61,7 +61,7 @@ std::span<const std::string_view> AxisMachine::fault_names() {
     return all_faults;
 }
 
-// ---- What the pulses tell -------------------------------------------------------------------------------------------
+// ---- What the pulses tell
 
 void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
     motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
@@ -106,8 +106,8 @@ void AxisMachine::strain(double rate, Instant now) {
     tell_rate(told, now);
 }
 
-/// A full step away from where it should be: out of step (or, if the rate is low enough, locked elsewhere), unless the pulses
-/// since then were not that fast on the whole.
+/// A full step away from where it should be: out of step (or, if the rate is low enough, locked elsewhere), unless the
+/// pulses since then were not that fast on the whole.
 void AxisMachine::give_way(Instant now) {
     Strain& s = state_.strain;
     s.deadline = never;
@@ -139,7 +139,7 @@ void AxisMachine::crossed(Instant now) {
     check(now);
 }
 
-// ---- The motor ------------------------------------------------------------------------------------------------------
+// ---- The motor
 
 template <class Change>
 void AxisMachine::change_motor(Instant now, Change change) {
@@ -184,7 +184,7 @@ bool AxisMachine::check_ends(Instant now) {
     return true;
 }
 
-// ---- Crossings ------------------------------------------------------------------------------------------------------
+// ---- Crossings
 
 void AxisMachine::check(Instant now) {
     if (checking_) return;
@@ -276,7 +276,7 @@ void AxisMachine::act(Instant now) {
     put_off();
 }
 
-// ---- Faults ---------------------------------------------------------------------------------------------------------
+// ---- Faults
 
 bool AxisMachine::fault(std::string_view name, double value, Instant now) {
     const std::size_t dot = name.find('.');

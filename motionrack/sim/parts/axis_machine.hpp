@@ -122,15 +122,17 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
         Range counts;  // what the listener asked for
         Range rotor;   // the same, in microsteps
     };
-    /// The pulse rate has changed by more than the motor follows at once. It falls out of step when the pulses have gone one full step
-    /// away from where the rate before would have them, not sooner: a pulse early or late does no harm.
+    /// The pulse rate has changed by more than the motor follows at once. It falls out of step when the pulses have
+    /// gone one full step away from where the rate before would have them, not sooner: a pulse early or late does no
+    /// harm.
     struct Strain {
-        double steady_hz = 0;     // the rate as the rotor's inertia feels it: the pulses' rate, smoothed over a millisecond
+        double steady_hz =
+            0;  // the rate as the rotor's inertia feels it: the pulses' rate, smoothed over a millisecond
         Instant steady_at{};
-        double rate_hz = 0;       // the steady rate when the strain began
+        double rate_hz = 0;  // the steady rate when the strain began
         Instant since{};
-        Instant deadline = never; // never: no strain
-        std::int64_t pulses = 0;  // at `since`
+        Instant deadline = never;  // never: no strain
+        std::int64_t pulses = 0;   // at `since`
     };
     struct State {
         StepperState motor;

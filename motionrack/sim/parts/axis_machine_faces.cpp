@@ -38,7 +38,7 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
     aim(now);
 }
 
-// ---- The index wire -------------------------------------------------------------------------------------------------
+// ---- The index wire
 
 int AxisMachine::level_at(int, Instant now) const {
     return encoder_.index(rotor_at(now));
@@ -52,7 +52,7 @@ void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
     aim(now);
 }
 
-// ---- Edges ----------------------------------------------------------------------------------------------------------
+// ---- Edges
 
 void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
     MOTIONRACK_ASSERT(pulses_ != nullptr);

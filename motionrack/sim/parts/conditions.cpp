@@ -27,15 +27,18 @@ std::string describe(const sim::Condition& c, std::string_view axis) {
                 "axis {}: at {:.6f} s the axle was held fast at {} microsteps (a fault that was asked for)", axis, at,
                 c.a);
         case AxisCondition::stage_end:
-            return fmt::format("stage {}: at {:.6f} s it ran into its {} end of travel at {} nm and stopped there", axis, at,
-                               c.a > 0 ? "plus" : "minus", c.b);
+            return fmt::format("stage {}: at {:.6f} s it ran into its {} end of travel at {} nm and stopped there",
+                               axis, at, c.a > 0 ? "plus" : "minus", c.b);
         case AxisCondition::scale_too_fast:
-            return fmt::format("scale {}: at {:.6f} s it came to move at {} counts/s, its electronics follow {} counts/s; nothing is counted "
-                               "until it is slower, and its position is not to be trusted until it is referenced again",
-                               axis, at, c.a, c.b);
+            return fmt::format(
+                "scale {}: at {:.6f} s it came to move at {} counts/s, its electronics follow {} counts/s; nothing is "
+                "counted "
+                "until it is slower, and its position is not to be trusted until it is referenced again",
+                axis, at, c.a, c.b);
         case AxisCondition::scale_lost:
-            return fmt::format("scale {}: at {:.6f} s it counts again and has lost {} counts ({} in all); reference it again", axis, at,
-                               c.a, c.b);
+            return fmt::format(
+                "scale {}: at {:.6f} s it counts again and has lost {} counts ({} in all); reference it again", axis,
+                at, c.a, c.b);
     }
     return fmt::format("axis {}: at {:.6f} s condition {} ({}, {})", axis, at, c.code, c.a, c.b);
 }

@@ -23,7 +23,7 @@ int sign(double x) {
 
 }  // namespace
 
-// ---- one law --------------------------------------------------------------------------------------------------------
+// ---- one law
 
 double DcLaw::way(double seconds) const {
     const double s = std::min(seconds, end);
@@ -49,7 +49,8 @@ double DcMotor::wanted_speed() const {
 /// How it goes on from `speed` with the present voltage and load.
 DcLaw DcMotor::law_from(double speed) const {
     const double inertia = 1 + state_.load;
-    const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia, lag = settings_.lag_s * inertia;
+    const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia,
+                 lag = settings_.lag_s * inertia;
     const double wanted = wanted_speed(), error = wanted - speed;
     int direction = sign(speed);
     if (direction == 0) {
@@ -80,15 +81,15 @@ DcLaw DcMotor::law_from(double speed) const {
     return law;
 }
 
-// ---- the rotor ------------------------------------------------------------------------------------------------------
+// ---- the rotor
 
-DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings,
-                 const std::string& wire)
+DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings, const std::string& wire)
     : kernel_(kernel),
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
-    MOTIONRACK_ASSERT(settings.gain > 0 && settings.top_speed > 0 && settings.top_speed <= 1e6 && settings.friction >= 0);
+    MOTIONRACK_ASSERT(settings.gain > 0 && settings.top_speed > 0 && settings.top_speed <= 1e6 &&
+                      settings.friction >= 0);
     MOTIONRACK_ASSERT(settings.top_accel > settings.friction && settings.lag_s >= 1e-4 && settings.lag_s <= 10);
     MOTIONRACK_ASSERT(settings.dead_band_v >= 0 && settings.load >= 0);
     MOTIONRACK_ASSERT(settings.end_minus.value_or(0) <= 0 && settings.end_plus.value_or(0) >= 0);
@@ -231,7 +232,7 @@ std::span<const std::string_view> DcMotor::fault_names() {
     return all_faults;
 }
 
-// ---- listeners ------------------------------------------------------------------------------------------------------
+// ---- listeners
 
 void DcMotor::watch(int slot, std::int64_t below, std::int64_t above) {
     state_.watches[static_cast<std::size_t>(slot)] = {below, above};

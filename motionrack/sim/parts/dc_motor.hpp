@@ -1,4 +1,5 @@
-// A DC motor with tacho behind a servo amplifier: the speed follows the voltage, with a lag, as far as current and load let it.
+// A DC motor with tacho behind a servo amplifier: the speed follows the voltage, with a lag, as far as current and load
+// let it.
 //
 //   volts --dead band--> x gain --saturation--> wanted speed --(current limit)--> torque --(inertia, friction)--> speed
 //                                                    ^------------ tacho -----------------------------------------'
@@ -8,8 +9,8 @@
 //         |    /                          stop: the same downwards; friction ends it, so that the rotor stands after a finite time
 //         +---/--------------> time
 //
-// Between two changes of the voltage there are at most a ramp, a lag and a standstill; each is a closed form of time. The rotor is
-// looked at every whole microsecond of a law.
+// Between two changes of the voltage there are at most a ramp, a lag and a standstill; each is a closed form of time.
+// The rotor is looked at every whole microsecond of a law.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +27,13 @@ namespace motionrack::parts {
 
 /// Of the amplifier and the motor alone; counts are those of the rotor's encoder.
 struct DcMotorSettings {
-    double gain = 10'000;        ///< > 0: counts a second for a volt
-    double top_speed = 100'000;  ///< > 0, at most 1e6: counts/s; saturation of the amplifier
-    double top_accel = 2e6;      ///< counts/s2 at the current limit; greater than the friction
-    double lag_s = 0.01;         ///< 0.0001 .. 10: the time constant of the speed
-    double friction = 20'000;    ///< counts/s2, >= 0: how fast it would brake without current
-    double dead_band_v = 0.005;  ///< V, 0 .. 5: below it the amplifier does nothing; it is taken off above
-    double load = 0;             ///< 0 .. 1000: the load's inertia in units of the motor's own
+    double gain = 10'000;                   ///< > 0: counts a second for a volt
+    double top_speed = 100'000;             ///< > 0, at most 1e6: counts/s; saturation of the amplifier
+    double top_accel = 2e6;                 ///< counts/s2 at the current limit; greater than the friction
+    double lag_s = 0.01;                    ///< 0.0001 .. 10: the time constant of the speed
+    double friction = 20'000;               ///< counts/s2, >= 0: how fast it would brake without current
+    double dead_band_v = 0.005;             ///< V, 0 .. 5: below it the amplifier does nothing; it is taken off above
+    double load = 0;                        ///< 0 .. 1000: the load's inertia in units of the motor's own
     std::optional<std::int64_t> end_minus;  ///< counts where it runs into an end of travel; 0 lies between
     std::optional<std::int64_t> end_plus;
 };
@@ -55,7 +56,8 @@ struct DcLaw {
 class DcMotor final : public sim::Device, public sim::Motion {
   public:
     /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
-    DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings, const std::string& wire = {});
+    DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings,
+            const std::string& wire = {});
 
     // ---- the rotor
     std::int64_t count(Instant t) const override;
@@ -93,7 +95,7 @@ class DcMotor final : public sim::Device, public sim::Motion {
         DcLaw law;
         double volts = 0;
         double load = 0;
-        double told = 0;        ///< the rate that listeners know
+        double told = 0;  ///< the rate that listeners know
         Instant handed{};
         sim::Listeners::Watches watches{};
         std::int32_t blocked = 0;

@@ -23,9 +23,12 @@ class EmergencyButton final : public sim::Device {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     /// pressed, broken (wire): while not 0.
     bool fault(std::string_view name, double value, Instant) override {
-        if (name == "pressed") set(value != 0, state_.broken);
-        else if (name == "broken") set(state_.pressed, value != 0);
-        else return false;
+        if (name == "pressed")
+            set(value != 0, state_.broken);
+        else if (name == "broken")
+            set(state_.pressed, value != 0);
+        else
+            return false;
         return true;
     }
 

@@ -5,8 +5,8 @@
 
 namespace motionrack::parts {
 
-EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn, std::int64_t place_per_turn,
-                         const LineOutputSettings& lines)
+EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn,
+                         std::int64_t place_per_turn, const LineOutputSettings& lines)
     : kernel_(kernel),
       place_(place),
       turn_(turn),
@@ -18,7 +18,7 @@ EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Moti
     kernel.schedule(id_, Instant{0});
 }
 
-// ---- geometry -------------------------------------------------------------------------------------------------------
+// ---- geometry
 
 /// The first place at which the count is n or more.
 std::int64_t EncoderPart::place_of(std::int64_t n) const {
@@ -39,7 +39,7 @@ std::int64_t EncoderPart::count_at(std::int64_t place) const {
     return n;
 }
 
-// ---- time -----------------------------------------------------------------------------------------------------------
+// ---- time
 
 void EncoderPart::schedule() {
     kernel_.schedule(id_, state_.begun ? output_.next() : Instant{0});

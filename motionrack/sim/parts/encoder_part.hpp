@@ -2,8 +2,8 @@
 //
 //   Motion (fine counts of a rotor, a carriage) ──► edge n at place n * den / num, less its displacement ──► LineOutput ──► a b z
 //
-// One edge is one event: the part watches the place for the next edge on either side. For axes that only count, a Motion connected to the
-// card as a whole costs nothing for an edge; this part is for those whose lines matter.
+// One edge is one event: the part watches the place for the next edge on either side. For axes that only count, a
+// Motion connected to the card as a whole costs nothing for an edge; this part is for those whose lines matter.
 #pragma once
 
 #include <cstdint>
@@ -32,11 +32,13 @@ class EncoderPart : public sim::Device, private sim::MotionListener {
     bool fault(std::string_view name, double value, Instant now) override;
 
   protected:
-    /// `turn` counts (a multiple of 4) for `place_per_turn` counts of `place` (both > 0). Adds the device and its wires, before the start.
-    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn, std::int64_t place_per_turn,
-                const LineOutputSettings& lines);
+    /// `turn` counts (a multiple of 4) for `place_per_turn` counts of `place` (both > 0). Adds the device and its
+    /// wires, before the start.
+    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn,
+                std::int64_t place_per_turn, const LineOutputSettings& lines);
 
-    /// How far edge n (0 .. turn - 1) is seen too early, in counts; less than a quarter of a turn, and so smooth that edges keep their order.
+    /// How far edge n (0 .. turn - 1) is seen too early, in counts; less than a quarter of a turn, and so smooth that
+    /// edges keep their order.
     virtual double displacement(std::int64_t n) const = 0;
     /// True: nothing can be seen, the lines stay.
     virtual bool blind() const { return false; }

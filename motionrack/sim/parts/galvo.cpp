@@ -62,8 +62,7 @@ void GalvoPair::reset(double x, double y) {
 
 double GalvoPair::lag_us() const {
     if (settings_.ideal) return 0;
-    return static_cast<double>(dead_) * 10 +
-           1e6 * 2 * settings_.damping / (2 * pi * settings_.natural_hz);
+    return static_cast<double>(dead_) * 10 + 1e6 * 2 * settings_.damping / (2 * pi * settings_.natural_hz);
 }
 
 double GalvoPair::step(Mirror& m, double told) const {

@@ -20,15 +20,18 @@ LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
 
 }  // namespace
 
-LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::Motion& place, const LineEncoderSettings& settings)
+LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::Motion& place,
+                         const LineEncoderSettings& settings)
     : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_disc(settings)) {
-    MOTIONRACK_ASSERT(settings.eccentricity >= 0 && settings.eccentricity <= static_cast<double>(settings.counts_per_turn) / 7);
+    MOTIONRACK_ASSERT(settings.eccentricity >= 0 &&
+                      settings.eccentricity <= static_cast<double>(settings.counts_per_turn) / 7);
     state_.own[0] = static_cast<std::int64_t>(settings.eccentricity * fine);
 }
 
 double LineEncoder::displacement(std::int64_t n) const {
     if (state_.own[0] == 0) return 0;
-    return static_cast<double>(state_.own[0]) / fine * sin_cos(2 * pi * static_cast<double>(n) / static_cast<double>(turn())).sin;
+    return static_cast<double>(state_.own[0]) / fine *
+           sin_cos(2 * pi * static_cast<double>(n) / static_cast<double>(turn())).sin;
 }
 
 bool LineEncoder::fault(std::string_view name, double value, Instant now) {

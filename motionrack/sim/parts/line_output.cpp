@@ -16,7 +16,8 @@ std::int64_t spacing_of(double rate) {
 
 }  // namespace
 
-LineOutput::LineOutput(sim::Kernel& kernel, const std::string& name, const LineOutputSettings& settings, LineOutputState& state)
+LineOutput::LineOutput(sim::Kernel& kernel, const std::string& name, const LineOutputSettings& settings,
+                       LineOutputState& state)
     : kernel_(kernel), settings_(settings), state_(state) {
     MOTIONRACK_ASSERT(settings.index_every >= 0 && settings.index_every % 4 == 0);
     MOTIONRACK_ASSERT(settings.fastest >= nanoseconds(10) && settings.fastest <= whole_seconds(1));
@@ -32,7 +33,7 @@ std::uint64_t LineOutput::random(std::uint64_t below) {
     return (state_.random >> 33) % below;
 }
 
-// ---- edges ----------------------------------------------------------------------------------------------------------
+// ---- edges
 
 void LineOutput::begin(std::int64_t count) {
     state_.shown = state_.target = count;
@@ -58,12 +59,14 @@ void LineOutput::plan(Instant now) {
         return;
     }
     if (state_.step_at != never) return;
-    const auto delay = state_.jitter > 0 ? static_cast<std::int64_t>(random(static_cast<std::uint64_t>(state_.jitter) + 1)) : 0;
+    const auto delay =
+        state_.jitter > 0 ? static_cast<std::int64_t>(random(static_cast<std::uint64_t>(state_.jitter) + 1)) : 0;
     state_.step_at = std::max(now + Duration{delay}, state_.free_at);
 }
 
 void LineOutput::step(Instant now) {
-    const std::int64_t to_go = state_.target - state_.shown, behind = to_go < 0 ? -to_go : to_go, sign = to_go < 0 ? -1 : 1;
+    const std::int64_t to_go = state_.target - state_.shown, behind = to_go < 0 ? -to_go : to_go,
+                       sign = to_go < 0 ? -1 : 1;
     if (settings_.loses_lines && behind > most_behind) {
         const std::int64_t lost = (behind - most_behind / 2) / 4 * 4;
         state_.shown += sign * lost;
@@ -82,7 +85,7 @@ void LineOutput::act(Instant now) {
     if (state_.step_at <= now) step(now);
 }
 
-// ---- what a count looks like ----------------------------------------------------------------------------------------
+// ---- what a count looks like
 
 /// In the dirt nothing moves: it shows how it begins, which is how it ends.
 std::int64_t LineOutput::visible(std::int64_t count) const {
@@ -111,14 +114,15 @@ void LineOutput::note_index() {
 void LineOutput::put_out() {
     const unsigned lines = sim::lines_of(visible(state_.shown));
     const bool z = state_.in_index && !state_.left_out;
-    const std::array<unsigned, 3> signals = {state_.swapped ? lines >> 1 : lines & 1, state_.swapped ? lines & 1 : lines >> 1, z ? 1u : 0u};
+    const std::array<unsigned, 3> signals = {state_.swapped ? lines >> 1 : lines & 1,
+                                             state_.swapped ? lines & 1 : lines >> 1, z ? 1u : 0u};
     for (std::size_t i = 0; i < wires_.size(); ++i) {
         const unsigned level = signals[i] ^ ((state_.inverted ^ state_.flipped) >> i & 1u);
         kernel_.set_wire(wires_[i], state_.broken[i] == 0 ? static_cast<int>(level) : state_.broken[i] - 1);
     }
 }
 
-// ---- faults ---------------------------------------------------------------------------------------------------------
+// ---- faults
 
 /// A pulse on A or B, then a pause, of 50 ns to 1 us each.
 void LineOutput::noise(Instant now) {

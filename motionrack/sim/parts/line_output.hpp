@@ -37,25 +37,26 @@ struct LineOutputState {
     Instant free_at{};        ///< not before
     Instant noise_at = never;
     std::uint64_t random = 1;
-    std::int64_t noise_left = 0;      ///< pulses
-    std::int64_t missing_left = 0;    ///< index pulses to leave out
-    std::int64_t second_index = 0;    ///< distance of the double index, counts; 0: none
+    std::int64_t noise_left = 0;    ///< pulses
+    std::int64_t missing_left = 0;  ///< index pulses to leave out
+    std::int64_t second_index = 0;  ///< distance of the double index, counts; 0: none
     std::int64_t dirt_lines = 0;
-    std::int64_t jitter = 0;          ///< greatest delay of an edge, ticks
-    std::int64_t fastest = 0;         ///< ticks
+    std::int64_t jitter = 0;               ///< greatest delay of an edge, ticks
+    std::int64_t fastest = 0;              ///< ticks
     std::array<std::uint8_t, 3> broken{};  ///< 0: whole, 1: reads low, 2: reads high
     std::uint8_t inverted = 0;             ///< bit 0 A, 1 B, 2 Z
     std::uint8_t swapped = 0;
-    std::uint8_t flipped = 0;         ///< by noise, bits as above
-    std::uint8_t in_index = 0;        ///< Z is active (or left out)
-    std::uint8_t left_out = 0;        ///< this index pulse is left out
+    std::uint8_t flipped = 0;   ///< by noise, bits as above
+    std::uint8_t in_index = 0;  ///< Z is active (or left out)
+    std::uint8_t left_out = 0;  ///< this index pulse is left out
 };
 static_assert(std::has_unique_object_representations_v<LineOutputState>, "padding would get into the state's hash");
 
 class LineOutput {
   public:
     /// Adds the wires NAME.a, NAME.b, NAME.z, before the kernel starts.
-    LineOutput(sim::Kernel& kernel, const std::string& name, const LineOutputSettings& settings, LineOutputState& state);
+    LineOutput(sim::Kernel& kernel, const std::string& name, const LineOutputSettings& settings,
+               LineOutputState& state);
 
     /// Begins at `count`, without edges.
     void begin(std::int64_t count);
@@ -67,10 +68,11 @@ class LineOutput {
     void act(Instant now);
     Instant next() const { return std::min(state_.step_at, state_.noise_at); }
 
-    /// broken_a, broken_b, broken_z (1: reads low, 2: reads high), inverted_a, inverted_b, inverted_z, swapped (not 0), noise (pulses of a
-    /// burst on A and B that begins now, up to 1e6), missing_index (how many to leave out, up to 1e9), double_index (a second one so many
-    /// counts after each, less than index_every), jitter (s, greatest delay of an edge, up to 1), dirt (lines that cannot be seen, less than
-    /// index_every / 4), overspeed (greatest edges a second, 1 to 1e8; 0: as the settings say). False: no such fault, or out of range.
+    /// broken_a, broken_b, broken_z (1: reads low, 2: reads high), inverted_a, inverted_b, inverted_z, swapped (not 0),
+    /// noise (pulses of a burst on A and B that begins now, up to 1e6), missing_index (how many to leave out, up to
+    /// 1e9), double_index (a second one so many counts after each, less than index_every), jitter (s, greatest delay of
+    /// an edge, up to 1), dirt (lines that cannot be seen, less than index_every / 4), overspeed (greatest edges a
+    /// second, 1 to 1e8; 0: as the settings say). False: no such fault, or out of range.
     bool fault(std::string_view name, double value, Instant now);
 
     std::int64_t shown() const { return state_.shown; }

@@ -11,8 +11,8 @@ namespace motionrack::parts {
 namespace {
 
 constexpr std::array<std::string_view, 4> all_faults = {"scale.lose", "scale.dirt", "scale.swapped", "scale.expansion"};
-constexpr Wide most_ratio = Wide{1} << 50;                     // so that all products fit
-constexpr std::int64_t farthest = std::int64_t{1} << 46;       // counts; watches beyond are never left
+constexpr Wide most_ratio = Wide{1} << 50;                // so that all products fit
+constexpr std::int64_t farthest = std::int64_t{1} << 46;  // counts; watches beyond are never left
 constexpr Wide billion = 1'000'000'000;
 
 Wide floor_of(Wide a, Wide b) {
@@ -50,7 +50,9 @@ LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Moti
     MOTIONRACK_ASSERT(s.interpolation >= 4 && s.interpolation <= 65'536 && s.interpolation % 4 == 0);
     MOTIONRACK_ASSERT(s.fastest >= 1 && s.fastest <= 1e9 && std::fabs(s.zero_nm) <= 1e10);
     MOTIONRACK_ASSERT(s.places >= 1 && s.places <= 1'000'000'000 && s.places_nm >= 1 && s.places_nm <= 1'000'000'000);
-    const auto place_of = [&s](double nm) { return nearest(nm * static_cast<double>(s.places) / static_cast<double>(s.places_nm)); };
+    const auto place_of = [&s](double nm) {
+        return nearest(nm * static_cast<double>(s.places) / static_cast<double>(s.places_nm));
+    };
     state_.zero = place_of(s.zero_nm);
     state_.direction = s.reversed ? -1 : 1;
     set_ratio(0);
@@ -68,11 +70,12 @@ std::span<const std::string_view> LinearScale::fault_names() {
     return all_faults;
 }
 
-// ---- the closed form ------------------------------------------------------------------------------------------------
+// ---- the closed form
 
 /// Counts for a count of the place, of a grating that is longer by `ppm`.
 void LinearScale::set_ratio(double ppm) {
-    Wide num = Wide{settings_.places_nm} * 1'000 * settings_.interpolation, den = Wide{settings_.pitch_pm} * settings_.places;
+    Wide num = Wide{settings_.places_nm} * 1'000 * settings_.interpolation,
+         den = Wide{settings_.pitch_pm} * settings_.places;
     Wide shared = common(num, den);
     num /= shared, den /= shared;
     MOTIONRACK_ASSERT(num <= most_ratio && den <= most_ratio);
@@ -126,7 +129,7 @@ Range LinearScale::place_range(const Range& counts) const {
     return out;
 }
 
-// ---- listeners ------------------------------------------------------------------------------------------------------
+// ---- listeners
 
 int LinearScale::listen(sim::MotionListener& listener) {
     return listeners_.add(listener);
@@ -191,7 +194,7 @@ void LinearScale::report(AxisCondition code, std::int64_t a, std::int64_t b) {
     kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
 }
 
-// ---- lines ----------------------------------------------------------------------------------------------------------
+// ---- lines
 
 int LinearScale::level_at(int pin, Instant now) const {
     if (pin == 2) return index(place_.count(now));
@@ -232,7 +235,7 @@ void LinearScale::flush() {
     if (edges_) row_.hand_over(*edges_);
 }
 
-// ---- faults ---------------------------------------------------------------------------------------------------------
+// ---- faults
 
 bool LinearScale::fault(std::string_view name, double value, Instant now) {
     const std::int64_t place = place_.count(now);

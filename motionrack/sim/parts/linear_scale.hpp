@@ -1,4 +1,5 @@
-// A grating scale with its reading head and interpolator on any motion: counts, and lines A and B where somebody listens.
+// A grating scale with its reading head and interpolator on any motion: counts, and lines A and B where somebody
+// listens.
 //
 //   place (Motion) ──► (place - zero) * interpolation / pitch ──► dirt ──► direction ──► not quicker than the electronics ──► counts (Motion)
 //                                                                                            a, b, z: wires, made while wanted
@@ -8,11 +9,13 @@
 //   B      ...  _____/~~~~~~~\_____        B high in phases 2 and 3      counts   | | | | | | | | | | | |    interpolation = 12
 //   Z      ...  ~~~\________ ...           one count wide, at index
 //
-// The count is a closed form of the place, exact in 128 bits; nothing is done for an edge. Above the greatest rate nothing is counted: what
-// goes by meanwhile is lost, counted and reported, and the scale is not to be trusted until it is referenced.
+// The count is a closed form of the place, exact in 128 bits; nothing is done for an edge. Above the greatest rate
+// nothing is counted: what goes by meanwhile is lost, counted and reported, and the scale is not to be trusted until it
+// is referenced.
 //
-// The faults: scale.lose n (n counts are lost at once), scale.dirt x (x nm from dirt_at on are not counted), scale.swapped (the lines are
-// swapped while not 0: it counts backwards), scale.expansion x (the grating is x ppm longer; it grows about where the head stands).
+// The faults: scale.lose n (n counts are lost at once), scale.dirt x (x nm from dirt_at on are not counted),
+// scale.swapped (the lines are swapped while not 0: it counts backwards), scale.expansion x (the grating is x ppm
+// longer; it grows about where the head stands).
 #pragma once
 
 #include <array>
@@ -32,21 +35,22 @@
 namespace motionrack::parts {
 
 struct LinearScaleSettings {
-    std::int64_t pitch_pm = 20'000'000;    ///< 1000 .. 1e9 (1 nm to 1 mm): the grating's period, picometres
-    std::int64_t interpolation = 4'096;    ///< 4 .. 65536, a multiple of 4: counts of a pitch
-    bool reversed = false;                 ///< counts down where the place goes up
-    double zero_nm = 0;                    ///< where the count is 0, within 10 m
-    double fastest = 20e6;                 ///< counts/s, 1 .. 1e9: what is quicker is not counted
-    std::optional<double> index_nm;        ///< where the reference mark is: Z is high for the count there
-    double dirt_at_nm = 0;                 ///< where the dirt of the fault begins
-    std::int64_t places = places_per_nm;   ///< 1 .. 1e9: so many counts of the place ...
-    std::int64_t places_nm = 1;            ///< ... are so many nm, 1 .. 1e9
+    std::int64_t pitch_pm = 20'000'000;   ///< 1000 .. 1e9 (1 nm to 1 mm): the grating's period, picometres
+    std::int64_t interpolation = 4'096;   ///< 4 .. 65536, a multiple of 4: counts of a pitch
+    bool reversed = false;                ///< counts down where the place goes up
+    double zero_nm = 0;                   ///< where the count is 0, within 10 m
+    double fastest = 20e6;                ///< counts/s, 1 .. 1e9: what is quicker is not counted
+    std::optional<double> index_nm;       ///< where the reference mark is: Z is high for the count there
+    double dirt_at_nm = 0;                ///< where the dirt of the fault begins
+    std::int64_t places = places_per_nm;  ///< 1 .. 1e9: so many counts of the place ...
+    std::int64_t places_nm = 1;           ///< ... are so many nm, 1 .. 1e9
 };
 
 class LinearScale final : public sim::Device, public sim::Motion, private sim::MotionListener {
   public:
     /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel, before it starts.
-    LinearScale(sim::Kernel& kernel, const std::string& name, sim::Motion& place, const LinearScaleSettings& settings = {});
+    LinearScale(sim::Kernel& kernel, const std::string& name, sim::Motion& place,
+                const LinearScaleSettings& settings = {});
 
     // ---- the counts
     std::int64_t count(Instant t) const override { return counted(place_.count(t)); }
@@ -57,9 +61,13 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     void listen_edges(sim::EdgeListener* listener) override;
     void hand_over_edges() override { flush(); }
 
-    double nm_per_count() const { return static_cast<double>(settings_.pitch_pm) / (1e3 * static_cast<double>(settings_.interpolation)); }
+    double nm_per_count() const {
+        return static_cast<double>(settings_.pitch_pm) / (1e3 * static_cast<double>(settings_.interpolation));
+    }
     /// What the counts say, nm from zero.
-    double position_nm(Instant t) const { return static_cast<double>(count(t) * (settings_.reversed ? -1 : 1)) * nm_per_count(); }
+    double position_nm(Instant t) const {
+        return static_cast<double>(count(t) * (settings_.reversed ? -1 : 1)) * nm_per_count();
+    }
     /// False: counts were lost since the start or the last reference().
     bool trusted() const { return state_.untrusted == 0; }
     /// It was referenced: what was lost no longer matters.
@@ -84,21 +92,21 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
 
   private:
     struct State {
-        Wide num = 1;               ///< counts of the grating for a count of the place, in lowest terms
+        Wide num = 1;  ///< counts of the grating for a count of the place, in lowest terms
         Wide den = 1;
-        std::int64_t zero = 0;      ///< place at which the grating's count is 0
-        std::int64_t shift = 0;     ///< count - the grating's
-        std::int64_t frozen = 0;    ///< the count while it is too fast
+        std::int64_t zero = 0;    ///< place at which the grating's count is 0
+        std::int64_t shift = 0;   ///< count - the grating's
+        std::int64_t frozen = 0;  ///< the count while it is too fast
         std::int64_t lost = 0;
-        std::int64_t dirt = 0;      ///< counts that cannot be seen
-        std::int64_t shown = 0;     ///< the count whose lines are out
-        Instant free_at{};          ///< no edge of the lines before
+        std::int64_t dirt = 0;   ///< counts that cannot be seen
+        std::int64_t shown = 0;  ///< the count whose lines are out
+        Instant free_at{};       ///< no edge of the lines before
         sim::Listeners::Watches watches{};
         std::int32_t direction = 1;
         std::int32_t swapped = 0;
         std::int32_t too_fast = 0;
         std::int32_t untrusted = 0;
-        std::int32_t wanted = 0;    ///< bit i: wire i
+        std::int32_t wanted = 0;  ///< bit i: wire i
         std::int32_t reserved = 0;
     };
 
@@ -123,9 +131,9 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     sim::Kernel& kernel_;
     sim::Motion& place_;
     LinearScaleSettings settings_;
-    std::int64_t dirt_at_ = 0;    // count of the grating
+    std::int64_t dirt_at_ = 0;  // count of the grating
     std::int64_t index_at_ = 0;
-    Duration spacing_{};          // between two edges of the lines
+    Duration spacing_{};  // between two edges of the lines
     sim::DeviceId id_{};
     std::array<sim::WireId, 3> wires_{};
     int slot_ = 0;

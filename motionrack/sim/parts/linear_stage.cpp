@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::array<std::string_view, 4> all_faults = {"motor.stall", "motor.push", "motor.friction", "motor.load"};
 constexpr int fine_bits = 68;
-constexpr double fine = 0x1p68;                             // of a count
+constexpr double fine = 0x1p68;  // of a count
 constexpr double counts_per_m = 1e9 * places_per_nm;
 constexpr double ticks_per_s = 1e10;
 constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t longest = std::int64_t{1} << 40;     // ticks of one parabola: place and speed stay within 128 bits
-constexpr std::int64_t viscous_piece = 1'000'000;           // 100 us
+constexpr std::int64_t longest = std::int64_t{1} << 40;  // ticks of one parabola: place and speed stay within 128 bits
+constexpr std::int64_t viscous_piece = 1'000'000;        // 100 us
 constexpr double viscous_piece_s = 1e-4;
-constexpr std::int64_t farthest = std::int64_t{1} << 50;    // counts, beyond every end of travel
+constexpr std::int64_t farthest = std::int64_t{1} << 50;  // counts, beyond every end of travel
 
 template <class T>
 int sign(T x) {
@@ -50,7 +50,8 @@ std::int64_t steps_up(Wide a, Wide b) {
 
 }  // namespace
 
-LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& s, const std::string& wire)
+LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& s,
+                         const std::string& wire)
     : kernel_(kernel),
       settings_(s),
       top_speed_(fine_speed(s.top_speed)),
@@ -58,11 +59,13 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
       end_plus_(count_of_nm(s.end_plus_nm)),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
-    static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * 8 + slots * sizeof(Range) + 6 * 4, "padding would get into the state's hash");
+    static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * 8 + slots * sizeof(Range) + 6 * 4,
+                  "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.accel_per_volt > 0 && s.accel_per_volt <= 1'000 && s.top_accel > 0 && s.top_accel <= 1'000);
     MOTIONRACK_ASSERT(s.top_speed > 0 && s.top_speed <= 10 && s.viscous >= 0 && s.viscous <= 100);
     MOTIONRACK_ASSERT(s.coulomb >= 0 && s.coulomb <= 1'000 && s.load >= 0 && s.load <= 1'000);
-    MOTIONRACK_ASSERT(s.end_minus_nm >= -1e10 && s.end_minus_nm <= s.start_nm && s.start_nm <= s.end_plus_nm && s.end_plus_nm <= 1e10);
+    MOTIONRACK_ASSERT(s.end_minus_nm >= -1e10 && s.end_minus_nm <= s.start_nm && s.start_nm <= s.end_plus_nm &&
+                      s.end_plus_nm <= 1e10);
     kernel.listen(drive_, id_, 0);
     state_.place = fine_place(count_of_nm(s.start_nm));
     state_.load = s.load;
@@ -73,7 +76,7 @@ std::span<const std::string_view> LinearStage::fault_names() {
     return all_faults;
 }
 
-// ---- where it is ----------------------------------------------------------------------------------------------------
+// ---- where it is
 
 std::int64_t LinearStage::count(Instant t) const {
     return static_cast<std::int64_t>(place_at(t) >> fine_bits);
@@ -100,21 +103,24 @@ int LinearStage::direction() const {
     return sign(state_.speed + state_.half_accel);
 }
 
-// ---- one parabola ---------------------------------------------------------------------------------------------------
+// ---- one parabola
 
 /// Half the acceleration while it moves in `direction` and is pushed with `push` m/s2.
 std::int64_t LinearStage::accel_law(double push, int direction) const {
     const double mass = 1 + state_.load, viscous = settings_.viscous / mass;
     const double rubbing = (settings_.coulomb + state_.rubbing) / mass;
-    const double accel = (push - direction * rubbing - viscous * in_m_s(state_.speed)) / (1 + viscous * viscous_piece_s / 2);
-    return static_cast<std::int64_t>(std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine / 2) + 0.5));
+    const double accel =
+        (push - direction * rubbing - viscous * in_m_s(state_.speed)) / (1 + viscous * viscous_piece_s / 2);
+    return static_cast<std::int64_t>(
+        std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine / 2) + 0.5));
 }
 
 /// How it goes on from the present place and speed.
 void LinearStage::begin_law() {
     State& s = state_;
     const double mass = 1 + s.load;
-    const double push = std::clamp(volts() * settings_.accel_per_volt, -settings_.top_accel, settings_.top_accel) / mass;
+    const double push =
+        std::clamp(volts() * settings_.accel_per_volt, -settings_.top_accel, settings_.top_accel) / mass;
     s.half_accel = 0;
     s.length = endless;
     if (s.held) s.speed = 0;
@@ -130,7 +136,8 @@ void LinearStage::begin_law() {
         }
     }
     if (s.speed == 0) {
-        const bool stands = s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb + s.rubbing;
+        const bool stands =
+            s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb + s.rubbing;
         s.half_accel = stands ? 0 : accel_law(push, sign(push));
         s.length = endless;
         if (s.half_accel == 0) return;
@@ -179,7 +186,7 @@ void LinearStage::tell(double before, Instant now) {
     listeners_.tell_rate(before, after, now);
 }
 
-// ---- when something happens -----------------------------------------------------------------------------------------
+// ---- when something happens
 
 Instant LinearStage::law_end() const {
     return state_.length == endless ? never : state_.since + Duration{state_.length};
@@ -199,7 +206,9 @@ Instant LinearStage::reaches(std::int64_t there) const {
     const int way = direction();
     if (way == 0 || there > farthest || there < -farthest) return never;
     const Wide edge = fine_place(way > 0 ? there : there + 1);
-    const auto passed = [&](std::int64_t ticks) { return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge; };
+    const auto passed = [&](std::int64_t ticks) {
+        return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge;
+    };
     const std::int64_t last = state_.length;
     if (passed(0)) return state_.since;
     if (!passed(last)) return never;
@@ -240,7 +249,8 @@ bool LinearStage::meet_ends(Instant now) {
     state_.speed = 0;
     state_.blocked = way;
     begin_law();
-    kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::stage_end), way, (plus ? end_plus_ : end_minus_) / places_per_nm);
+    kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::stage_end), way,
+                   (plus ? end_plus_ : end_minus_) / places_per_nm);
     tell(before, now);
     return true;
 }
@@ -282,7 +292,7 @@ bool LinearStage::fault(std::string_view name, double value, Instant now) {
     return true;
 }
 
-// ---- listeners ------------------------------------------------------------------------------------------------------
+// ---- listeners
 
 void LinearStage::watch(int slot, std::int64_t below, std::int64_t above) {
     state_.watches[static_cast<std::size_t>(slot)] = {below, above};

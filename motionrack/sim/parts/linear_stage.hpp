@@ -27,21 +27,22 @@ namespace motionrack::parts {
 inline constexpr std::int64_t places_per_nm = 1024;
 
 struct LinearStageSettings {
-    double accel_per_volt = 5;      ///< m/s2 for a volt, more than 0, at most 1000; of the stage without load
-    double top_accel = 50;          ///< m/s2, more than 0, at most 1000: the current limit; of the stage without load
-    double top_speed = 2;           ///< m/s, more than 0, at most 10: there the amplifier's voltage is used up
-    double viscous = 0;             ///< 1/s, 0 .. 100: the brake grows with the speed, m/s2 for a m/s
-    double coulomb = 0;             ///< m/s2, 0 .. 1000: the brake of rubbing parts; what pushes less does not move it
-    double load = 0;                ///< 0 .. 1000: mass on the stage in units of its own
-    double start_nm = 0;            ///< where it stands at first, within the ends
-    double end_minus_nm = -1e9;     ///< ends of travel, -1e10 .. 1e10
+    double accel_per_volt = 5;   ///< m/s2 for a volt, more than 0, at most 1000; of the stage without load
+    double top_accel = 50;       ///< m/s2, more than 0, at most 1000: the current limit; of the stage without load
+    double top_speed = 2;        ///< m/s, more than 0, at most 10: there the amplifier's voltage is used up
+    double viscous = 0;          ///< 1/s, 0 .. 100: the brake grows with the speed, m/s2 for a m/s
+    double coulomb = 0;          ///< m/s2, 0 .. 1000: the brake of rubbing parts; what pushes less does not move it
+    double load = 0;             ///< 0 .. 1000: mass on the stage in units of its own
+    double start_nm = 0;         ///< where it stands at first, within the ends
+    double end_minus_nm = -1e9;  ///< ends of travel, -1e10 .. 1e10
     double end_plus_nm = 1e9;
 };
 
 class LinearStage final : public sim::Device, public sim::Motion {
   public:
     /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
-    LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& settings, const std::string& wire = {});
+    LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& settings,
+                const std::string& wire = {});
 
     // ---- the place, 1/1024 nm
     std::int64_t count(Instant t) const override;
@@ -63,8 +64,8 @@ class LinearStage final : public sim::Device, public sim::Motion {
     sim::DeviceId id() const { return id_; }
     const LinearStageSettings& settings() const { return settings_; }
 
-    /// motor.stall: held fast while not 0; motor.push n: moved by n nm by hand; motor.friction x: x m/s2 more of rubbing;
-    /// motor.load x: mass on the stage in units of its own.
+    /// motor.stall: held fast while not 0; motor.push n: moved by n nm by hand; motor.friction x: x m/s2 more of
+    /// rubbing; motor.load x: mass on the stage in units of its own.
     static std::span<const std::string_view> fault_names();
 
     void act(Instant now) override;
@@ -80,11 +81,11 @@ class LinearStage final : public sim::Device, public sim::Motion {
         Wide speed = 0;               ///< a tick, at `since`
         std::int64_t half_accel = 0;  ///< half of it, a tick a tick
         Instant since{};
-        std::int64_t length = 0;      ///< ticks for which the parabola holds; `endless`
+        std::int64_t length = 0;  ///< ticks for which the parabola holds; `endless`
         Instant handed{};
-        double told = 0;              ///< the rate that listeners know
+        double told = 0;  ///< the rate that listeners know
         double load = 0;
-        double rubbing = 0;           ///< m/s2, of the fault
+        double rubbing = 0;  ///< m/s2, of the fault
         sim::Listeners::Watches watches{};
         std::int32_t microvolts = 0;
         std::int32_t blocked = 0;
@@ -93,7 +94,9 @@ class LinearStage final : public sim::Device, public sim::Motion {
     };
 
     Wide place_at(Instant t) const { return place_after((t - state_.since).count()); }
-    Wide place_after(std::int64_t ticks) const { return state_.place + ticks * (state_.speed + Wide{state_.half_accel} * ticks); }
+    Wide place_after(std::int64_t ticks) const {
+        return state_.place + ticks * (state_.speed + Wide{state_.half_accel} * ticks);
+    }
     Wide speed_at(Instant t) const { return state_.speed + 2 * Wide{state_.half_accel} * (t - state_.since).count(); }
     int direction() const;
     void move_to(Instant now);

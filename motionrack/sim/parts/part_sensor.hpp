@@ -12,15 +12,16 @@
 namespace motionrack::parts {
 
 struct PartSensorSettings {
-    std::int64_t first = 0;    ///< place of the track at which the first part's edge is at the sensor, counts
-    std::int64_t every = 1;    ///< from part to part, > 0
-    std::int64_t length = 1;   ///< of a part, 0 < length < every
+    std::int64_t first = 0;   ///< place of the track at which the first part's edge is at the sensor, counts
+    std::int64_t every = 1;   ///< from part to part, > 0
+    std::int64_t length = 1;  ///< of a part, 0 < length < every
 };
 
 class PartSensor final : public sim::Device, private sim::MotionListener {
   public:
     /// Adds the device `name` and the wire `wire` (at rest high) to the kernel, before it starts.
-    PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::Motion& place, const PartSensorSettings& settings);
+    PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::Motion& place,
+               const PartSensorSettings& settings);
 
     /// Parts whose leading edge has come to the sensor, up to now.
     std::int64_t parts(Instant now) const;

@@ -4,8 +4,8 @@
 
 namespace motionrack::parts {
 
-ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to,
-                           int active_level)
+ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from,
+                           std::int64_t to, int active_level)
     : kernel_(kernel),
       place_(place),
       interval_{from, to},

@@ -13,7 +13,8 @@ namespace motionrack::parts {
 
 class ReferenceCam final : public sim::Device, private sim::MotionListener {
   public:
-    /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of `place`.
+    /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of
+    /// `place`.
     ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to,
                  int active_level = 1);
 

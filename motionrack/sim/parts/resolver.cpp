@@ -30,7 +30,8 @@ Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::Motion& pl
 double Resolver::displacement(std::int64_t n) const {
     if (state_.own[gain] == 0 && state_.own[offset_sin] == 0 && state_.own[offset_cos] == 0) return 0;
     const double g = static_cast<double>(state_.own[gain]) / fine;
-    const double a = static_cast<double>(state_.own[offset_sin]) / fine, b = static_cast<double>(state_.own[offset_cos]) / fine;
+    const double a = static_cast<double>(state_.own[offset_sin]) / fine,
+                 b = static_cast<double>(state_.own[offset_cos]) / fine;
     const double counts = static_cast<double>(turn());
     const double f = 2 * pi * static_cast<double>(n) / counts;
     const SinCos shown = sin_cos(f);
@@ -51,7 +52,10 @@ bool Resolver::fault(std::string_view fault_name, double value, Instant now) {
         look_again(now);
         return true;
     }
-    const int which = name == "gain" ? gain : name == "offset_sin" ? offset_sin : name == "offset_cos" ? offset_cos : -1;
+    const int which = name == "gain"         ? gain
+                      : name == "offset_sin" ? offset_sin
+                      : name == "offset_cos" ? offset_cos
+                                             : -1;
     if (which < 0) return EncoderPart::fault(name, value, now);
     if (!(value >= -most && value <= most)) return false;
     state_.own[which] = static_cast<std::int64_t>(value * fine);

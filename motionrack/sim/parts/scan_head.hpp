@@ -3,8 +3,8 @@
 //   CARD.xout, yout ──► mirrors ──► lens ──┐
 //   CARD.laser_on ────► laser ─────────────┴──► the part on its track: MarkingStation, tick by tick of 10 us
 //
-// Ticks are worked off when a line changes and at the end of a run. While the lines rest and the laser is dark the head rests too: then the
-// mirrors stand where they are told.
+// Ticks are worked off when a line changes and at the end of a run. While the lines rest and the laser is dark the head
+// rests too: then the mirrors stand where they are told.
 #pragma once
 
 #include <array>

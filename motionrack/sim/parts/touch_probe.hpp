@@ -17,7 +17,8 @@ namespace motionrack::parts {
 
 class TouchProbe final : public sim::Device {
   public:
-    /// Adds the device "touch_" + `name` and the wire `name` to the kernel, before it starts. Without a range it touches nothing.
+    /// Adds the device "touch_" + `name` and the wire `name` to the kernel, before it starts. Without a range it
+    /// touches nothing.
     TouchProbe(sim::Kernel& kernel, const std::string& name);
 
     /// Before the kernel starts: the block is from `from` to `to`, counts of `place`, both included.

@@ -92,7 +92,8 @@ double Track::law_speed(double t_s) const {
 std::ptrdiff_t Track::point_before(double t_s) const {
     const auto& p = settings_.profile;
     if (t_s <= p.front().at_s) return -1;
-    return std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; }) - p.begin() - 1;
+    return std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; }) -
+           p.begin() - 1;
 }
 
 double Track::law_travel_from(std::ptrdiff_t point, double t_s) const {
@@ -137,9 +138,11 @@ double Track::leaves(double from_s, double low, double high) const {
         const auto& p = settings_.profile;
         double accel = 0, end_s = never_s;
         if (!driving_.by_hand) {
-            const auto above = std::upper_bound(p.begin(), p.end(), from_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
+            const auto above =
+                std::upper_bound(p.begin(), p.end(), from_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
             if (above != p.end()) end_s = above->at_s;
-            if (above != p.end() && above != p.begin()) accel = (above->speed - (above - 1)->speed) / (above->at_s - (above - 1)->at_s);
+            if (above != p.end() && above != p.begin())
+                accel = (above->speed - (above - 1)->speed) / (above->at_s - (above - 1)->at_s);
         }
         const double here = travel(from_s), v = speed(from_s);
         const double after = std::min(time_for(high - here, v, accel), time_for(here - low, -v, -accel));
@@ -150,7 +153,9 @@ double Track::leaves(double from_s, double low, double high) const {
 
 void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
     const double per_unit = settings_.counts_per_unit * (1 - settings_.slip);
-    const auto time = [&](std::size_t i) { return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * tick_s; };
+    const auto time = [&](std::size_t i) {
+        return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * tick_s;
+    };
     for (std::size_t begin = 0; begin < out.size();) {
         // The profile is looked through once a stretch, not once a tick.
         const std::ptrdiff_t point = point_before(time(begin));
@@ -159,7 +164,8 @@ void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
             for (end = begin + 1; point_before(time(end)) == point;) ++end;
         for (std::size_t i = begin; i < end; ++i) {
             double count = driven(law_travel_from(point, time(i)), time(i)) * per_unit;
-            if (settings_.jitter_counts > 0) count += settings_.jitter_counts * tremble(first_tick + static_cast<std::int64_t>(i));
+            if (settings_.jitter_counts > 0)
+                count += settings_.jitter_counts * tremble(first_tick + static_cast<std::int64_t>(i));
             auto whole = static_cast<std::int64_t>(count);
             whole -= count < static_cast<double>(whole);
             out[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(whole));

@@ -23,7 +23,7 @@ struct SpeedPoint {
 struct TrackSettings {
     bool rotary = false;
     double direction_deg = 0;  ///< belt: where it goes, from +X counter-clockwise
-    sim::Spot centre_mm{};       ///< rotary: about this, counter-clockwise when the speed is positive
+    sim::Spot centre_mm{};     ///< rotary: about this, counter-clockwise when the speed is positive
     std::vector<SpeedPoint> profile{{0, 100}};
     double counts_per_unit = 1000;  ///< counts (x4) a mm or degree, +-1e-6 .. 1e9; negative counts the other way
     double slip = 0;                ///< of the encoder's wheel, -0.5 .. 0.5: it sees 1 - slip of the travel
@@ -38,8 +38,8 @@ class Track {
     /// mm or degrees since 0 s; speed then. Before a change of the drive the present way is continued backwards.
     double travel(double t_s) const;
     double speed(double t_s) const;
-    /// The first time from `from_s` on at which travel() is at or beyond `low` (downwards) or `high` (upwards); infinity if never. Travel is
-    /// between them at `from_s`.
+    /// The first time from `from_s` on at which travel() is at or beyond `low` (downwards) or `high` (upwards);
+    /// infinity if never. Travel is between them at `from_s`.
     double leaves(double from_s, double low, double high) const;
     /// From t_s on at this speed, at most greatest_track_speed; by the profile again.
     void drive(double t_s, double speed);
@@ -55,10 +55,10 @@ class Track {
 
     /// What changes of the drive have done.
     struct Driving {
-        double travelled = 0;     ///< when it was changed last
-        double law = 0;           ///< what the profile's travel was then
+        double travelled = 0;  ///< when it was changed last
+        double law = 0;        ///< what the profile's travel was then
         double since_s = 0;
-        double speed = 0;         ///< by hand
+        double speed = 0;  ///< by hand
         std::int64_t by_hand = 0;
     };
     Driving& driving() { return driving_; }

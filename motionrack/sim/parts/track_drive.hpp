@@ -1,8 +1,10 @@
-// What drives a track in virtual time, so that its speed can be changed by hand: from now on so fast, or as its profile says again.
+// What drives a track in virtual time, so that its speed can be changed by hand: from now on so fast, or as its profile
+// says again.
 //
 //   TrackDrive ──► Track ──► TrackMotion (counts of an encoder), TrackMotion (place of the parts), ScanHead, WordSource
 //
-// The faults: drive.speed x (x mm/s or degrees/s from now on, up to the greatest speed; 0: it stands), drive.profile (its own profile again).
+// The faults: drive.speed x (x mm/s or degrees/s from now on, up to the greatest speed; 0: it stands), drive.profile
+// (its own profile again).
 #pragma once
 
 #include <motionrack/sim/kernel.hpp>
@@ -17,7 +19,8 @@ namespace motionrack::parts {
 class TrackDrive final : public sim::Device {
   public:
     /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most greatest_track_speed.
-    TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track, double greatest_speed = greatest_track_speed);
+    TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track,
+               double greatest_speed = greatest_track_speed);
 
     const Track& track() const { return track_; }
     sim::DeviceId id() const { return id_; }

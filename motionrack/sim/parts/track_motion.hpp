@@ -28,7 +28,8 @@ class TrackMotion final : public sim::Device, public sim::Motion {
     void listen_edges(sim::EdgeListener* listener) override;
     void hand_over_edges() override { hand_over(kernel_.now()); }
 
-    /// The track goes otherwise from now on; `speed_before`: its speed() until now. Edges up to now must have been handed over.
+    /// The track goes otherwise from now on; `speed_before`: its speed() until now. Edges up to now must have been
+    /// handed over.
     void changed(double speed_before);
 
     void act(Instant now) override;

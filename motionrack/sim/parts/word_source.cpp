@@ -13,7 +13,8 @@ constexpr double ticks_per_us = 10'000;
 
 }  // namespace
 
-WordSource::WordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires, const PositionSender& sender)
+WordSource::WordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires,
+                       const PositionSender& sender)
     : kernel_(kernel),
       sender_(sender),
       period_ticks_(sender.settings().period_us * ticks_per_us),
@@ -21,7 +22,8 @@ WordSource::WordSource(sim::Kernel& kernel, const std::string& name, const std::
       id_(kernel.add(*this, sim::Phase::parts, name)),
       word_wire_(kernel.add_wire(wires + ".mcbsp", 0, 32)),
       frame_wire_(kernel.add_wire(wires + ".mcbsp_frame", 0)) {
-    MOTIONRACK_ASSERT(sender.settings().delay_us < static_cast<double>(most_under_way - 1) * sender.settings().period_us);
+    MOTIONRACK_ASSERT(sender.settings().delay_us <
+                      static_cast<double>(most_under_way - 1) * sender.settings().period_us);
     schedule();
 }
 

@@ -30,7 +30,8 @@ void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s)
     }
     if (joined && state_.dwell_j == 0) {
         const sim::Spot all = minus(to, state_.start);
-        const double along = all.x * state_.way.x + all.y * state_.way.y, off = all.x * state_.way.y - all.y * state_.way.x;
+        const double along = all.x * state_.way.x + all.y * state_.way.y,
+                     off = all.x * state_.way.y - all.y * state_.way.x;
         // Even: as long as the energy says, but for the steps of the card's output.
         const double expected = state_.collected_j > 0 ? joules * (state_.collected_mm / state_.collected_j) : mm;
         const bool even = std::abs(mm - expected) <= std::max(0.01 * expected, 2 * settings_.tolerance_mm);
@@ -66,7 +67,8 @@ void Workpiece::keep(const MarkedPoint& point) {
 void Workpiece::flush() {
     if (!state_.collecting) return;
     if (!state_.chained) keep({state_.start, 0, 0, state_.begun_s, true});
-    keep({state_.end, state_.collected_mm > 0 ? state_.collected_j / state_.collected_mm : 0, state_.dwell_j, state_.begun_s, false});
+    keep({state_.end, state_.collected_mm > 0 ? state_.collected_j / state_.collected_mm : 0, state_.dwell_j,
+          state_.begun_s, false});
     state_.collecting = false;
 }
 
@@ -79,7 +81,8 @@ void Workpiece::finish() {
     flush();
 }
 
-Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm, double near_mm) {
+Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm,
+                  double near_mm) {
     Deviation out;
     std::vector<Segment> marked;
     const Nearest wanted(drawing);

@@ -42,7 +42,8 @@ struct Deviation {
 };
 
 /// Marked points against the drawing and the drawing against them, looked at every `step_mm`.
-Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1);
+Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm = 0.05,
+                  double near_mm = 0.1);
 
 class Workpiece {
   public:
@@ -53,7 +54,9 @@ class Workpiece {
     /// What is being collected becomes points. Before reading.
     void finish();
 
-    std::span<const MarkedPoint> points() const { return std::span(points_).first(static_cast<std::size_t>(state_.points)); }
+    std::span<const MarkedPoint> points() const {
+        return std::span(points_).first(static_cast<std::size_t>(state_.points));
+    }
     /// What is being collected and no point yet, if anything.
     std::optional<Segment> collecting() const;
     std::uint64_t lost_points() const { return static_cast<std::uint64_t>(state_.lost); }

@@ -55,7 +55,7 @@ std::vector<std::pair<AxisCondition, std::int64_t>> conditions(const Kernel& ker
     return out;
 }
 
-// ---- Truth ----------------------------------------------------------------------------------------------------------
+// ---- Truth
 
 TEST(AxisMachine, TurnsPulsesIntoMillimetresExactly) {
     World w(plain(), {{Instant{0}, microseconds(100), +1}});
@@ -98,7 +98,7 @@ TEST(AxisMachine, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 25);
 }
 
-// ---- Switches -------------------------------------------------------------------------------------------------------
+// ---- Switches
 
 TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     AxisMachineSettings s = plain();
@@ -197,7 +197,7 @@ RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, 
     RC_ASSERT(w.kernel.level(w.machine.limit_plus_wire()) == 0);
 }
 
-// ---- Lost steps -----------------------------------------------------------------------------------------------------
+// ---- Lost steps
 
 TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     AxisMachineSettings s = plain();
@@ -206,7 +206,8 @@ TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     w.kernel.start();
     w.run(milliseconds(50));
     EXPECT_FALSE(w.machine.in_step());
-    EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 16) << "it falls out of step a full step away from where it should be";
+    EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 16)
+        << "it falls out of step a full step away from where it should be";
     EXPECT_EQ(w.machine.rotor().rate(w.kernel.now()), 0);
     w.run(milliseconds(110));
     EXPECT_TRUE(w.machine.in_step());
@@ -320,7 +321,7 @@ TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
     EXPECT_EQ(w.kernel.level(w.machine.limit_plus_wire()), 1);
 }
 
-// ---- Snapshots ------------------------------------------------------------------------------------------------------
+// ---- Snapshots
 
 TEST(AxisMachine, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
     AxisMachineSettings s = plain();

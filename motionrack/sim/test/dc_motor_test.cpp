@@ -1,4 +1,5 @@
-// The DC motor's closed forms against small steps of its differential equation; dead band, saturation, load, ends of travel.
+// The DC motor's closed forms against small steps of its differential equation; dead band, saturation, load, ends of
+// travel.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -36,7 +37,8 @@ struct Stepped {
         for (auto steps = static_cast<std::int64_t>(std::lround(seconds / h)); steps > 0; --steps) {
             const double drive = std::max(0.0, std::fabs(volts) - s.dead_band_v) * s.gain;
             const double wanted = std::copysign(std::min(drive, s.top_speed), volts);
-            const double torque = std::clamp((wanted - speed) / (s.lag_s * inertia), -s.top_accel / inertia, s.top_accel / inertia);
+            const double torque =
+                std::clamp((wanted - speed) / (s.lag_s * inertia), -s.top_accel / inertia, s.top_accel / inertia);
             const double friction = s.friction / inertia;
             if (speed == 0 && std::fabs(torque) <= friction) continue;
             const double before = speed;
@@ -63,7 +65,8 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
         const double time = 1e-3 * *rc::gen::inRange(1, 60);
         rig.run(time);
         stepped.run(time);
-        // A microsecond here or there is 2 counts a second at the greatest acceleration, and the steps' own errors add up.
+        // A microsecond here or there is 2 counts a second at the greatest acceleration, and the steps' own errors add
+        // up.
         RC_ASSERT(std::fabs(rig.rate() - stepped.speed) < 60);
         RC_ASSERT(std::fabs(rig.position() - stepped.place) < 3);
     }

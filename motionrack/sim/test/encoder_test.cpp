@@ -96,7 +96,7 @@ struct World {
     WireEar ear;
 };
 
-// ---- Counts and watches ---------------------------------------------------------------------------------------------
+// ---- Counts and watches
 
 RC_GTEST_PROP(Encoder, ShowsTheFloorOfTheRatioInBothDirections, ()) {
     const std::int64_t counts = *some_counts();
@@ -157,7 +157,7 @@ TEST(Encoder, ManyListenersShareOneSlotOfThePulses) {
     EXPECT_EQ(ears[0]->rate, 100'000);
 }
 
-// ---- Index ----------------------------------------------------------------------------------------------------------
+// ---- Index
 
 TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
     World w(with_counts(3200), {{Instant{0}, microseconds(1000), 1}, {milliseconds(4000), microseconds(1000), -1}});
@@ -189,7 +189,7 @@ TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
     EXPECT_EQ(w.ear.heard[1], (std::pair{1, milliseconds(200)}));
 }
 
-// ---- Edges ----------------------------------------------------------------------------------------------------------
+// ---- Edges
 
 RC_GTEST_PROP(Encoder, EdgesOneByOneComeToTheSameCountAsTheClosedForm, ()) {
     AxisMachineSettings s = with_counts(*some_counts());
@@ -250,7 +250,7 @@ TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
     EXPECT_EQ(encoder.count, 1375);
 }
 
-// ---- Broken wiring --------------------------------------------------------------------------------------------------
+// ---- Broken wiring
 
 RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts, ()) {
     const std::string name = *rc::gen::element<std::string>("broken_a", "encoder.broken_b", "swapped");

@@ -39,7 +39,7 @@ class Scribe final : public Kernel::WireObserver {
     std::string text;
 };
 
-// ---- Order ----------------------------------------------------------------------------------------------------------
+// ---- Order
 
 TEST(Kernel, RunsEventsByInstantThenPhaseThenTheOrderInWhichTheyWereAskedFor) {
     Kernel kernel;
@@ -102,7 +102,7 @@ TEST(Kernel, ABrokenRunEndsAfterTheEventWithEverythingSyncedAndGoesOnAfterwards)
     EXPECT_EQ(kernel.now(), Instant{25});
 }
 
-// ---- Wires ----------------------------------------------------------------------------------------------------------
+// ---- Wires
 
 TEST(Kernel, WireChangesAreHeardFirstInFirstOutAtTheirInstant) {
     Kernel kernel;
@@ -252,7 +252,7 @@ TEST(Kernel, AnInverterThatDrivesItselfIsReportedAndNotAnEndlessLoop) {
     EXPECT_EQ(kernel.level(a), heard) << "the world goes on";
 }
 
-// ---- Conditions -----------------------------------------------------------------------------------------------------
+// ---- Conditions
 
 TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
     Kernel kernel;
@@ -274,7 +274,7 @@ TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
     EXPECT_EQ(all.back().code, 3);
 }
 
-// ---- Snapshots ------------------------------------------------------------------------------------------------------
+// ---- Snapshots
 
 /// Two devices that drive each other's wires and report, by a rule that mixes numbers.
 struct Clockwork {

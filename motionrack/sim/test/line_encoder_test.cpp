@@ -44,7 +44,9 @@ class Counter final : public sim::Device {
 template <class Part, class Settings>
 struct World {
     World(const Settings& settings, std::vector<sim::PulseLaw> laws)
-        : place(kernel, std::move(laws)), part(kernel, "enc", place, settings), counter(kernel, part.a(), part.b(), part.z()) {
+        : place(kernel, std::move(laws)),
+          part(kernel, "enc", place, settings),
+          counter(kernel, part.a(), part.b(), part.z()) {
         kernel.start();
         kernel.run_until(Instant{0});
     }
@@ -68,7 +70,8 @@ LineEncoderSettings small_disc() {
     return {.counts_per_turn = 400, .place_per_turn = 4000};
 }
 const std::vector<sim::PulseLaw> forwards = {{Instant{0}, microseconds(1), 1}};
-const std::vector<sim::PulseLaw> to_and_fro = {{Instant{0}, microseconds(1), 1}, {milliseconds(6), microseconds(1), -1}, {milliseconds(10), microseconds(1), 0}};
+const std::vector<sim::PulseLaw> to_and_fro = {
+    {Instant{0}, microseconds(1), 1}, {milliseconds(6), microseconds(1), -1}, {milliseconds(10), microseconds(1), 0}};
 
 TEST(LineEncoder, CountsWhatThePlaceTurns) {
     Disc w(small_disc(), to_and_fro);
@@ -85,7 +88,8 @@ TEST(LineEncoder, EdgesComeExactlyWhenThePlaceReachesThem) {
     Disc w(small_disc(), forwards);
     w.run(milliseconds(1));
     ASSERT_EQ(w.counter.edges.size(), 100u);
-    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(w.counter.edges[i], microseconds(10 * static_cast<std::int64_t>(i + 1)));
+    for (std::size_t i = 0; i < 100; ++i)
+        EXPECT_EQ(w.counter.edges[i], microseconds(10 * static_cast<std::int64_t>(i + 1)));
 }
 
 TEST(LineEncoder, TheIndexComesOnceATurnAtTheSamePlaceFromBothSides) {
@@ -102,7 +106,7 @@ TEST(LineEncoder, EdgesOfAPlaceThatIsCoarserThanTheCountsComeOneAfterTheOther) {
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
 }
 
-// ---- geometry and electronics ---------------------------------------------------------------------------------------
+// ---- geometry and electronics
 
 TEST(LineEncoder, AnEccentricDiscIsEarlyOnOneSideAndLateOnTheOtherAndRightAfterATurn) {
     LineEncoderSettings s = small_disc();
@@ -150,10 +154,11 @@ TEST(LineEncoder, TooQuickItLosesWholeLinesWithoutASign) {
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
     EXPECT_NE(w.counted(), 200);
     EXPECT_EQ((w.counted() - 200) % 4, 0);
-    for (std::size_t i = 1; i < w.counter.edges.size(); ++i) EXPECT_GE(w.counter.edges[i] - w.counter.edges[i - 1], Duration{333'333});
+    for (std::size_t i = 1; i < w.counter.edges.size(); ++i)
+        EXPECT_GE(w.counter.edges[i] - w.counter.edges[i - 1], Duration{333'333});
 }
 
-// ---- faults of lines ------------------------------------------------------------------------------------------------
+// ---- faults of lines
 
 TEST(LineEncoder, ABrokenLineMakesADecoderGoToAndFro) {
     for (const char* name : {"broken_a", "encoder.broken_b"})
@@ -181,7 +186,10 @@ TEST(LineEncoder, ABrokenIndexIsNotSeen) {
 }
 
 TEST(LineEncoder, SwappedLinesAndOneInvertedLineCountBackwardsBothTogetherDoNot) {
-    for (const std::vector<const char*>& names : {std::vector<const char*>{"swapped"}, {"inverted_a"}, {"inverted_b"}, {"inverted_a", "swapped"},
+    for (const std::vector<const char*>& names : {std::vector<const char*>{"swapped"},
+                                                  {"inverted_a"},
+                                                  {"inverted_b"},
+                                                  {"inverted_a", "swapped"},
                                                   {"inverted_a", "inverted_b"}}) {
         Disc w(small_disc(), forwards);
         for (const char* name : names) EXPECT_TRUE(w.fault(name, 1));
@@ -246,17 +254,20 @@ TEST(LineEncoder, FaultsThatItHasNotAndValuesOutOfRangeAreRefused) {
     EXPECT_FALSE(w.fault("no_such", 1));
     EXPECT_FALSE(w.fault("", 1));
     EXPECT_FALSE(w.fault("z", 1));
-    for (const char* name : {"broken_a", "noise", "jitter", "dirt", "overspeed", "eccentricity", "missing_index", "double_index"})
-        for (const double value : {-1.0, 1e300, std::nan("")}) EXPECT_FALSE(w.fault(name, value)) << name << " " << value;
+    for (const char* name :
+         {"broken_a", "noise", "jitter", "dirt", "overspeed", "eccentricity", "missing_index", "double_index"})
+        for (const double value : {-1.0, 1e300, std::nan("")})
+            EXPECT_FALSE(w.fault(name, value)) << name << " " << value;
     w.run(milliseconds(5));
     EXPECT_EQ(w.counted(), 500);
 }
 
-// ---- determinism ----------------------------------------------------------------------------------------------------
+// ---- determinism
 
 RC_GTEST_PROP(LineEncoder, AnyFaultsGiveEqualHistoriesForEqualSeedsAndARestoredSnapshotTheSameRest, ()) {
-    constexpr const char* names[] = {"broken_a", "broken_b", "broken_z", "inverted_a", "inverted_b", "inverted_z", "swapped", "noise",
-                                     "missing_index", "double_index", "jitter", "dirt", "overspeed", "eccentricity"};
+    constexpr const char* names[] = {"broken_a",   "broken_b", "broken_z",  "inverted_a",    "inverted_b",
+                                     "inverted_z", "swapped",  "noise",     "missing_index", "double_index",
+                                     "jitter",     "dirt",     "overspeed", "eccentricity"};
     LineEncoderSettings s = small_disc();
     s.seed = *rc::gen::arbitrary<std::uint16_t>();
     Disc one(s, to_and_fro), two(s, to_and_fro);
@@ -281,7 +292,9 @@ RC_GTEST_PROP(LineEncoder, WithoutFaultsItCountsAsTheExactRatioSays, ()) {
     s.counts_per_turn = 4 * *rc::gen::inRange(1, 2000);
     s.place_per_turn = *rc::gen::inRange<std::int64_t>(1, 30'000);
     std::vector<sim::PulseLaw> laws;
-    for (int i = 0; i < 5; ++i) laws.push_back({milliseconds(i), microseconds(*rc::gen::inRange(20, 500)), *rc::gen::inRange<std::int64_t>(-1, 2)});
+    for (int i = 0; i < 5; ++i)
+        laws.push_back(
+            {milliseconds(i), microseconds(*rc::gen::inRange(20, 500)), *rc::gen::inRange<std::int64_t>(-1, 2)});
     laws.push_back({milliseconds(5), microseconds(1), 0});
     s.fastest = nanoseconds(10);
     Disc w(s, laws);
@@ -304,14 +317,16 @@ TEST(LineEncoder, ARunWithFaultsAllocatesNothing) {
     EXPECT_GT(w.counter.line_edges[0], 4000);
 }
 
-// ---- resolver -------------------------------------------------------------------------------------------------------
+// ---- resolver
 
 ResolverSettings small_resolver() {
     return {.counts_per_turn = 1024, .place_per_turn = 10'240};
 }
 
 TEST(Resolver, GivesLinesAndAnIndexAsAnEncoderDoes) {
-    Winding w(small_resolver(), {{Instant{0}, microseconds(1), 1}, {milliseconds(25), microseconds(1), -1}, {milliseconds(40), microseconds(1), 0}});
+    Winding w(small_resolver(), {{Instant{0}, microseconds(1), 1},
+                                 {milliseconds(25), microseconds(1), -1},
+                                 {milliseconds(40), microseconds(1), 0}});
     w.run(milliseconds(25));
     EXPECT_EQ(w.counted(), 2500);
     w.run(milliseconds(25));

@@ -1,12 +1,11 @@
 // The grating scale against its formula, its lines against its count, and what makes it lose counts.
-#include <motionrack/sim/parts/linear_scale.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/sim/parts/linear_scale.hpp>
 #include <vector>
 
 #include "allocation_count.hpp"
@@ -17,7 +16,8 @@ namespace {
 
 /// Counts what it sees on two wires while it listens.
 struct Head final : sim::Device {
-    Head(sim::Kernel& k, const LinearScale& scale) : kernel(k), id(k.add(*this, sim::Phase::cards, "head")), a(scale.a()), b(scale.b()) {
+    Head(sim::Kernel& k, const LinearScale& scale)
+        : kernel(k), id(k.add(*this, sim::Phase::cards, "head")), a(scale.a()), b(scale.b()) {
         k.listen(a, id, 0);
         k.listen(b, id, 1);
     }
@@ -61,7 +61,10 @@ struct Ear final : sim::MotionListener, sim::EdgeListener {
 
 struct Rig {
     explicit Rig(const LinearScaleSettings& scale_settings = {}, const LinearStageSettings& stage_settings = {})
-        : stage(kernel, "x", stage_settings), scale(kernel, "s", stage, scale_settings), head(kernel, scale), slot(scale.listen(ear)) {}
+        : stage(kernel, "x", stage_settings),
+          scale(kernel, "s", stage, scale_settings),
+          head(kernel, scale),
+          slot(scale.listen(ear)) {}
     void volts(double v) {
         kernel.set_wire(stage.drive_wire(), static_cast<int>(std::lround(v * 1e6)));
         kernel.settle();
@@ -99,8 +102,10 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
         const auto expected = static_cast<std::int64_t>(std::floor(counts));
         RC_ASSERT(rig.scale.lost() == 0);
         // The long double may be on the wrong side where it is next to a whole number.
-        if (std::fabs(counts - std::round(counts)) > 1e-3L) RC_ASSERT(rig.count() == (s.reversed ? -expected : expected));
-        RC_ASSERT(std::fabs(rig.scale.position_nm(rig.kernel.now()) - static_cast<double>(nm)) <= 2 * rig.scale.nm_per_count() + 1e-6);
+        if (std::fabs(counts - std::round(counts)) > 1e-3L)
+            RC_ASSERT(rig.count() == (s.reversed ? -expected : expected));
+        RC_ASSERT(std::fabs(rig.scale.position_nm(rig.kernel.now()) - static_cast<double>(nm)) <=
+                  2 * rig.scale.nm_per_count() + 1e-6);
     }
 }
 
@@ -120,7 +125,8 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     EXPECT_NEAR(static_cast<double>(rig.count() - from), 200e6 * 0.999'999, 2);
     EXPECT_LT(rig.kernel.events() - events, 10u);
     EXPECT_TRUE(rig.scale.trusted());
-    // 2 m are more counts of a finer scale than 32 bits hold; a card that keeps the low 32 bits finds the rest from its last reading.
+    // 2 m are more counts of a finer scale than 32 bits hold; a card that keeps the low 32 bits finds the rest from its
+    // last reading.
     LinearScaleSettings fine;
     fine.pitch_pm = 512'000;
     fine.fastest = 1e9;
@@ -291,8 +297,8 @@ TEST(LinearScale, RidesOnAnyMotion) {
     sim::FakePulses pulses(kernel, {{Instant{0}, microseconds(10), 1}});
     LinearScaleSettings s;
     s.pitch_pm = 20'000'000;
-    s.interpolation = 40;  // 500 nm
-    s.places = 25'600;     // microsteps ...
+    s.interpolation = 40;     // 500 nm
+    s.places = 25'600;        // microsteps ...
     s.places_nm = 5'000'000;  // ... of a turn of 5 mm
     LinearScale scale(kernel, "s", pulses, s);
     kernel.start();

@@ -1,12 +1,11 @@
 // The linear stage's parabolas against small steps of its differential equation; instants, ends, faults, rewinding.
-#include <motionrack/sim/parts/linear_stage.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/sim/parts/linear_stage.hpp>
 #include <vector>
 
 #include "allocation_count.hpp"
@@ -67,7 +66,8 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
         const double time = 1e-4 * *rc::gen::inRange(1, 300);
         rig.run(time);
         stepped.run(time);
-        // Where it turns or meets the top speed, the steps are off by a step's way: 0.25 us of 50 m/s2 last for the rest of the run.
+        // Where it turns or meets the top speed, the steps are off by a step's way: 0.25 us of 50 m/s2 last for the
+        // rest of the run.
         RC_ASSERT(std::fabs(rig.speed() - static_cast<double>(stepped.speed)) < 5e-5);
         RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
         if (s.coulomb == 0 && s.viscous == 0 && stepped.fastest < s.top_speed)
@@ -272,7 +272,9 @@ TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
     EXPECT_EQ(rig.stage.blocked(), 1);
     EXPECT_EQ(rig.speed(), 0);
     ASSERT_EQ(rig.kernel.conditions().size(), 1u);
-    EXPECT_NE(describe(rig.kernel.conditions()[0], "x").find("stage x: at 0.020000 s it ran into its plus end of travel at 1000000 nm"), std::string::npos);
+    EXPECT_NE(describe(rig.kernel.conditions()[0], "x")
+                  .find("stage x: at 0.020000 s it ran into its plus end of travel at 1000000 nm"),
+              std::string::npos);
     rig.volts(2);
     rig.run(1);
     EXPECT_EQ(rig.kernel.conditions().size(), 1u);
@@ -288,7 +290,9 @@ TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
 TEST(LinearStage, FaultsHoldPushBrakeAndLoadIt) {
     Rig rig;
     rig.kernel.start();
-    const auto fault = [&](std::string_view name, double value) { return rig.stage.fault(name, value, rig.kernel.now()); };
+    const auto fault = [&](std::string_view name, double value) {
+        return rig.stage.fault(name, value, rig.kernel.now());
+    };
     rig.volts(1);
     rig.run(0.01);
     EXPECT_TRUE(fault("motor.stall", 1));

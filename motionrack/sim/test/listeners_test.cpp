@@ -10,7 +10,8 @@ namespace {
 
 TEST(Interval, ItsSidesAreLeftAtTheFirstPlaceThatIsOnAnother) {
     constexpr Interval cam{10, 20};
-    for (const auto& [from, last, next] : {std::array<std::int64_t, 3>{5, 9, 10}, {10, 20, 21}, {20, 10, 9}, {30, 21, 20}}) {
+    for (const auto& [from, last, next] :
+         {std::array<std::int64_t, 3>{5, 9, 10}, {10, 20, 21}, {20, 10, 9}, {30, 21, 20}}) {
         EXPECT_FALSE(cam.side_of(from).left(last)) << from;
         EXPECT_TRUE(cam.side_of(from).left(next)) << from;
         EXPECT_NE(cam.has(last), cam.has(next));

@@ -64,7 +64,9 @@ TEST(Track, TravelIsTheIntegralOfTheProfile) {
 }
 
 TEST(Track, CountsOfABlockAreThoseOfItsTicksOneByOne) {
-    const Track track = *Track::make({.profile = {{0.00105, 30}, {0.002, 300}, {0.00201, -50}, {0.004, -51}}, .counts_per_unit = 777.7, .jitter_counts = 0.5});
+    const Track track = *Track::make({.profile = {{0.00105, 30}, {0.002, 300}, {0.00201, -50}, {0.004, -51}},
+                                      .counts_per_unit = 777.7,
+                                      .jitter_counts = 0.5});
     std::vector<std::int32_t> block(700), one(1);
     track.counts(-50, block);
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -111,7 +113,7 @@ TEST(PositionSender, WordsHaveResolutionPeriodAndDelay) {
     std::vector<std::uint32_t> words(2000);
     PositionSender::make(track, {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120})->words(0, words);
     EXPECT_EQ(static_cast<std::int32_t>(words[11]), -5);  // read at -0.05 ms
-    EXPECT_EQ(words[1000], 985u);  // read at 9.85 ms, at hand after 9.97 ms
+    EXPECT_EQ(words[1000], 985u);                         // read at 9.85 ms, at hand after 9.97 ms
     EXPECT_EQ(words[1001], 985u);
     EXPECT_EQ(words[1002], 990u);
     PositionSender::make(track, {.bits_per_mm = -100, .two_axes = true})->words(0, words);
@@ -204,14 +206,17 @@ TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
 
 TEST(Nearest, IsThatOfASearchThroughAllOfThemToTheLastBit) {
     std::vector<Segment> many;
-    const auto place = [](int i, double size) { return sim::Spot{std::fmod(i * 7.13, size), std::fmod(i * i * 0.377, size)}; };
+    const auto place = [](int i, double size) {
+        return sim::Spot{std::fmod(i * 7.13, size), std::fmod(i * i * 0.377, size)};
+    };
     for (int i = 0; i < 300; ++i) {
         const sim::Spot at = place(i, 50), to = i % 40 == 0 ? place(i + 7, 50) : sim::Spot{at.x + 0.3, at.y - 0.2};
         many.push_back({at, to});
     }
     const Nearest all(many);
     for (int i = 0; i < 2000; ++i) {
-        const sim::Spot p = i % 3 == 0 ? many[static_cast<std::size_t>(i) % many.size()].to : sim::Spot{place(i, 90).x - 20, place(i + 1, 90).y - 20};
+        const sim::Spot p = i % 3 == 0 ? many[static_cast<std::size_t>(i) % many.size()].to
+                                       : sim::Spot{place(i, 90).x - 20, place(i + 1, 90).y - 20};
         double best = std::numeric_limits<double>::infinity();
         for (const Segment& s : many) best = std::min(best, Nearest(std::span(&s, 1)).distance(p));
         ASSERT_EQ(all.distance(p), best) << p.x << ' ' << p.y;

@@ -14,15 +14,19 @@ constexpr Duration clock = Duration{6};
 /// A device with a pulse train and nothing else.
 class Divider final : public Device, private PulseTrain::Owner {
   public:
-    explicit Divider(Kernel& k) : train(state_, clock), kernel(k), id(k.add(*this, Phase::cards, "divider")) { train.set_owner(this); }
+    explicit Divider(Kernel& k) : train(state_, clock), kernel(k), id(k.add(*this, Phase::cards, "divider")) {
+        train.set_owner(this);
+    }
     void act(Instant now) override {
         train.act(now);
         train_watched();
     }
     void sync(Instant now) override { train.hand_over(now); }
     void set(std::int64_t divisor, int direction) {
-        if (divisor == 0) train.stop(kernel.now());
-        else train.run(divisor, direction, kernel.now());
+        if (divisor == 0)
+            train.stop(kernel.now());
+        else
+            train.run(divisor, direction, kernel.now());
         train_watched();
     }
     void train_watched() override { kernel.schedule(id, train.next(kernel.now())); }
@@ -62,7 +66,8 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
     std::vector<Instant> edges, crossings;
     std::int64_t at = 0;
     for (int step = 0; step < 12; ++step) {
-        const auto divisor = *rc::gen::weightedOneOf<std::int64_t>({{1, rc::gen::just<std::int64_t>(0)}, {4, rc::gen::inRange<std::int64_t>(1, 9)}});
+        const auto divisor = *rc::gen::weightedOneOf<std::int64_t>(
+            {{1, rc::gen::just<std::int64_t>(0)}, {4, rc::gen::inRange<std::int64_t>(1, 9)}});
         const int turn = *rc::gen::element(1, 1, -1);
         divider.set(divisor, turn);
         if (divisor == 0) {
@@ -85,7 +90,8 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
                 left = reload;
                 high_left = reload / 2;
                 edges.push_back(Instant{at});
-                if (count >= above && above != unwatched_above) crossings.push_back(Instant{at}), above = unwatched_above;
+                if (count >= above && above != unwatched_above)
+                    crossings.push_back(Instant{at}), above = unwatched_above;
             }
             kernel.run_until(Instant{at});
             RC_ASSERT(divider.train.count(Instant{at}) == count);

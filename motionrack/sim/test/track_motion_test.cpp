@@ -51,7 +51,8 @@ struct Edges final : sim::EdgeListener {
     std::vector<Edge> all;
     void edges(const sim::EdgeBatch& batch) override {
         for (std::uint32_t i = 0; i < batch.size; ++i)
-            all.push_back({batch.origin + batch.at[i] * batch.tick, batch.first_count + static_cast<std::int64_t>(i) * batch.step});
+            all.push_back({batch.origin + batch.at[i] * batch.tick,
+                           batch.first_count + static_cast<std::int64_t>(i) * batch.step});
     }
 };
 
@@ -131,7 +132,8 @@ TEST(PartSensor, IsLowWhileAPartIsThereAndCountsThem) {
 TEST(WordSource, AWordIsCompleteTheDelayAfterItsReading) {
     sim::Kernel kernel;
     TrackDrive drive(kernel, "belt", track_of({{0, 1000}}));
-    const PositionSender sender = *PositionSender::make(drive.track(), {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120});
+    const PositionSender sender =
+        *PositionSender::make(drive.track(), {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120});
     WordSource source(kernel, "sender", "belt", sender);
     kernel.start();
     const sim::WireId word = kernel.find_wire("belt.mcbsp"), frame = kernel.find_wire("belt.mcbsp_frame");

@@ -26,14 +26,18 @@ Sweep sweep_of(const std::string& text) {
     return std::move(*reading.sweep);
 }
 
-const std::string grid = "[sweep]\nprogram = \"part.ngc\"\n[vary]\ntext.P = [0.01, 0.5]\ntext.F = { from = 100, to = 200, steps = 4 }\n";
-const std::string chance = "[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\npoints = 40\nseed = 3\n[vary]\ntext.P = [0.01, 0.5]\ntext.F = { from = 100, to = 200 }\n";
+const std::string grid =
+    "[sweep]\nprogram = \"part.ngc\"\n[vary]\ntext.P = [0.01, 0.5]\ntext.F = { from = 100, to = 200, steps = 4 }\n";
+const std::string chance =
+    "[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\npoints = 40\nseed = 3\n[vary]\ntext.P = [0.01, 0.5]\ntext.F "
+    "= { from = 100, to = 200 }\n";
 
 TEST(Sweep, GridChangesItsLastParameterFirst) {
     const Sweep sweep = sweep_of(grid);
     ASSERT_EQ(sweep.points(), 8);
     std::string all;
-    for (std::int64_t i = 0; i < 8; ++i) all += value_text(sweep.values(i)[0]) + " " + value_text(sweep.values(i)[1]) + "\n";
+    for (std::int64_t i = 0; i < 8; ++i)
+        all += value_text(sweep.values(i)[0]) + " " + value_text(sweep.values(i)[1]) + "\n";
     EXPECT_EQ(all, "0.01 100\n0.01 133.33\n0.01 166.67\n0.01 200\n0.5 100\n0.5 133.33\n0.5 166.67\n0.5 200\n");
 }
 
@@ -66,14 +70,20 @@ TEST(Sweep, DrawsEvenly) {
     text.replace(text.find("40"), 2, "4000");
     const Sweep sweep = sweep_of(text);
     double sum = 0, first = 0;
-    for (std::int64_t i = 0; i < sweep.points(); ++i) sum += sweep.values(i)[1].number, first += sweep.values(i)[0].number == 0.01;
+    for (std::int64_t i = 0; i < sweep.points(); ++i)
+        sum += sweep.values(i)[1].number, first += sweep.values(i)[0].number == 0.01;
     EXPECT_NEAR(sum / 4000, 150, 2);
     EXPECT_NEAR(first, 2000, 130);
 }
 
 TEST(Sweep, NumbersBetweenOthersHaveFewDigits) {
-    for (const auto& [value, from, to, text] : std::vector<std::tuple<double, double, double, std::string>>{
-             {0.1 + 0.2, 0, 1, "0.3"}, {1.0 / 3, 0, 1, "0.3333"}, {1234.5678901, 500, 4000, "1234.6"}, {-3e-7 / 7, -1e-6, 0, "-0.00000004286"}, {123456789.0 / 7, 0, 1e9, "17636684"}, {0.99999999, 0, 0.99999, "0.99999"}})
+    for (const auto& [value, from, to, text] :
+         std::vector<std::tuple<double, double, double, std::string>>{{0.1 + 0.2, 0, 1, "0.3"},
+                                                                      {1.0 / 3, 0, 1, "0.3333"},
+                                                                      {1234.5678901, 500, 4000, "1234.6"},
+                                                                      {-3e-7 / 7, -1e-6, 0, "-0.00000004286"},
+                                                                      {123456789.0 / 7, 0, 1e9, "17636684"},
+                                                                      {0.99999999, 0, 0.99999, "0.99999"}})
         EXPECT_EQ(rack::number_text(tidied(value, {from, to, false})), text);
     EXPECT_EQ(tidied(2.6, {1, 4, true}), 3);
 }
@@ -140,7 +150,8 @@ TEST(Point, HasLostStepsThoughItFoundThemAgainByChance) {
 
 TEST(SweepFile, TakesAnyTextWithoutHarm) {
     std::mt19937 random(7);
-    const std::string seed_text = grid + "fault = [\"X.motor.stall@1s\"]\naxis.X.max_mm = { from = 1, to = 9, steps = 3, whole = true }\n";
+    const std::string seed_text =
+        grid + "fault = [\"X.motor.stall@1s\"]\naxis.X.max_mm = { from = 1, to = 9, steps = 3, whole = true }\n";
     for (int i = 0; i < 20'000; ++i) {
         std::string text = seed_text;
         for (int k = 0; k < 4; ++k) text[random() % text.size()] = "[]{}=\"',.\n#0123456789eE-+ ax"[random() % 29];

@@ -69,7 +69,8 @@ TEST(DiffOfRecordings, TellsOfWhatTheyAreMadeAndSignalsOfOneAlone) {
     const Diff diff = diff_of(a, b);
     EXPECT_TRUE(diff.differences.empty());
     EXPECT_THAT(diff.only_b, ElementsAre("estop"));
-    EXPECT_THAT(diff.made_of, ElementsAre("the programs differ, first in line 2", HasSubstr("hold at 0.0010000 s"), HasSubstr("trace_hash")));
+    EXPECT_THAT(diff.made_of, ElementsAre("the programs differ, first in line 2", HasSubstr("hold at 0.0010000 s"),
+                                          HasSubstr("trace_hash")));
     EXPECT_EQ(diff.notes.size(), 1u);
     EXPECT_FALSE(diff.same());
 }
@@ -94,7 +95,7 @@ TEST(DiffOfRecordings, OfOneThatWasCutOffGoesAsFarAsThatOneDoes) {
     }
 }
 
-// ---- VCD --------------------------------------------------------------------------------------------------------------
+// ---- VCD
 
 struct Waves {
     std::vector<std::pair<int, std::uint64_t>> changes;  ///< signal, value; 1 us apart
@@ -109,10 +110,12 @@ void write_vcd(const Waves& waves, const std::string& path) {
     ASSERT_TRUE(vcd);
     vcd->push_scope("x");
     std::vector<VcdWriter::Id> ids;
-    for (int i = 0; i < waves.signals; ++i) ids.push_back(i == 0 ? vcd->add_wire("step") : vcd->add_vector("v" + std::to_string(i), 16));
+    for (int i = 0; i < waves.signals; ++i)
+        ids.push_back(i == 0 ? vcd->add_wire("step") : vcd->add_vector("v" + std::to_string(i), 16));
     vcd->pop_scope();
     std::int64_t at = 0;
-    for (const auto& [signal, value] : waves.changes) vcd->change(ids[static_cast<std::size_t>(signal)], value, microseconds(++at));
+    for (const auto& [signal, value] : waves.changes)
+        vcd->change(ids[static_cast<std::size_t>(signal)], value, microseconds(++at));
     ASSERT_TRUE(vcd->close(microseconds(at + 1)));
 }
 
@@ -160,9 +163,12 @@ Result<Diff> diff_of_texts(const std::string& a, const std::string& b, const std
 }
 
 TEST(DiffOfWaves, IsToldWhereAVcdFileIsNone) {
-    const std::string head = "$timescale 1 ns $end $scope module x $end $var wire 1 ! a $end $upscope $end $enddefinitions $end\n";
-    for (const std::string& bad : {std::string("$timescale 1 ns"), std::string("$timescale 3 ns $end"), head + "#5 #4\n", head + "1? \n", head + "hello \n", head + "#-1 \n",
-                                   std::string("$var wire 1 $end"), std::string("$upscope $end"), std::string("$enddefinitions $end"), head + "#99999999999999999999999 \n"}) {
+    const std::string head =
+        "$timescale 1 ns $end $scope module x $end $var wire 1 ! a $end $upscope $end $enddefinitions $end\n";
+    for (const std::string& bad :
+         {std::string("$timescale 1 ns"), std::string("$timescale 3 ns $end"), head + "#5 #4\n", head + "1? \n",
+          head + "hello \n", head + "#-1 \n", std::string("$var wire 1 $end"), std::string("$upscope $end"),
+          std::string("$enddefinitions $end"), head + "#99999999999999999999999 \n"}) {
         const auto diff = diff_of_texts(head + "#5 1! \n", bad, "vcd");
         ASSERT_FALSE(diff) << bad;
         EXPECT_EQ(diff.error().trouble, Trouble::bad_input);
@@ -170,11 +176,12 @@ TEST(DiffOfWaves, IsToldWhereAVcdFileIsNone) {
     EXPECT_TRUE(diff_of_texts(head + "#5 1!\n", head + "$comment x $end #5\n$dumpvars 1! $end\n#9\n", "vcd")->same());
 }
 
-// ---- CSV --------------------------------------------------------------------------------------------------------------
+// ---- CSV
 
 TEST(DiffOfTables, FindsTheFirstFieldOfEachColumnThatDiffers) {
-    const auto diff = diff_of_texts("time_s,x_position_mm,note\r\n0,0,a\r\n0.001,0.5,\"b,c\"\r\n0.002,0.75,d\r\n",
-                                    "time_s,x_position_mm,note,more\n0,0.0,a,1\n1e-3,5e-1,\"b,d\",1\n0.002,0.76,e,1\n", "csv");
+    const auto diff =
+        diff_of_texts("time_s,x_position_mm,note\r\n0,0,a\r\n0.001,0.5,\"b,c\"\r\n0.002,0.75,d\r\n",
+                      "time_s,x_position_mm,note,more\n0,0.0,a,1\n1e-3,5e-1,\"b,d\",1\n0.002,0.76,e,1\n", "csv");
     ASSERT_TRUE(diff) << diff.error().text();
     ASSERT_EQ(diff->differences.size(), 2u);
     EXPECT_EQ(diff->differences[0].signal, "note");
@@ -199,11 +206,13 @@ TEST(DiffOfTables, TellsWhichOneEndsFirst) {
 }
 
 TEST(DiffOfTables, ComparesTablesOfChangesByInstant) {
-    const auto diff = diff_of_texts("time_s,signal,value\n0,X.step,0\n0.0000001250,X.step,1\n", "time_s,signal,value\n0,X.step,0\n0.0000001251,X.step,1\n", "csv");
+    const auto diff = diff_of_texts("time_s,signal,value\n0,X.step,0\n0.0000001250,X.step,1\n",
+                                    "time_s,signal,value\n0,X.step,0\n0.0000001251,X.step,1\n", "csv");
     ASSERT_TRUE(diff) << diff.error().text();
     ASSERT_EQ(diff->differences.size(), 1u);
     EXPECT_EQ(diff->differences[0].at, Instant{1250});
-    EXPECT_THAT(diff_text(*diff, "a", "b"), HasSubstr("X.step, at 0.0000001250 s (125.0 ns, tick 1250)\n    A: 1\n    B: 0\n"));
+    EXPECT_THAT(diff_text(*diff, "a", "b"),
+                HasSubstr("X.step, at 0.0000001250 s (125.0 ns, tick 1250)\n    A: 1\n    B: 0\n"));
 }
 
 TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
@@ -212,14 +221,16 @@ TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
     std::ofstream(scratch.path("b.vcd")) << "$timescale 1 ns $end $enddefinitions $end\n";
     std::ofstream(scratch.path("c.bin")) << "\x01\x02";
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("b.vcd")).error().message, HasSubstr("same kind"));
-    EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("c.bin")).error().message, HasSubstr("none that is read"));
+    EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("c.bin")).error().message,
+                HasSubstr("none that is read"));
     EXPECT_EQ(diff_files(scratch.path("a.csv"), scratch.path("nowhere")).error().trouble, Trouble::io);
 }
 
 TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
     const Scratch scratch;
-    std::ofstream(scratch.path("a.csv")) << "time_s,x_position_mm,a_speed_deg_s,y_drive_v,deviation_mm,driven_x_mm,driven_y_mm,driven_z_mm,other\n"
-                                            "0,1,-7,3,0.5,1,2,3,q\n0.001,1.5,,4,,1,2,3,q\n";
+    std::ofstream(scratch.path("a.csv"))
+        << "time_s,x_position_mm,a_speed_deg_s,y_drive_v,deviation_mm,driven_x_mm,driven_y_mm,driven_z_mm,other\n"
+           "0,1,-7,3,0.5,1,2,3,q\n0.001,1.5,,4,,1,2,3,q\n";
     const auto data = report_from_csv(scratch.path("a.csv"));
     ASSERT_TRUE(data) << data.error().text();
     ASSERT_EQ(data->axes.size(), 3u);
@@ -232,7 +243,8 @@ TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
     std::ofstream(scratch.path("sheet.csv")) << "\xEF\xBB\xBFtime_s,x_position_mm\r\n0,1\r\n\r\n1,2\r\n\r\n";
     const auto sheet = report_from_csv(scratch.path("sheet.csv"));
     ASSERT_TRUE(sheet) << sheet.error().text();
-    EXPECT_THAT(sheet->axes[0].position, ElementsAre(1.0F, 2.0F)) << "a byte order mark and empty lines are a spreadsheet's";
+    EXPECT_THAT(sheet->axes[0].position, ElementsAre(1.0F, 2.0F))
+        << "a byte order mark and empty lines are a spreadsheet's";
     std::ofstream(scratch.path("b.csv")) << "time_s,event\n0,block\n";
     EXPECT_FALSE(report_from_csv(scratch.path("b.csv")));
     std::ofstream(scratch.path("c.csv")) << "time_s,x_position_mm\n1,1\n0,1\n";

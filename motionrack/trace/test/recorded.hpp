@@ -37,7 +37,8 @@ struct PlainRecording {
         head.rack_file = "bench.toml";
         head.rack = "[rack]\nname = \"bench\"\n";
         head.sample_period = milliseconds(1);
-        head.axes = {{"X", "mm", false, 640, 800, 10, 0, 300, 50, 1000}, {"Y", "mm", true, 1000, 1000, 0, -5, 5, 20, 500}};
+        head.axes = {{"X", "mm", false, 640, 800, 10, 0, 300, 50, 1000},
+                     {"Y", "mm", true, 1000, 1000, 0, -5, 5, 20, 500}};
         head.signals = {{"X.steps", "axes/x/steps", SignalKind::steps, "step", 0},
                         {"X.encoder", "axes/x/encoder", SignalKind::counts, "count", 0},
                         {"Y.encoder", "axes/y/encoder", SignalKind::counts, "count", -3},
@@ -77,10 +78,13 @@ struct PlainRecording {
     }
 
   private:
-    static void put(RecordingWriter& writer, const PlainSample& sample) { writer.sample(Instant{sample.at}, sample.deviation, sample.axes); }
+    static void put(RecordingWriter& writer, const PlainSample& sample) {
+        writer.sample(Instant{sample.at}, sample.deviation, sample.axes);
+    }
 };
 
-inline std::vector<std::pair<std::int64_t, std::int64_t>> events_of(const RecordingReader& reader, const std::string& name) {
+inline std::vector<std::pair<std::int64_t, std::int64_t>> events_of(const RecordingReader& reader,
+                                                                    const std::string& name) {
     std::vector<std::pair<std::int64_t, std::int64_t>> out;
     const RecordedSeries* series = reader.find(name);
     if (series == nullptr) return out;
@@ -99,10 +103,17 @@ inline PlainRecording busy(std::size_t events, std::int64_t apart = 1250) {
     std::int64_t count[5] = {0, 0, -3, 1, 6400};
     for (std::size_t i = 0; i < events; ++i) {
         const std::size_t signal = i % 7 < 5 ? i % 7 : 0;
-        const std::int64_t at = static_cast<std::int64_t>(i) * apart + static_cast<std::int64_t>(i * i % 97), step = i / 1000 % 2 == 0 ? 1 : -1;
-        const std::int64_t value = signal == 0 ? step : signal == 3 ? static_cast<std::int64_t>(i / 350 % 2) : (count[signal] += step);
+        const std::int64_t at = static_cast<std::int64_t>(i) * apart + static_cast<std::int64_t>(i * i % 97),
+                           step = i / 1000 % 2 == 0 ? 1 : -1;
+        const std::int64_t value = signal == 0   ? step
+                                   : signal == 3 ? static_cast<std::int64_t>(i / 350 % 2)
+                                                 : (count[signal] += step);
         out.events.push_back({signal, at, value});
-        if (i % 10 == 0) out.samples.push_back({at, static_cast<double>(i % 13) * 1e-4, {{10 + 0.001 * static_cast<double>(i), 10, 3.5, 0.25F, 0}, {-0.5, -0.5, 0.1, 2, 7.5F}}});
+        if (i % 10 == 0)
+            out.samples.push_back(
+                {at,
+                 static_cast<double>(i % 13) * 1e-4,
+                 {{10 + 0.001 * static_cast<double>(i), 10, 3.5, 0.25F, 0}, {-0.5, -0.5, 0.1, 2, 7.5F}}});
     }
     out.end.at = Instant{static_cast<std::int64_t>(events + 1) * apart + 1000};
     return out;

@@ -34,7 +34,8 @@ RC_GTEST_PROP(Recording, GivesBackEveryEventWithItsTick, ()) {
     RC_ASSERT(reader.has_value());
     RC_ASSERT(reader->whole());
     RC_ASSERT(reader->known_to() == plain.end.at);
-    for (std::size_t i = 0; i < plain.head.signals.size(); ++i) RC_ASSERT(events_of(*reader, plain.head.signals[i].name) == plain.expected(i));
+    for (std::size_t i = 0; i < plain.head.signals.size(); ++i)
+        RC_ASSERT(events_of(*reader, plain.head.signals[i].name) == plain.expected(i));
 }
 
 TEST(Recording, GivesBackMoreThanItsBuffersHold) {
@@ -43,7 +44,8 @@ TEST(Recording, GivesBackMoreThanItsBuffersHold) {
     ASSERT_TRUE(plain.write(scratch.path("a.h5")));
     const auto reader = RecordingReader::open(scratch.path("a.h5"));
     ASSERT_TRUE(reader) << reader.error().text();
-    for (std::size_t i = 0; i < plain.head.signals.size(); ++i) EXPECT_EQ(events_of(*reader, plain.head.signals[i].name), plain.expected(i)) << i;
+    for (std::size_t i = 0; i < plain.head.signals.size(); ++i)
+        EXPECT_EQ(events_of(*reader, plain.head.signals[i].name), plain.expected(i)) << i;
 }
 
 TEST(Recording, KeepsWhatWasRunAndWhatCameOfIt) {
@@ -65,7 +67,8 @@ TEST(Recording, KeepsWhatWasRunAndWhatCameOfIt) {
     EXPECT_TRUE(reader->head().block_delete && reader->head().live && !reader->head().stream);
     EXPECT_EQ(reader->began(), Instant{7});
     EXPECT_EQ(reader->outcome(), plain.end.outcome);
-    const std::vector<RecordedInput> inputs = {{milliseconds(5), "fault X.limit_plus=0"}, {whole_seconds(2), "hold"}, {whole_seconds(3), "stop"}};
+    const std::vector<RecordedInput> inputs = {
+        {milliseconds(5), "fault X.limit_plus=0"}, {whole_seconds(2), "hold"}, {whole_seconds(3), "stop"}};
     EXPECT_EQ(reader->inputs(), inputs);
 }
 
@@ -109,7 +112,7 @@ RC_GTEST_PROP(ReportJson, KeepsEveryBitOfANumber, (double value, std::int64_t wh
     RC_ASSERT(back->notes[0] == text);
 }
 
-// ---- cut off ----------------------------------------------------------------------------------------------------------
+// ---- cut off
 
 /// Writes until it kills itself, with a flush after every `flush` events and events after the last one.
 void write_and_die(const PlainRecording& plain, const std::string& path, std::size_t flush) {
@@ -151,7 +154,7 @@ TEST(Recording, OfAKilledProgramHasAllThatWasFlushed) {
     }
 }
 
-// ---- damage -----------------------------------------------------------------------------------------------------------
+// ---- damage
 
 /// Reads all of it; whether that succeeded, and a sentence if it did not.
 bool read_all(const std::string& path) {
@@ -167,13 +170,16 @@ bool read_all(const std::string& path) {
         std::vector<double> values(1 << 12);
         for (std::uint64_t from = 0; from < columns->size; from += values.size()) {
             const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(values.size(), columns->size - from));
-            good = good && columns->time.read(from, count, values.data()) && columns->value.read(from, count, values.data());
+            good = good && columns->time.read(from, count, values.data()) &&
+                   columns->value.read(from, count, values.data());
         }
     }
     return good && reader->report().has_value();
 }
 
-void put_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void put_bytes(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 
 TEST(Recording, ThatWasDamagedIsToldAndNeverTakenForGood) {
     const Scratch scratch;
@@ -186,7 +192,8 @@ TEST(Recording, ThatWasDamagedIsToldAndNeverTakenForGood) {
     for (int round = 0; round < 400; ++round) {
         std::string bytes = good;
         const std::size_t from = random() % bytes.size(), length = round % 3 == 0 ? 1 : 1 + random() % 64;
-        for (std::size_t i = from; i < std::min(bytes.size(), from + length); ++i) bytes[i] = static_cast<char>(bytes[i] ^ static_cast<char>(1 + random() % 255));
+        for (std::size_t i = from; i < std::min(bytes.size(), from + length); ++i)
+            bytes[i] = static_cast<char>(bytes[i] ^ static_cast<char>(1 + random() % 255));
         put_bytes(scratch.path("bad.h5"), bytes);
         unharmed += read_all(scratch.path("bad.h5"));
     }
@@ -209,14 +216,16 @@ TEST(Recording, RefusesWhatIsNone) {
     put_bytes(scratch.path("text"), "G1 X1\n");
     put_bytes(scratch.path("empty"), "");
     put_bytes(scratch.path("head"), std::string("\x89HDF\r\n\x1a\n", 8) + std::string(5000, '\x55'));
-    EXPECT_THAT(RecordingReader::open(scratch.path("text")).error().message, HasSubstr("does not begin as an HDF5 file"));
+    EXPECT_THAT(RecordingReader::open(scratch.path("text")).error().message,
+                HasSubstr("does not begin as an HDF5 file"));
     EXPECT_THAT(RecordingReader::open(scratch.path("empty")).error().message, HasSubstr("empty"));
     EXPECT_THAT(RecordingReader::open(scratch.path("head")).error().message, HasSubstr("damaged"));
     EXPECT_EQ(RecordingReader::open(scratch.path("nowhere")).error().trouble, Trouble::io);
     EXPECT_EQ(RecordingReader::open(scratch.path("")).error().trouble, Trouble::io) << "a folder";
     auto other = hdf5::File::create(scratch.path("other.h5"));
     ASSERT_TRUE(other && other->close());
-    EXPECT_THAT(RecordingReader::open(scratch.path("other.h5")).error().message, HasSubstr("no recording of motionrack"));
+    EXPECT_THAT(RecordingReader::open(scratch.path("other.h5")).error().message,
+                HasSubstr("no recording of motionrack"));
     auto later = hdf5::File::create(scratch.path("later.h5"));
     later->set("/", "format", "motionrack recording");
     later->set("/", "format_version", recording_format + 1);

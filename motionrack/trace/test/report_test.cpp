@@ -218,8 +218,10 @@ TEST(Report, ShowsPicturesTablesSeriesAndAFileAndNothingOfThemBreaksOut) {
     data.series.push_back({"Level, mm", "x", {0, 5, 2}, "field", {-6, 6}});
     data.source = ReportSource{"The <file>", "a = '</pre>'\n\tb\n"};
     const std::string page = report_html(data);
-    for (const char* seen : {"Job <b>&lt;job&gt;</b>", "&lt;b&gt;A&lt;/b&gt;", "<span>first &amp; last</span><span>second</span>", "<svg class=\"mine\"></svg>", "figure class=\"card wide\"",
-                             "<h2>T&lt;</h2>", "&lt;i&gt;cell&lt;/i&gt;", "and 1 more", "Level, mm", "field -6 ", "a = &#39;&lt;/pre&gt;&#39;\n"})
+    for (const char* seen :
+         {"Job <b>&lt;job&gt;</b>", "&lt;b&gt;A&lt;/b&gt;", "<span>first &amp; last</span><span>second</span>",
+          "<svg class=\"mine\"></svg>", "figure class=\"card wide\"", "<h2>T&lt;</h2>", "&lt;i&gt;cell&lt;/i&gt;",
+          "and 1 more", "Level, mm", "field -6 ", "a = &#39;&lt;/pre&gt;&#39;\n"})
         EXPECT_NE(page.find(seen), std::string::npos) << seen;
     EXPECT_EQ(count(page, "<td class=\"t\">&lt;i&gt;"), 2000U);
     EXPECT_EQ(drawing_of(page)["charts"].size(), 1U);

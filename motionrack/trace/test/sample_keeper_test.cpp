@@ -24,7 +24,8 @@ TEST(ASampleKeeper, KeepsTheGreatestDeviationWhereverItIs) {
         ASSERT_EQ(keeper.samples().size(), keeper.deviations().size());
         const auto found = std::max_element(keeper.deviations().begin(), keeper.deviations().end());
         ASSERT_EQ(*found, 7) << "of sample " << worst;
-        ASSERT_LE(keeper.samples()[static_cast<std::size_t>(found - keeper.deviations().begin())], worst) << "it is told at the sample that it became one with";
+        ASSERT_LE(keeper.samples()[static_cast<std::size_t>(found - keeper.deviations().begin())], worst)
+            << "it is told at the sample that it became one with";
     }
 }
 

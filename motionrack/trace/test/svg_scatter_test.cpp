@@ -19,7 +19,9 @@ std::size_t count(const std::string& text, const std::string& what) {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(SvgScatter, DrawsADotForEachValueAndACrossForWhatEndedBadly) {
-    const std::string svg = svg_scatter({"time, s", "feed <b>", {}, {{"a & b", "x", {{1, 2}, {2, 3}, {3, 1, true}, {4, nan, true}}, true}}}, {400, 200, true});
+    const std::string svg =
+        svg_scatter({"time, s", "feed <b>", {}, {{"a & b", "x", {{1, 2}, {2, 3}, {3, 1, true}, {4, nan, true}}, true}}},
+                    {400, 200, true});
     EXPECT_EQ(count(svg, "<circle"), 2u);
     EXPECT_EQ(count(svg, "m-4-4l8 8m-8 0l8-8"), 2u);
     EXPECT_EQ(count(svg, "class=\"line x\" points"), 2u) << "the line, and that of the name";
@@ -29,7 +31,11 @@ TEST(SvgScatter, DrawsADotForEachValueAndACrossForWhatEndedBadly) {
 }
 
 TEST(SvgScatter, HasNamesInPlaceOfNumbers) {
-    const std::string svg = svg_scatter({"time, s", "fault", {"none", "a fault with a name that is far too long for its place"}, {{"", "z", {{0, 2}, {1, 3}}, false}}}, {300, 200, true});
+    const std::string svg = svg_scatter({"time, s",
+                                         "fault",
+                                         {"none", "a fault with a name that is far too long for its place"},
+                                         {{"", "z", {{0, 2}, {1, 3}}, false}}},
+                                        {300, 200, true});
     EXPECT_THAT(svg, HasSubstr(">none<"));
     EXPECT_THAT(svg, HasSubstr(">a fault with a n..<"));
 }
@@ -37,7 +43,8 @@ TEST(SvgScatter, HasNamesInPlaceOfNumbers) {
 TEST(SvgScatter, DrawsNothingOneAndVeryMany) {
     EXPECT_THAT(svg_scatter({"t", "x", {}, {}}), testing::EndsWith("</svg>\n"));
     EXPECT_EQ(count(svg_scatter({"t", "x", {}, {{"", "z", {{5, 5}}, true}}}), "<circle"), 1u);
-    EXPECT_THAT(svg_scatter({"t", "x", {}, {{"", "z", {{1e15, 1e300}, {1e15 + 1, -1e300}}, true}}}), testing::EndsWith("</svg>\n"));
+    EXPECT_THAT(svg_scatter({"t", "x", {}, {{"", "z", {{1e15, 1e300}, {1e15 + 1, -1e300}}, true}}}),
+                testing::EndsWith("</svg>\n"));
     SvgDots many{"", "z", {}, false};
     for (int i = 0; i < 100'000; ++i) many.dots.push_back({static_cast<double>(i), static_cast<double>(i % 7)});
     EXPECT_LE(count(svg_scatter({"t", "x", {}, {many}}), "<circle"), most_dots);

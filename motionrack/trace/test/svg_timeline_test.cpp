@@ -12,7 +12,8 @@ const std::vector<double> seconds = {0, 1, 2, 3};
 const std::vector<float> values = {0, 5, 5, 1};
 
 std::string picture(const std::vector<SvgSpan>& spans) {
-    const std::vector<SvgChart> charts = {{"position, mm", {{"", "z", seconds, values}}, {}}, {"speed, mm/s", {{"", "y", seconds, values}}, {}}};
+    const std::vector<SvgChart> charts = {{"position, mm", {{"", "z", seconds, values}}, {}},
+                                          {"speed, mm/s", {{"", "y", seconds, values}}, {}}};
     return svg_timeline("A <title>", charts, spans, {720, 500, true});
 }
 
@@ -31,14 +32,16 @@ TEST(SvgTimeline, NamesOfShortSpansDoNotCoverEachOther) {
     const std::string out = picture(spans);
     const std::regex place(R"(translate\(([0-9.]+) )");
     std::vector<double> at;
-    for (auto it = std::sregex_iterator(out.begin(), out.end(), place); it != std::sregex_iterator(); ++it) at.push_back(std::stod((*it)[1]));
+    for (auto it = std::sregex_iterator(out.begin(), out.end(), place); it != std::sregex_iterator(); ++it)
+        at.push_back(std::stod((*it)[1]));
     ASSERT_EQ(at.size(), 12u);
     for (std::size_t i = 1; i < at.size(); ++i) EXPECT_GE(at[i] - at[i - 1], 13.9);
     EXPECT_LE(at.back(), 720);
 }
 
 TEST(SvgTimeline, NamesTheLinesOfAChart) {
-    const std::vector<SvgChart> charts = {{"speed", {{"planned", "x", seconds, values}, {"driven", "y", seconds, values}}, {}}};
+    const std::vector<SvgChart> charts = {
+        {"speed", {{"planned", "x", seconds, values}, {"driven", "y", seconds, values}}, {}}};
     const std::string out = svg_timeline("A title", charts, {}, {720, 200, true});
     EXPECT_THAT(out, testing::HasSubstr(">planned</text>"));
     EXPECT_THAT(out, testing::HasSubstr(">driven</text>"));

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 int main(void) {
-    mr_rack *rack = NULL;
+    mr_rack* rack = NULL;
     uint16_t low = 0;
     if (mr_rack_open("card.c1 = \"mcx314\"", &rack) != MR_OK) {
         fprintf(stderr, "%s\n", mr_last_error());

@@ -1,28 +1,32 @@
 // The states of the search, one look at a time.
-#include <motionrack/cards/databoard4002/axes/home_search.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <motionrack/cards/databoard4002/axes/home_search.hpp>
 
 namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> names = {"", "BACK", "BACK_STOP", "SEARCH", "SEARCH_STOP", "SLOW", "SLOW_STOP", "HOMED", "FAILED"};
+constexpr std::array<std::string_view, 9> names = {"",     "BACK",      "BACK_STOP", "SEARCH", "SEARCH_STOP",
+                                                   "SLOW", "SLOW_STOP", "HOMED",     "FAILED"};
 
 }  // namespace
 
-std::string_view HomeSearch::state_name() const { return names[static_cast<std::size_t>(state_)]; }
-
-tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
-    const std::string where = state_ == State::idle ? "Nothing was moved" : fmt::format("It was stopped in {}", state_name());
-    return fail(Trouble::machine, fmt::format("Homing of axis {}: {}. {}; the position is not trusted.", frame_.name, why, where));
+std::string_view HomeSearch::state_name() const {
+    return names[static_cast<std::size_t>(state_)];
 }
 
-// ---- beginning and ending -------------------------------------------------------------------------------------------
+tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
+    const std::string where =
+        state_ == State::idle ? "Nothing was moved" : fmt::format("It was stopped in {}", state_name());
+    return fail(Trouble::machine,
+                fmt::format("Homing of axis {}: {}. {}; the position is not trusted.", frame_.name, why, where));
+}
+
+// ---- beginning and ending
 
 void HomeSearch::begin(const control::HomeOrder& order, const HomeFrame& frame, Instant now) {
     order_ = order;
@@ -59,13 +63,15 @@ void HomeSearch::fail_with(const Error& error, Instant now) {
 
 void HomeSearch::stop() {
     if (!running()) return;
-    fail_with({Trouble::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not trusted.", frame_.name, state_name())},
+    fail_with({Trouble::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not trusted.",
+                                             frame_.name, state_name())},
               host_.now());
 }
 
 void HomeSearch::leave(Instant now) {
     if (state_ == State::idle) return;
-    outcome_.stays.push_back({std::string(state_name()), since(entered_), to_seconds(now - entered_), entered_way_, way_});
+    outcome_.stays.push_back(
+        {std::string(state_name()), since(entered_), to_seconds(now - entered_), entered_way_, way_});
 }
 
 /// Turns ways into places, which are known from here on.
@@ -83,12 +89,13 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
     if (zeroed_) outcome_.moved_by = order_.position - place(home_way_);
 }
 
-// ---- entering a state -----------------------------------------------------------------------------------------------
+// ---- entering a state
 
 /// The events that make the counter 0 in the present state.
 std::uint8_t HomeSearch::marks() const {
     if (!marking()) return 0;
-    const bool index = order_.type == control::HomeType::index_after_switch || (order_.type == control::HomeType::twice_and_index && state_ == State::slow);
+    const bool index = order_.type == control::HomeType::index_after_switch ||
+                       (order_.type == control::HomeType::twice_and_index && state_ == State::slow);
     return static_cast<std::uint8_t>(event::REF | (index ? event::ZERO : 0));
 }
 
@@ -99,11 +106,13 @@ Result<void> HomeSearch::drive(bool towards, int rate) {
         stop_seen_ = host_.now();  // no edge comes of it
         return {};
     }
-    const std::int64_t far = std::clamp<std::int64_t>(counts_ + (forward_ ? frame_.travel : -frame_.travel), map::least_24, map::greatest_24);
+    const std::int64_t far = std::clamp<std::int64_t>(counts_ + (forward_ ? frame_.travel : -frame_.travel),
+                                                      map::least_24, map::greatest_24);
     MOTIONRACK_CHECK(driver_.on_regulation());
     MOTIONRACK_CHECK(driver_.set_rate(rate));
     MOTIONRACK_CHECK(driver_.set_target(far));
-    MOTIONRACK_TRY(const Events old, driver_.enable_events(static_cast<std::uint8_t>(marks() | event::POSITION | event::STOP)));
+    MOTIONRACK_TRY(const Events old,
+                   driver_.enable_events(static_cast<std::uint8_t>(marks() | event::POSITION | event::STOP)));
     static_cast<void>(old);
     return driver_.go();
 }
@@ -116,14 +125,18 @@ Result<void> HomeSearch::enter(State state, Instant now) {
     marked_ = counted_ = seen_ = off_ = false;
     stop_seen_ = never;
     switch (state) {
-        case State::back: return drive(false, frame_.speed_rate);
-        case State::search: return drive(true, frame_.speed_rate);
-        case State::slow: return drive(true, frame_.slow_rate);
-        default: return driver_.quit();  // the stops
+        case State::back:
+            return drive(false, frame_.speed_rate);
+        case State::search:
+            return drive(true, frame_.speed_rate);
+        case State::slow:
+            return drive(true, frame_.slow_rate);
+        default:
+            return driver_.quit();  // the stops
     }
 }
 
-// ---- looking --------------------------------------------------------------------------------------------------------
+// ---- looking
 
 void HomeSearch::step(Instant now) {
     if (!running()) return;
@@ -159,8 +172,10 @@ Result<void> HomeSearch::look_at_events(Instant now) {
     if ((seen.word & marks()) != 0) {
         marked_ = true;
     } else if (seen.position() && (marking() || state_ == State::back)) {
-        return failed(fmt::format("no {} was found on a way of {:.3f} {}; look at its wire", marks() == (event::REF | event::ZERO) ? "zero pulse under the reference" : "reference",
-                                  static_cast<double>(frame_.travel) / frame_.counts_per_unit, frame_.unit));
+        return failed(
+            fmt::format("no {} was found on a way of {:.3f} {}; look at its wire",
+                        marks() == (event::REF | event::ZERO) ? "zero pulse under the reference" : "reference",
+                        static_cast<double>(frame_.travel) / frame_.counts_per_unit, frame_.unit));
     }
     if (!marking() || marked_) return {};
     MOTIONRACK_CHECK(driver_.enable_events(static_cast<std::uint8_t>(marks() | others)));
@@ -176,11 +191,13 @@ Result<void> HomeSearch::look_at_stop(Instant now) {
     if (!(marking() || state_ == State::back) || !status.end_stop(forward_)) return {};
     if (state_ == State::search && order_.turn_at_limit && !turned_) {
         turned_ = true;
-        outcome_.notes.push_back(fmt::format("the {} end stop was met first; the reference was searched the other way", forward_ ? "right" : "left"));
+        outcome_.notes.push_back(fmt::format("the {} end stop was met first; the reference was searched the other way",
+                                             forward_ ? "right" : "left"));
         MOTIONRACK_CHECK(driver_.quit());
         return enter(State::back, now);
     }
-    return failed(fmt::format("the {} end stop is active and no reference was found before it", forward_ ? "right" : "left"));
+    return failed(
+        fmt::format("the {} end stop is active and no reference was found before it", forward_ ? "right" : "left"));
 }
 
 Result<void> HomeSearch::look(Instant now) {
@@ -188,10 +205,13 @@ Result<void> HomeSearch::look(Instant now) {
     MOTIONRACK_CHECK(count(now));
     if (now >= stop_seen_) return look_at_stop(now);
     switch (state_) {
-        case State::back: return look_back(now);
+        case State::back:
+            return look_back(now);
         case State::search:
-        case State::slow: return look_search(now);
-        default: return now - still_since_ >= frame_.settle ? look_standing(now) : Result<void>{};
+        case State::slow:
+            return look_search(now);
+        default:
+            return now - still_since_ >= frame_.settle ? look_standing(now) : Result<void>{};
     }
 }
 
@@ -203,7 +223,8 @@ Result<void> HomeSearch::look_back(Instant now) {
     } else if (seen_ && !off_) {
         off_ = true;
         off_way_ = way_;
-        outcome_.edges.push_back({"switch off", std::string(state_name()), way_, std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
+        outcome_.edges.push_back({"switch off", std::string(state_name()), way_,
+                                  std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
                                   std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     }
     if (!off_ || std::fabs(way_ - off_way_) < order_.clearance * frame_.counts_per_unit) return {};
@@ -212,19 +233,21 @@ Result<void> HomeSearch::look_back(Instant now) {
 
 Result<void> HomeSearch::look_search(Instant now) {
     if (!marked_) return {};
-    outcome_.edges.push_back({(marks() & event::ZERO) != 0 ? "index" : "switch on", std::string(state_name()), home_way_, 0,
-                              std::fabs(pace_) / frame_.counts_per_unit, since(now)});
+    outcome_.edges.push_back({(marks() & event::ZERO) != 0 ? "index" : "switch on", std::string(state_name()),
+                              home_way_, 0, std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     zeroed_ = true;
     return enter(state_ == State::search ? State::search_stop : State::slow_stop, now);
 }
 
 Result<void> HomeSearch::look_standing(Instant now) {
     switch (state_) {
-        case State::back_stop: return enter(twice() ? State::slow : State::search, now);
+        case State::back_stop:
+            return enter(twice() ? State::slow : State::search, now);
         case State::search_stop:
             if (twice()) return enter(State::back, now);
             break;
-        default: break;
+        default:
+            break;
     }
     MOTIONRACK_CHECK(driver_.enable_events(0));
     finish(State::homed, fmt::format("Axis {} is homed.", frame_.name), now);

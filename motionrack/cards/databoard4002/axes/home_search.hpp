@@ -1,5 +1,5 @@
-// Finding home with the card's own zeroing: the reference input (a cam, a switch), the encoder's zero pulse, or both at once make the
-// counter 0 at that instant.
+// Finding home with the card's own zeroing: the reference input (a cam, a switch), the encoder's zero pulse, or both at
+// once make the counter 0 at that instant.
 //
 //   type 1  SEARCH ─ref─► STOP ─► HOMED            the counter is 0 at the edge, the axis stands behind it
 //   type 2  SEARCH ─ref─► STOP ─► BACK ─off─► STOP ─► SLOW ─ref─► STOP ─► HOMED
@@ -22,8 +22,8 @@ struct HomeFrame {
     std::string name;
     std::string_view unit;
     double counts_per_unit = 100;
-    int speed_rate = 1;   ///< of the search
-    int slow_rate = 1;    ///< of the second approach
+    int speed_rate = 1;       ///< of the search
+    int slow_rate = 1;        ///< of the second approach
     std::int64_t travel = 0;  ///< counts: the longest way of a state
     double offset = 0;        ///< what the counter's 0 is called before
     Duration settle{};        ///< without a count: the axis stands
@@ -51,7 +51,9 @@ class HomeSearch {
   private:
     enum class State : std::uint8_t { idle, back, back_stop, search, search_stop, slow, slow_stop, homed, failed };
 
-    bool twice() const { return order_.type == control::HomeType::twice_to_switch || order_.type == control::HomeType::twice_and_index; }
+    bool twice() const {
+        return order_.type == control::HomeType::twice_to_switch || order_.type == control::HomeType::twice_and_index;
+    }
     bool marking() const { return state_ == State::search || state_ == State::slow; }
     std::uint8_t marks() const;
     Result<void> enter(State state, Instant now);
@@ -87,7 +89,7 @@ class HomeSearch {
     double home_way_ = 0;      // where that was
     double pace_ = 0;          // counts a second at the last look
     Instant looked_{};
-    double off_way_ = 0;       // BACK: where the reference was left
+    double off_way_ = 0;  // BACK: where the reference was left
     bool off_ = false;
     Instant still_since_{};
     Instant entered_{};

@@ -1,10 +1,9 @@
 // Orders of the axis and what they become.
-#include <motionrack/cards/databoard4002/axes/position_axis.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/cards/databoard4002/axes/position_axis.hpp>
 #include <utility>
 
 namespace motionrack::databoard4002 {
@@ -12,12 +11,15 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-constexpr Duration watchdog_rest = milliseconds(1'500);      // a card that hangs is reset after a second, and the motor runs out
+constexpr Duration watchdog_rest =
+    milliseconds(1'500);  // a card that hangs is reset after a second, and the motor runs out
 constexpr Duration least_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
 constexpr std::int64_t least_progress = 2;                   // a broken line alone goes to and fro by one count
 
 /// From one look at the progress to the next, at `speed` counts/s: time for ten times that.
-Duration progress_time(double speed) { return std::max(least_progress_time, from_seconds(10 * least_progress / std::max(speed, 1e-3))); }
+Duration progress_time(double speed) {
+    return std::max(least_progress_time, from_seconds(10 * least_progress / std::max(speed, 1e-3)));
+}
 
 }  // namespace
 
@@ -46,7 +48,7 @@ Result<void> PositionAxis::set_up() {
     return {};
 }
 
-// ---- what is refused ------------------------------------------------------------------------------------------------
+// ---- what is refused
 
 tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& why) const {
     return fail(Trouble::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
@@ -54,11 +56,12 @@ tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& 
 
 Result<int> PositionAxis::rate_of(const char* what, double speed) const {
     if (!(std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_speed))
-        return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit, settings_.limits.max_speed));
+        return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit,
+                                        settings_.limits.max_speed));
     const int rate = settings_.scale.rate_for(speed * settings_.counts_per_unit * (1 + 1e-12));
     if (rate > 0) return rate;
-    return refuse(what, fmt::format("the speed is {} {}/s, but the card's slowest rate gives {:.4g}", speed, settings_.unit,
-                                    settings_.scale.speed(1) / settings_.counts_per_unit));
+    return refuse(what, fmt::format("the speed is {} {}/s, but the card's slowest rate gives {:.4g}", speed,
+                                    settings_.unit, settings_.scale.speed(1) / settings_.counts_per_unit));
 }
 
 Result<void> PositionAxis::check_free(const char* what, bool forward) {
@@ -66,11 +69,12 @@ Result<void> PositionAxis::check_free(const char* what, bool forward) {
     const Status status = driver_.status();
     if (status.emergency()) return refuse(what, "the emergency stop is active; release it");
     if (status.end_stop(forward))
-        return refuse(what, fmt::format("it stands on the {} end stop; move it in {} direction", forward ? "right" : "left", forward ? "-" : "+"));
+        return refuse(what, fmt::format("it stands on the {} end stop; move it in {} direction",
+                                        forward ? "right" : "left", forward ? "-" : "+"));
     return {};
 }
 
-// ---- moves ----------------------------------------------------------------------------------------------------------
+// ---- moves
 
 Result<std::int64_t> PositionAxis::counts() {
     MOTIONRACK_TRY(last_counts_, driver_.position());
@@ -93,7 +97,9 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
     MOTIONRACK_TRY(const Events old, driver_.enable_events(event::POSITION | event::STOP));
     if (old.was_reset()) {
         trusted_ = false;
-        return refuse(what, "the card was reset since it was set up; its table and position are gone. Set it up again and home it");
+        return refuse(
+            what,
+            "the card was reset since it was set up; its table and position are gone. Set it up again and home it");
     }
     progress_time_ = progress_time(settings_.scale.speed(rate));
     progress_from_ = last_counts_;
@@ -105,7 +111,8 @@ Result<void> PositionAxis::move_to(double position, double speed) {
     const control::AxisLimits& limits = settings_.limits;
     if (!trusted_) return refuse("Move", "its position is not trusted; home it, or say where it is with set_position");
     if (!(position >= limits.min_position && position <= limits.max_position))
-        return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit, limits.min_position, limits.max_position));
+        return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit,
+                                          limits.min_position, limits.max_position));
     MOTIONRACK_TRY(const std::int64_t here, counts());
     return move_by((position - offset_) - static_cast<double>(here) / settings_.counts_per_unit, speed);
 }
@@ -116,12 +123,15 @@ Result<void> PositionAxis::move_by(double distance, double speed) {
     const double target = std::floor(static_cast<double>(here) + distance * settings_.counts_per_unit + 0.5);
     if (!(target >= static_cast<double>(map::least_24) && target <= static_cast<double>(map::greatest_24)) ||
         std::fabs(target - static_cast<double>(here)) > static_cast<double>(longest_move))
-        return refuse("Move", fmt::format("it leads to {:.0f} counts, but the card's positions are {} to {} and its moves up to {}", target,
-                                          map::least_24, map::greatest_24, longest_move));
+        return refuse(
+            "Move",
+            fmt::format("it leads to {:.0f} counts, but the card's positions are {} to {} and its moves up to {}",
+                        target, map::least_24, map::greatest_24, longest_move));
     const double there = offset_ + target / settings_.counts_per_unit, rounding = 1 / settings_.counts_per_unit;
-    if (trusted_ && (there < settings_.limits.min_position - rounding || there > settings_.limits.max_position + rounding))
-        return refuse("Move", fmt::format("{:.4f} {} is outside its travel of {} to {}", there, settings_.unit, settings_.limits.min_position,
-                                          settings_.limits.max_position));
+    if (trusted_ &&
+        (there < settings_.limits.min_position - rounding || there > settings_.limits.max_position + rounding))
+        return refuse("Move", fmt::format("{:.4f} {} is outside its travel of {} to {}", there, settings_.unit,
+                                          settings_.limits.min_position, settings_.limits.max_position));
     const bool forward = target >= static_cast<double>(here);
     MOTIONRACK_CHECK(check_free("Move", forward));
     MOTIONRACK_CHECK(begin("Move", static_cast<std::int64_t>(target), rate, forward));
@@ -130,7 +140,7 @@ Result<void> PositionAxis::move_by(double distance, double speed) {
     return {};
 }
 
-// ---- jogging --------------------------------------------------------------------------------------------------------
+// ---- jogging
 
 Result<void> PositionAxis::begin_jog(double speed, Instant now) {
     const bool forward = speed > 0;
@@ -157,7 +167,8 @@ Result<void> PositionAxis::jog(double speed, Instant now) {
         return {};
     }
     if (doing_ == Doing::nothing && !search_.running()) return begin_jog(speed, now);
-    if (doing_ == Doing::moving || search_.running()) return refuse("Jog", "it moves; stop it and wait until it stands");
+    if (doing_ == Doing::moving || search_.running())
+        return refuse("Jog", "it moves; stop it and wait until it stands");
     MOTIONRACK_TRY(const int rate, rate_of("Jog", std::fabs(speed)));
     renewed_ = now;
     if (doing_ == Doing::jogging && (speed > 0) == forward_) {
@@ -178,10 +189,11 @@ void PositionAxis::jog_on(Instant now) {
     if (next == speed_) return;
     speed_ = next;
     progress_time_ = progress_time(speed_);
-    if (const Result<void> set = driver_.set_rate(std::max(1, settings_.scale.rate_for(speed_ * (1 + 1e-12)))); !set) end_with(set.error());
+    if (const Result<void> set = driver_.set_rate(std::max(1, settings_.scale.rate_for(speed_ * (1 + 1e-12)))); !set)
+        end_with(set.error());
 }
 
-// ---- stops ----------------------------------------------------------------------------------------------------------
+// ---- stops
 
 /// A search that runs; its motor comes to a stop. False if none did.
 bool PositionAxis::stop_search() {
@@ -237,17 +249,21 @@ void PositionAxis::end_with(Error error, bool counted) {
     rest(host_.now());
 }
 
-// ---- carrying on ----------------------------------------------------------------------------------------------------
+// ---- carrying on
 
 void PositionAxis::look_at_events(Instant now) {
     if (!driver_.status().event()) return;
     const auto seen = driver_.enable_events(event::POSITION | event::STOP);
     if (!seen) return end_with(seen.error());
     if (seen->was_reset())
-        return end_with({Trouble::machine, fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
-                                                       "trusted. Set it up again and home it.", settings_.name)});
+        return end_with(
+            {Trouble::machine,
+             fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
+                         "trusted. Set it up again and home it.",
+                         settings_.name)});
     if (seen->stop()) stop_seen_ = later(now, contacts_rest);
-    if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping)) rest(now);
+    if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping))
+        rest(now);
 }
 
 /// A motor that is held or has no voltage, or an encoder whose counts stand or go the other way.
@@ -257,10 +273,14 @@ void PositionAxis::look_at_progress(Instant now) {
     const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
     progress_due_ = later(now, progress_time_);
     if (gone >= least_progress) return;
-    end_with({Trouble::machine, fmt::format("Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was ended and the position is not "
-                                            "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
-                                            settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
-                                            offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
+    end_with(
+        {Trouble::machine,
+         fmt::format(
+             "Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
+             "ended and the position is not "
+             "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
+             settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
+             offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
 }
 
 /// The contacts of a stop are at rest: does it hold the axis? One on the other side does no harm.
@@ -274,8 +294,12 @@ void PositionAxis::look_at_stop() {
         if (*rate != 0 || driver_.status().event()) return;
         why = "the emergency stop was active";
     }
-    end_with({Trouble::machine, fmt::format("Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
-                                            "other way, or release the stop.", settings_.name, position(), settings_.unit, why)}, true);
+    end_with({Trouble::machine,
+              fmt::format(
+                  "Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
+                  "other way, or release the stop.",
+                  settings_.name, position(), settings_.unit, why)},
+             true);
 }
 
 void PositionAxis::settle(Instant now) {
@@ -318,10 +342,14 @@ void PositionAxis::step(Instant now) {
     if (now >= stop_seen_) look_at_stop();
     if (now >= progress_due_ && (doing_ == Doing::moving || doing_ == Doing::jogging)) look_at_progress(now);
     switch (doing_) {
-        case Doing::jogging: return jog_on(now);
-        case Doing::stopping: return ramp_down(now);
-        case Doing::settling: return settle(now);
-        default: return;
+        case Doing::jogging:
+            return jog_on(now);
+        case Doing::stopping:
+            return ramp_down(now);
+        case Doing::settling:
+            return settle(now);
+        default:
+            return;
     }
 }
 
@@ -337,12 +365,17 @@ Result<void> PositionAxis::wait(Duration timeout) {
             stop();
         }
         if (host_.now() >= end)
-            return fail(Trouble::machine, fmt::format("Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
-                                                      settings_.name, to_seconds(timeout), position(), settings_.unit));
+            return fail(
+                Trouble::machine,
+                fmt::format(
+                    "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
+                    settings_.name, to_seconds(timeout), position(), settings_.unit));
         host_.pass(look_every);
     }
     if (homing && !search_.homed()) return tl::unexpected<Error>(search_.error());
-    if (asked) return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.", settings_.name, position(), settings_.unit));
+    if (asked)
+        return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
+                                                  settings_.name, position(), settings_.unit));
     if (error_) return tl::unexpected<Error>(*error_);
     return {};
 }
@@ -351,21 +384,27 @@ control::AxisState PositionAxis::state() {
     using control::AxisState;
     if (search_.running()) return AxisState::homing;
     switch (doing_) {
-        case Doing::moving: return AxisState::moving;
-        case Doing::jogging: return AxisState::jogging;
-        case Doing::stopping: return AxisState::stopping;
-        case Doing::settling: return hold_after_ ? AxisState::moving : AxisState::stopping;
-        case Doing::nothing: break;
+        case Doing::moving:
+            return AxisState::moving;
+        case Doing::jogging:
+            return AxisState::jogging;
+        case Doing::stopping:
+            return AxisState::stopping;
+        case Doing::settling:
+            return hold_after_ ? AxisState::moving : AxisState::stopping;
+        case Doing::nothing:
+            break;
     }
     return error_ || driver_.status().emergency() ? AxisState::error : AxisState::standstill;
 }
 
-// ---- position and home ----------------------------------------------------------------------------------------------
+// ---- position and home
 
 Result<void> PositionAxis::set_position(double position) {
     const double most = static_cast<double>(longest_move) / settings_.counts_per_unit;
     if (!(std::fabs(position) <= most))
-        return refuse("Position", fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
+        return refuse("Position",
+                      fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
     MOTIONRACK_TRY(const std::int64_t here, counts());
     offset_ = position - static_cast<double>(here) / settings_.counts_per_unit;
@@ -377,7 +416,8 @@ Result<void> PositionAxis::home(const control::HomeOrder& order, Instant now) {
     MOTIONRACK_TRY(const int rate, rate_of("Homing", order.speed));
     MOTIONRACK_TRY(const int slow, rate_of("Homing", order.slow_speed));
     if (busy()) return refuse("Homing", "it moves; stop it and wait until it stands");
-    if (!(order.clearance >= 0 && std::isfinite(order.clearance) && std::isfinite(order.position) && order.travel >= 0 && std::isfinite(order.travel)))
+    if (!(order.clearance >= 0 && std::isfinite(order.clearance) && std::isfinite(order.position) &&
+          order.travel >= 0 && std::isfinite(order.travel)))
         return refuse("Homing", "clearance, travel and position must be numbers, the first two 0 or more");
     const control::AxisLimits& limits = settings_.limits;
     const double travel = order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position);
@@ -387,7 +427,8 @@ Result<void> PositionAxis::home(const control::HomeOrder& order, Instant now) {
     frame.counts_per_unit = settings_.counts_per_unit;
     frame.speed_rate = rate;
     frame.slow_rate = slow;
-    frame.travel = static_cast<std::int64_t>(std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(longest_move)));
+    frame.travel = static_cast<std::int64_t>(
+        std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(longest_move)));
     frame.offset = offset_;
     frame.settle = settings_.settle;
     trusted_ = false;

@@ -3,9 +3,9 @@
 //   move_to ─► O, R, P, G ─► slope of the table ─► "position reached" ─► comes to rest ─► D, L where it is to be held
 //   stop    ─► R, R, R .. Q      the rate is lowered by the axis' acceleration, then the output is 0
 //
-// The card counts what the encoder says, so its position stays trusted whatever stops the axis; it is lost with the card's memory (a
-// reset, its watchdog), and where the counts do not go on as the card drives: then motor or encoder do not do what they should, and the
-// card, which has no watch for that, would drive on for ever.
+// The card counts what the encoder says, so its position stays trusted whatever stops the axis; it is lost with the
+// card's memory (a reset, its watchdog), and where the counts do not go on as the card drives: then motor or encoder do
+// not do what they should, and the card, which has no watch for that, would drive on for ever.
 #pragma once
 
 #include <motionrack/cards/databoard4002/axes/home_search.hpp>
@@ -22,20 +22,22 @@ namespace motionrack::databoard4002 {
 struct PositionAxisSettings {
     std::string name = "X";
     std::string_view unit = "mm";
-    control::AxisLimits limits;           ///< max_accel is that of both ramps, start_speed the creep speed at their ends
-    double counts_per_unit = 100;         ///< of the card's counter, > 0
-    SpeedScale scale;                     ///< counts a second at a rate
-    double lag_s = 0;                     ///< the motor's time constant, with its load
-    std::optional<double> hold_window;    ///< mm or degrees: after a move the card keeps the axis within; absent: it lets go
-    Duration settle = milliseconds(20);   ///< without a count: the axis stands
-    Duration hold = milliseconds(250);    ///< of a jog that is not renewed
+    control::AxisLimits limits;    ///< max_accel is that of both ramps, start_speed the creep speed at their ends
+    double counts_per_unit = 100;  ///< of the card's counter, > 0
+    SpeedScale scale;              ///< counts a second at a rate
+    double lag_s = 0;              ///< the motor's time constant, with its load
+    std::optional<double>
+        hold_window;  ///< mm or degrees: after a move the card keeps the axis within; absent: it lets go
+    Duration settle = milliseconds(20);  ///< without a count: the axis stands
+    Duration hold = milliseconds(250);   ///< of a jog that is not renewed
 };
 
 class PositionAxis final : public control::Axis {
   public:
     PositionAxis(Driver& driver, Interrupt& host, const PositionAxisSettings& settings);
 
-    /// Looks for the card and gives it the slope table of the axis' limits. Errors: those of Driver::connect, of design_slope.
+    /// Looks for the card and gives it the slope table of the axis' limits. Errors: those of Driver::connect, of
+    /// design_slope.
     Result<void> set_up();
 
     Result<void> move_to(double position, double speed) override;
@@ -83,22 +85,22 @@ class PositionAxis final : public control::Axis {
     PositionAxisSettings settings_;
     SlopeTable table_;
     HomeSearch search_;
-    double offset_ = 0;           // the position where the counter is 0
+    double offset_ = 0;  // the position where the counter is 0
     std::int64_t last_counts_ = 0;
     bool trusted_ = false;
     bool forward_ = true;
-    bool hold_after_ = false;     // a move, not a stop: it is to be held
+    bool hold_after_ = false;  // a move, not a stop: it is to be held
     Doing doing_ = Doing::nothing;
-    double speed_ = 0;            // counts/s that a jog or a ramp has now
-    double wanted_ = 0;           // and is to have
-    double next_jog_ = 0;         // after the stop, with its sign
-    Instant at_{};                // of the last change of the rate
-    Instant renewed_{};           // of the jog
+    double speed_ = 0;     // counts/s that a jog or a ramp has now
+    double wanted_ = 0;    // and is to have
+    double next_jog_ = 0;  // after the stop, with its sign
+    Instant at_{};         // of the last change of the rate
+    Instant renewed_{};    // of the jog
     Instant still_since_{};
-    Instant stop_seen_ = never;   // when the contacts of a stop are at rest
-    Instant progress_due_ = never;       // when the counts must have gone on
-    Duration progress_time_{};           // from look to look
-    std::int64_t progress_from_ = 0;     // the counts at the last one
+    Instant stop_seen_ = never;       // when the contacts of a stop are at rest
+    Instant progress_due_ = never;    // when the counts must have gone on
+    Duration progress_time_{};        // from look to look
+    std::int64_t progress_from_ = 0;  // the counts at the last one
     std::optional<Error> error_;
 };
 

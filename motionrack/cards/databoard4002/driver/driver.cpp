@@ -8,7 +8,8 @@ namespace motionrack::databoard4002 {
 
 Driver::Driver(BytePort& port, Interrupt& interrupt, const DriverSettings& settings)
     : port_(port), interrupt_(interrupt), settings_(settings) {
-    MOTIONRACK_ASSERT(settings.ready_timeout > Duration{0} && settings.poll > Duration{0} && settings.counts_per_mm > 0);
+    MOTIONRACK_ASSERT(settings.ready_timeout > Duration{0} && settings.poll > Duration{0} &&
+                      settings.counts_per_mm > 0);
 }
 
 std::string Status::stops() const {
@@ -23,7 +24,7 @@ std::string Status::stops() const {
     return out;
 }
 
-// ---- handshake ------------------------------------------------------------------------------------------------------
+// ---- handshake
 
 Status Driver::status() {
     port_.out(ports::CS, settings_.select);
@@ -34,10 +35,12 @@ Result<void> Driver::wait_ready(const char* what) {
     const Instant until = later(interrupt_.now(), settings_.ready_timeout);
     while (!status().ready()) {
         if (interrupt_.now() >= until)
-            return fail(Trouble::machine,
-                        fmt::format("Card {} was not Ready for {} within {:.0f} ms, so it was not sent. If this lasts more than a "
-                                    "second, not even its watchdog helps: reset the card.", settings_.select, what,
-                                    to_seconds(settings_.ready_timeout) * 1e3));
+            return fail(
+                Trouble::machine,
+                fmt::format(
+                    "Card {} was not Ready for {} within {:.0f} ms, so it was not sent. If this lasts more than a "
+                    "second, not even its watchdog helps: reset the card.",
+                    settings_.select, what, to_seconds(settings_.ready_timeout) * 1e3));
         interrupt_.pass(settings_.poll);
     }
     return {};
@@ -72,15 +75,17 @@ Result<std::int64_t> Driver::ask(std::uint8_t code, int bytes) {
 
 Result<void> Driver::in_range(const char* what, std::int64_t value, std::int64_t least, std::int64_t greatest) const {
     if (value >= least && value <= greatest) return {};
-    return fail(Trouble::refused, fmt::format("{} of card {} is {}, but it takes {} to {}. Nothing was sent.", what, settings_.select,
-                                              value, least, greatest));
+    return fail(Trouble::refused, fmt::format("{} of card {} is {}, but it takes {} to {}. Nothing was sent.", what,
+                                              settings_.select, value, least, greatest));
 }
 
 Result<int> Driver::connect() {
     const std::uint8_t word = status().word;
     if (word == 0xFF)
-        return fail(Trouble::machine, fmt::format("No card answers under the number {} (STAT reads FFh). Check the number and its straps.",
-                                                  settings_.select));
+        return fail(
+            Trouble::machine,
+            fmt::format("No card answers under the number {} (STAT reads FFh). Check the number and its straps.",
+                        settings_.select));
     MOTIONRACK_CHECK(enable_events(0));
     MOTIONRACK_CHECK(clear_watch_out());
     return version();
@@ -92,16 +97,32 @@ void Driver::reset() {
     enables_ = 0;
 }
 
-// ---- commands -------------------------------------------------------------------------------------------------------
+// ---- commands
 
-Result<void> Driver::athome() { return send(command("A")); }
-Result<void> Driver::go() { return send(command("G")); }
-Result<void> Driver::initialise() { return send(command("I")); }
-Result<void> Driver::lock() { return send(command("L")); }
-Result<void> Driver::manual() { return send(command("M")); }
-Result<void> Driver::on_regulation() { return send(command("O")); }
-Result<void> Driver::quit() { return send(command("Q")); }
-Result<void> Driver::clear_watch_out() { return send(command("W")); }
+Result<void> Driver::athome() {
+    return send(command("A"));
+}
+Result<void> Driver::go() {
+    return send(command("G"));
+}
+Result<void> Driver::initialise() {
+    return send(command("I"));
+}
+Result<void> Driver::lock() {
+    return send(command("L"));
+}
+Result<void> Driver::manual() {
+    return send(command("M"));
+}
+Result<void> Driver::on_regulation() {
+    return send(command("O"));
+}
+Result<void> Driver::quit() {
+    return send(command("Q"));
+}
+Result<void> Driver::clear_watch_out() {
+    return send(command("W"));
+}
 
 Result<void> Driver::set_deviation(std::int64_t counts) {
     MOTIONRACK_CHECK(in_range("The deviation D", counts, 0, map::greatest_24));
@@ -132,8 +153,12 @@ Result<void> Driver::set_slope(const SlopeTable& table) {
     return {};
 }
 
-Result<std::int64_t> Driver::deviation() { return ask(command("D"), 3); }
-Result<std::int64_t> Driver::position() { return ask(command("P"), 3); }
+Result<std::int64_t> Driver::deviation() {
+    return ask(command("D"), 3);
+}
+Result<std::int64_t> Driver::position() {
+    return ask(command("P"), 3);
+}
 
 Result<int> Driver::rate() {
     MOTIONRACK_TRY(const std::int64_t value, ask(command("R"), 2));
@@ -145,13 +170,15 @@ Result<int> Driver::version() {
     return static_cast<int>(value & 0xFF);
 }
 
-// ---- mm -------------------------------------------------------------------------------------------------------------
+// ---- mm
 
 Result<std::int64_t> Driver::to_counts(double mm) const {
     const double counts = std::floor(mm * settings_.counts_per_mm + 0.5);
     if (!(counts >= static_cast<double>(map::least_24) && counts <= static_cast<double>(map::greatest_24)))
-        return fail(Trouble::refused, fmt::format("The position {} mm is beyond what card {} can count: {:.3f} to {:.3f} mm. Nothing "
-                                                  "was moved.", mm, settings_.select, to_mm(map::least_24), to_mm(map::greatest_24)));
+        return fail(Trouble::refused,
+                    fmt::format("The position {} mm is beyond what card {} can count: {:.3f} to {:.3f} mm. Nothing "
+                                "was moved.",
+                                mm, settings_.select, to_mm(map::least_24), to_mm(map::greatest_24)));
     return static_cast<std::int64_t>(counts);
 }
 

@@ -1,5 +1,5 @@
-// The DataBoard 4002's function library: every command with its handshake, events by polling and by interrupt. It knows the card only
-// by its ports, so it cannot tell a virtual card from a real one.
+// The DataBoard 4002's function library: every command with its handshake, events by polling and by interrupt. It knows
+// the card only by its ports, so it cannot tell a virtual card from a real one.
 //
 //   wait Ready ─► C2 letter ─► (wait Ready ─► DATA) per byte          each wait has a time-out
 //   wait Ready ─► C4 enables ─► wait Ready ─► INP DATA = EVENT word
@@ -18,11 +18,11 @@ namespace motionrack::databoard4002 {
 inline constexpr Duration contacts_rest = milliseconds(5);
 
 struct DriverSettings {
-    std::uint8_t select = 13;                   ///< the card's number on the bus
-    Duration ready_timeout = milliseconds(127); ///< > 0: longest wait for Ready before an access; `never`: no limit
-    Duration poll = microseconds(20);           ///< > 0: between two looks at STAT
-    Duration bounce = contacts_rest;            ///< >= 0: after the edge of a stop, until its contacts are at rest
-    double counts_per_mm = 1000;                ///< > 0; for positions in mm
+    std::uint8_t select = 13;                    ///< the card's number on the bus
+    Duration ready_timeout = milliseconds(127);  ///< > 0: longest wait for Ready before an access; `never`: no limit
+    Duration poll = microseconds(20);            ///< > 0: between two looks at STAT
+    Duration bounce = contacts_rest;             ///< >= 0: after the edge of a stop, until its contacts are at rest
+    double counts_per_mm = 1000;                 ///< > 0; for positions in mm
 };
 
 /// STAT, decoded.
@@ -58,48 +58,54 @@ class Driver {
   public:
     Driver(BytePort& port, Interrupt& interrupt, const DriverSettings& settings = {});
 
-    /// Looks for the card, clears the mark of the reset, reads the version. Errors: machine if no card answers or it is never Ready.
+    /// Looks for the card, clears the mark of the reset, reads the version. Errors: machine if no card answers or it is
+    /// never Ready.
     Result<int> connect();
     /// C3: hardware reset; position, rate and table are gone.
     void reset();
     Status status();
 
-    // ---- commands, one each; counts and rates as the card has them. Errors of all: refused (out of range, nothing written), machine
+    // ---- commands, one each; counts and rates as the card has them. Errors of all: refused (out of range, nothing
+    // written), machine
     // ---- (not Ready in time)
-    Result<void> athome();                             ///< A
-    Result<void> set_deviation(std::int64_t counts);   ///< D out, 0 .. 8,388,607
-    Result<std::int64_t> deviation();                  ///< D in: present minus requested
-    Result<void> go();                                 ///< G
-    Result<void> initialise();                         ///< I
-    Result<void> lock();                               ///< L
-    Result<void> manual();                             ///< M
-    Result<void> set_number(std::int64_t counts);      ///< N, -8,388,608 .. 8,388,607
-    Result<void> on_regulation();                      ///< O
-    Result<void> set_target(std::int64_t counts);      ///< P out, -8,388,608 .. 8,388,607
-    Result<std::int64_t> position();                   ///< P in
-    Result<void> quit();                               ///< Q
-    Result<void> set_rate(int rate);                   ///< R out, 0 .. 16383; 0 switches the relay off
-    Result<int> rate();                                ///< R in, negative backwards, 0 while standing
-    Result<void> set_slope(const SlopeTable& table);   ///< S
-    Result<int> version();                             ///< V
-    Result<void> clear_watch_out();                    ///< W
+    Result<void> athome();                            ///< A
+    Result<void> set_deviation(std::int64_t counts);  ///< D out, 0 .. 8,388,607
+    Result<std::int64_t> deviation();                 ///< D in: present minus requested
+    Result<void> go();                                ///< G
+    Result<void> initialise();                        ///< I
+    Result<void> lock();                              ///< L
+    Result<void> manual();                            ///< M
+    Result<void> set_number(std::int64_t counts);     ///< N, -8,388,608 .. 8,388,607
+    Result<void> on_regulation();                     ///< O
+    Result<void> set_target(std::int64_t counts);     ///< P out, -8,388,608 .. 8,388,607
+    Result<std::int64_t> position();                  ///< P in
+    Result<void> quit();                              ///< Q
+    Result<void> set_rate(int rate);                  ///< R out, 0 .. 16383; 0 switches the relay off
+    Result<int> rate();                               ///< R in, negative backwards, 0 while standing
+    Result<void> set_slope(const SlopeTable& table);  ///< S
+    Result<int> version();                            ///< V
+    Result<void> clear_watch_out();                   ///< W
 
     // ---- events
     /// Writes the enables (bits of C4) and returns the EVENT word that was freed by it.
     Result<Events> enable_events(std::uint8_t enables);
-    /// Waits until one of `wanted` (01h, 02h, 04h, 20h) has happened and returns the word, with the same enables afterwards. Errors:
-    /// machine after `timeout` or if the card was reset meanwhile; stopped where the user asked to stop.
+    /// Waits until one of `wanted` (01h, 02h, 04h, 20h) has happened and returns the word, with the same enables
+    /// afterwards. Errors: machine after `timeout` or if the card was reset meanwhile; stopped where the user asked to
+    /// stop.
     Result<Events> wait_event(std::uint8_t wanted, Duration timeout, Waiting how = Waiting::polling);
 
     // ---- moves, from beginning to end; a `timeout` of `never` waits for ever, also in wait_event
-    /// Goes to `counts` with the present rate, mode and table. A stop on the other side (while leaving it) does no harm. Errors: machine
-    /// if a stop holds the move, the card is reset or `timeout` passes (the move is then ended by Q); stopped.
+    /// Goes to `counts` with the present rate, mode and table. A stop on the other side (while leaving it) does no
+    /// harm. Errors: machine if a stop holds the move, the card is reset or `timeout` passes (the move is then ended by
+    /// Q); stopped.
     Result<void> move_to(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);
     Result<void> move_by(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);
     Result<void> move_to_mm(double mm, Duration timeout, Waiting how = Waiting::polling);
     Result<double> position_mm();
-    /// Slowly (`rate`) towards `far` until reference, zero pulse or both (`marks`: 02h, 04h, 06h) make the counter 0; then stands.
-    Result<void> find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout, Waiting how = Waiting::polling);
+    /// Slowly (`rate`) towards `far` until reference, zero pulse or both (`marks`: 02h, 04h, 06h) make the counter 0;
+    /// then stands.
+    Result<void> find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout,
+                           Waiting how = Waiting::polling);
 
     /// Errors: refused if it is not finite or beyond the card's counts.
     Result<std::int64_t> to_counts(double mm) const;

@@ -7,7 +7,7 @@
 
 namespace motionrack::databoard4002 {
 
-// ---- events ---------------------------------------------------------------------------------------------------------
+// ---- events
 
 Result<Events> Driver::enable_events(std::uint8_t enables) {
     MOTIONRACK_CHECK(wait_ready("C4"));
@@ -24,18 +24,23 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
         if (now.event()) {
             MOTIONRACK_TRY(const Events seen, enable_events(enables_));
             if (seen.was_reset())
-                return fail(Trouble::machine, fmt::format("Card {} was reset while an event was waited for (its watchdog, or the bus); "
-                                                          "position and table are gone. Set it up again.", settings_.select));
+                return fail(Trouble::machine,
+                            fmt::format("Card {} was reset while an event was waited for (its watchdog, or the bus); "
+                                        "position and table are gone. Set it up again.",
+                                        settings_.select));
             if (seen.word & wanted) return seen;
             continue;
         }
         if (interrupt_.stop_requested()) {
             MOTIONRACK_CHECK(quit());
-            return fail(Trouble::stopped, fmt::format("Stopped on request; the move of card {} was ended by Q.", settings_.select));
+            return fail(Trouble::stopped,
+                        fmt::format("Stopped on request; the move of card {} was ended by Q.", settings_.select));
         }
         if (interrupt_.now() >= until)
-            return fail(Trouble::machine, fmt::format("Card {} told of no event {:02X}h within {:.3f} s. Check that it moves, and the "
-                                                      "time-out.", settings_.select, wanted, to_seconds(timeout)));
+            return fail(Trouble::machine,
+                        fmt::format("Card {} told of no event {:02X}h within {:.3f} s. Check that it moves, and the "
+                                    "time-out.",
+                                    settings_.select, wanted, to_seconds(timeout)));
         if (how == Waiting::polling || now.interrupt() || (enables_ & event::ON_EVENT) == 0) {
             interrupt_.pass(settings_.poll);
         } else if (interrupt_.wait(std::min(until - interrupt_.now(), milliseconds(100))) && !status().interrupt()) {
@@ -44,14 +49,15 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
     }
 }
 
-// ---- moves ----------------------------------------------------------------------------------------------------------
+// ---- moves
 
 /// Ends the move after an error, and adds to it which stops are active.
 Result<void> Driver::end_move(const Error& error) {
     Error out = error;
     if (out.trouble == Trouble::machine) {
         (void)quit();
-        if (const std::string stops = status().stops(); !stops.empty()) out.message += fmt::format(" At present {}.", stops);
+        if (const std::string stops = status().stops(); !stops.empty())
+            out.message += fmt::format(" At present {}.", stops);
     }
     return tl::unexpected<Error>(std::move(out));
 }
@@ -68,18 +74,20 @@ Result<bool> Driver::held(bool forward) {
 
 Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeout, Waiting how) {
     if (const Status now = status(); now.emergency())
-        return fail(Trouble::machine, fmt::format("Card {} was not told to move because {}. Release it first.", settings_.select,
-                                                  now.stops()));
+        return fail(Trouble::machine, fmt::format("Card {} was not told to move because {}. Release it first.",
+                                                  settings_.select, now.stops()));
     const auto wake = static_cast<std::uint8_t>(how == Waiting::interrupt ? event::ON_EVENT : 0);
     MOTIONRACK_TRY(const Events old, enable_events(static_cast<std::uint8_t>(wanted | event::STOP | wake)));
     if (old.was_reset())
-        return fail(Trouble::machine, fmt::format("Card {} was reset since it was set up; position and table are gone, so it was not "
-                                                  "moved. Set it up again.", settings_.select));
+        return fail(Trouble::machine,
+                    fmt::format("Card {} was reset since it was set up; position and table are gone, so it was not "
+                                "moved. Set it up again.",
+                                settings_.select));
     MOTIONRACK_CHECK(go());
     const Instant until = later(interrupt_.now(), timeout);
     while (true) {
-        const auto seen =
-            wait_event(static_cast<std::uint8_t>(wanted | event::STOP), std::max(until - interrupt_.now(), Duration{0}), how);
+        const auto seen = wait_event(static_cast<std::uint8_t>(wanted | event::STOP),
+                                     std::max(until - interrupt_.now(), Duration{0}), how);
         if (!seen) return end_move(seen.error());
         if (seen->word & wanted) return {};
         MOTIONRACK_TRY(const bool stopped, held(forward));
@@ -88,10 +96,12 @@ Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeou
     const std::string stops = status().stops();
     MOTIONRACK_CHECK(quit());
     MOTIONRACK_TRY(const std::int64_t there, position());
-    return fail(Trouble::machine,
-                fmt::format("Card {} met a stop at {} counts ({:.3f} mm): {}. The move was ended; move away in the other direction, or "
-                            "release the stop.", settings_.select, there, to_mm(there),
-                            stops.empty() ? "it is no longer active" : stops));
+    return fail(
+        Trouble::machine,
+        fmt::format(
+            "Card {} met a stop at {} counts ({:.3f} mm): {}. The move was ended; move away in the other direction, or "
+            "release the stop.",
+            settings_.select, there, to_mm(there), stops.empty() ? "it is no longer active" : stops));
 }
 
 Result<void> Driver::move_to(std::int64_t counts, Duration timeout, Waiting how) {
@@ -117,8 +127,10 @@ Result<void> Driver::move_to_mm(double mm, Duration timeout, Waiting how) {
 
 Result<void> Driver::find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout, Waiting how) {
     if (marks == 0 || (marks & ~(event::ZERO | event::REF)) != 0)
-        return fail(Trouble::refused, fmt::format("The marks to look for are {:02X}h, but they are 02h (zero pulse), 04h (reference) or "
-                                                  "06h (both). Nothing was moved.", marks));
+        return fail(Trouble::refused,
+                    fmt::format("The marks to look for are {:02X}h, but they are 02h (zero pulse), 04h (reference) or "
+                                "06h (both). Nothing was moved.",
+                                marks));
     MOTIONRACK_TRY(const std::int64_t here, position());
     MOTIONRACK_CHECK(manual());
     MOTIONRACK_CHECK(set_rate(rate));

@@ -7,7 +7,7 @@
 
 namespace motionrack::databoard4002 {
 
-// ---- speed of a rate ------------------------------------------------------------------------------------------------
+// ---- speed of a rate
 
 double SpeedScale::speed(int rate) const {
     return analog ? counts_per_volt * 1e-6 * microvolts_of(rate, trim) : counts_per_pulse * hz_of(rate);
@@ -22,7 +22,7 @@ int SpeedScale::rate_for(double counts_s) const {
     return low;
 }
 
-// ---- from demand to table -------------------------------------------------------------------------------------------
+// ---- from demand to table
 
 namespace {
 
@@ -30,26 +30,33 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
     const struct {
         const char* name;
         double value;
-    } positive[] = {{"The top speed", d.top_speed}, {"The acceleration", d.acceleration}, {"The deceleration", d.deceleration}};
+    } positive[] = {
+        {"The top speed", d.top_speed}, {"The acceleration", d.acceleration}, {"The deceleration", d.deceleration}};
     for (const auto& each : positive)
         if (!(each.value > 0 && each.value < 1e12))
-            return fail(Trouble::refused, fmt::format("{} is {}, but it must be greater than 0. No table was made.", each.name, each.value));
+            return fail(Trouble::refused, fmt::format("{} is {}, but it must be greater than 0. No table was made.",
+                                                      each.name, each.value));
     if (!(d.load >= 0 && d.load < 1e6))
         return fail(Trouble::refused, fmt::format("The load is {}, but it is 0 or more. No table was made.", d.load));
     if (!(d.lag_s >= 0 && d.lag_s < 1e6))
         return fail(Trouble::refused, fmt::format("The lag is {} s, but it is 0 or more. No table was made.", d.lag_s));
     if (!(d.creep_speed >= 0 && d.creep_speed < d.top_speed))
-        return fail(Trouble::refused, fmt::format("The creep speed is {} counts/s, but it must be below the top speed, {} counts/s. No "
-                                                  "table was made.", d.creep_speed, d.top_speed));
+        return fail(Trouble::refused,
+                    fmt::format("The creep speed is {} counts/s, but it must be below the top speed, {} counts/s. No "
+                                "table was made.",
+                                d.creep_speed, d.top_speed));
     if (d.top_speed > scale.speed(most_rate))
-        return fail(Trouble::refused, fmt::format("The top speed is {} counts/s, but this machine reaches {} at the card's greatest "
-                                                  "rate. No table was made.", d.top_speed, scale.speed(most_rate)));
+        return fail(Trouble::refused,
+                    fmt::format("The top speed is {} counts/s, but this machine reaches {} at the card's greatest "
+                                "rate. No table was made.",
+                                d.top_speed, scale.speed(most_rate)));
     return {};
 }
 
-/// One half of the table: slowest interval first; each is as long as the next step of speed takes. A motor that follows `lag` seconds
-/// late is told everything by so much earlier.
-Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, double ramp, double lag, const SpeedScale& scale) {
+/// One half of the table: slowest interval first; each is as long as the next step of speed takes. A motor that follows
+/// `lag` seconds late is told everything by so much earlier.
+Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, double ramp, double lag,
+                       const SpeedScale& scale) {
     const double creep = d.creep_speed > 0 ? d.creep_speed : d.top_speed / SlopeTable::half;
     const double step = (d.top_speed - creep) / (SlopeTable::half - 1);
     double position = 0;
@@ -57,14 +64,18 @@ Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, doubl
         const double speed = creep + i * step;
         const int rate = scale.rate_for(speed * (1 + 1e-12));
         if (rate == 0)
-            return fail(Trouble::refused, fmt::format("The lowest step is {:.3f} counts/s, but the card's slowest rate gives {:.3f}. Take "
-                                                      "a greater creep speed. No table was made.", speed, scale.speed(1)));
+            return fail(
+                Trouble::refused,
+                fmt::format("The lowest step is {:.3f} counts/s, but the card's slowest rate gives {:.3f}. Take "
+                            "a greater creep speed. No table was made.",
+                            speed, scale.speed(1)));
         const double longer = i == 0 ? 4 * lag * scale.speed(rate) : lag * step;
         position = std::max(position + scale.speed(rate) * step / ramp + longer, position + 1);
         if (position > static_cast<double>(longest_move))
-            return fail(Trouble::refused, fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Take a "
-                                                      "lower top speed or a steeper ramp. No table was made.", d.top_speed, ramp,
-                                                      longest_move));
+            return fail(Trouble::refused,
+                        fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Take a "
+                                    "lower top speed or a steeper ramp. No table was made.",
+                                    d.top_speed, ramp, longest_move));
         table.set(first + i, {rate, static_cast<std::int64_t>(position + 0.5)});
     }
     return {};
@@ -81,11 +92,12 @@ Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& sca
     return table;
 }
 
-// ---- from table to motion -------------------------------------------------------------------------------------------
+// ---- from table to motion
 
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale) {
     if (distance < 0 || distance > longest_move)
-        return fail(Trouble::refused, fmt::format("The move is {} counts long, but it is 0 to {}.", distance, longest_move));
+        return fail(Trouble::refused,
+                    fmt::format("The move is {} counts long, but it is 0 to {}.", distance, longest_move));
     SlopeMotion motion;
     motion.distance = distance;
     std::int64_t at = 0;
@@ -94,7 +106,8 @@ Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, in
         const int rate = std::min({rate_limit, faster.rate, slower.rate});
         const double speed = scale.speed(rate);
         if (!(speed > 0))
-            return fail(Trouble::refused, fmt::format("At {} counts from the start the speed is 0, so the move would never end.", at));
+            return fail(Trouble::refused,
+                        fmt::format("At {} counts from the start the speed is 0, so the move would never end.", at));
         const std::int64_t next = std::min({distance, faster.greatest + 1, distance - slower.least + 1});
         const double time = static_cast<double>(next - at) / speed;
         if (!motion.legs.empty() && motion.legs.back().rate == rate) {

@@ -1,4 +1,5 @@
-// Slope tables from what a machine may do, and back: which motion a table gives, with its legs and times, before anything moves.
+// Slope tables from what a machine may do, and back: which motion a table gives, with its legs and times, before
+// anything moves.
 //
 //   top speed, acceleration, deceleration, load ──► SlopeTable ──► SlopeMotion: legs, times, distances
 //
@@ -33,21 +34,21 @@ struct SlopeDemand {
     double top_speed = 10'000;     ///< counts/s
     double acceleration = 20'000;  ///< counts/s2 of the empty machine
     double deceleration = 20'000;  ///< counts/s2 of the empty machine
-    double load = 0;               ///< >= 0: inertia of the load in units of the empty machine's; makes both ramps longer
-    double creep_speed = 0;        ///< counts/s of the first and last step; 0: a 24th of the top speed
-    double lag_s = 0;              ///< s, >= 0: time constant of the empty machine's speed; braking begins so much earlier, and the
-                                   ///< last step lasts four times as much longer
+    double load = 0;         ///< >= 0: inertia of the load in units of the empty machine's; makes both ramps longer
+    double creep_speed = 0;  ///< counts/s of the first and last step; 0: a 24th of the top speed
+    double lag_s = 0;  ///< s, >= 0: time constant of the empty machine's speed; braking begins so much earlier, and the
+                       ///< last step lasts four times as much longer
 };
 
-/// Errors: refused, with the number and its limit: not positive or not finite, faster than the card's rates, a creep speed not below
-/// the top speed, ramps longer than 8,388,607 counts.
+/// Errors: refused, with the number and its limit: not positive or not finite, faster than the card's rates, a creep
+/// speed not below the top speed, ramps longer than 8,388,607 counts.
 Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& scale);
 
 /// A stretch at one rate.
 struct SlopeLeg {
     int rate = 0;
-    double speed = 0;        ///< counts/s
-    std::int64_t from = 0;   ///< counts travelled
+    double speed = 0;       ///< counts/s
+    std::int64_t from = 0;  ///< counts travelled
     std::int64_t to = 0;
     double start_s = 0;
     double duration_s = 0;
@@ -56,14 +57,15 @@ struct SlopeLeg {
 struct SlopeMotion {
     std::vector<SlopeLeg> legs;
     double duration_s = 0;
-    double top_speed = 0;             ///< counts/s
-    std::int64_t distance = 0;        ///< counts
-    std::int64_t accelerating = 0;    ///< counts up to the first leg at the top speed
-    std::int64_t decelerating = 0;    ///< counts after the last one
+    double top_speed = 0;           ///< counts/s
+    std::int64_t distance = 0;      ///< counts
+    std::int64_t accelerating = 0;  ///< counts up to the first leg at the top speed
+    std::int64_t decelerating = 0;  ///< counts after the last one
 };
 
-/// What the card does with this table for a move of `distance` counts (0 .. 8,388,607) with Rate at `rate_limit`, if the motor follows
-/// at once. Errors: refused if an interval that is passed has the speed 0, so that the move would never end.
+/// What the card does with this table for a move of `distance` counts (0 .. 8,388,607) with Rate at `rate_limit`, if
+/// the motor follows at once. Errors: refused if an interval that is passed has the speed 0, so that the move would
+/// never end.
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale);
 
 /// The motion as lines to draw: two points for each leg. Positions are counts travelled.

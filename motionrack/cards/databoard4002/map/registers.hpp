@@ -1,4 +1,5 @@
-// The DataBoard 4002's ports and words, declared once. What the host reads of EVENT and writes of ENABLE goes through ports.
+// The DataBoard 4002's ports and words, declared once. What the host reads of EVENT and writes of ENABLE goes through
+// ports.
 //
 //   port     0     1     2    3    4    5    7
 //   OUT      OUT   CS    C1   C2   C3   C4            CS is the bus' own: it chooses a card
@@ -42,12 +43,20 @@ inline constexpr RegisterInfo registers[] = {
     {"CS", 1, 8, Access::write, false, "", "card select: the card of this number listens and answers from now on", {}},
     {"C1", 2, 8, Access::write, false, "", "not used", {}},
     {"C2", 3, 8, Access::write, false, "", "command, an ASCII letter", {}},
-    {"C3", 4, 8, Access::write, false, "", "hardware reset of this card, whatever is written; pulses the output RST", {}},
+    {"C3",
+     4,
+     8,
+     Access::write,
+     false,
+     "",
+     "hardware reset of this card, whatever is written; pulses the output RST",
+     {}},
     {"C4", 5, 8, Access::write, false, "", "event enable; the EVENT word goes to DATA and is freed", enable_fields},
     {"INP", 0, 8, Access::read, false, "", "DATA: the next answer byte, or the EVENT word after C4", {}},
     {"STAT", 1, 8, Access::read, false, "", "status", stat_fields},
     {"RST", 7, 8, Access::read, false, "", "reset of the whole I/O side", {}},
-    {"EVENT", 0, 8, Access::read, false, through_port, "the events that have happened, put into DATA by C4", event_fields},
+    {"EVENT", 0, 8, Access::read, false, through_port, "the events that have happened, put into DATA by C4",
+     event_fields},
 };
 static_assert(declared<registers_flaw(registers)>());
 

@@ -21,7 +21,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     kernel.schedule(id_, Instant{0});
 }
 
-// ---- time -----------------------------------------------------------------------------------------------------------
+// ---- time
 
 Instant Card::pass_from(Instant t) const {
     const std::int64_t period = settings_.pass_ticks * tick.count();
@@ -95,7 +95,7 @@ void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
     kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
 }
 
-// ---- ports ----------------------------------------------------------------------------------------------------------
+// ---- ports
 
 void Card::access(Work kind, std::uint8_t port, std::uint8_t value) {
     Firmware& f = state_.firmware;

@@ -7,8 +7,8 @@
 //               counter ◄──┘   │   └── stops ◄──────────────────── ems
 //               o1, o2   zero, ref
 //
-// Nothing polls: between two passes that could do anything (an access is due, the counter leaves the interval of the table, a
-// wire changes) nothing happens. A move costs its slope steps, not its counts.
+// Nothing polls: between two passes that could do anything (an access is due, the counter leaves the interval of the
+// table, a wire changes) nothing happens. A move costs its slope steps, not its counts.
 #pragma once
 
 #include <array>
@@ -41,11 +41,11 @@ class Card final : public sim::Device,
     // ---- the machine's side
     /// FOUT as a position over time: pulses since power-up, signed by SIGN.
     sim::Motion& pulses() { return train_; }
-    /// What turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel starts. Without it the
-    /// wires o1 and o2 are counted.
+    /// What turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel starts.
+    /// Without it the wires o1 and o2 are counted.
     void connect_encoder(sim::Motion& counts);
-    /// Cuts what is connected off and forces the wires o1 and o2 to the levels that it has (`taken`), or releases them and puts it
-    /// back. In between what the wires are forced to counts.
+    /// Cuts what is connected off and forces the wires o1 and o2 to the levels that it has (`taken`), or releases them
+    /// and puts it back. In between what the wires are forced to counts.
     void take_encoder(bool taken);
 
     // ---- looking inside
@@ -58,7 +58,9 @@ class Card final : public sim::Device,
     int output_rate() const { return state_.firmware.out_rate * state_.firmware.move.direction; }
     /// FOUT in Hz, 0 while no pulses come.
     double fout_hz() const { return train_.running() ? hz_of(state_.firmware.out_rate) : 0; }
-    std::uint8_t event_word() const { return state_.firmware.pending ? state_.firmware.latched : state_.firmware.event; }
+    std::uint8_t event_word() const {
+        return state_.firmware.pending ? state_.firmware.latched : state_.firmware.event;
+    }
     const SlopeTable& table() const { return state_.firmware.table; }
     const Settings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
@@ -70,13 +72,28 @@ class Card final : public sim::Device,
     void wanted_changed(int pin, bool wanted, Instant now) override;
     void sync(Instant now) override { train_.hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
-    /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: the input's wire is broken while not 0, so it is active.
+    /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: the input's wire is broken while not 0, so it is
+    /// active.
     bool fault(std::string_view name, double value, Instant now) override;
     static std::span<const std::string_view> fault_names();
 
   private:
-    enum Pin : int { o1_pin, o2_pin, zero_pin, ref_pin, ems_pin, esr_pin, esl_pin, vout_pin, sign_pin, fout_pin, relay_pin,
-                     rst_pin, interrupt_pin, pin_count };
+    enum Pin : int {
+        o1_pin,
+        o2_pin,
+        zero_pin,
+        ref_pin,
+        ems_pin,
+        esr_pin,
+        esl_pin,
+        vout_pin,
+        sign_pin,
+        fout_pin,
+        relay_pin,
+        rst_pin,
+        interrupt_pin,
+        pin_count
+    };
 
     // card.cpp: time and ports
     Instant pass_from(Instant t) const;

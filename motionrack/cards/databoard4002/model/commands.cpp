@@ -27,7 +27,7 @@ void Card::work(Instant now) {
     if (kind == Work::enables) enable_events(f.access_value);
 }
 
-// ---- commands -------------------------------------------------------------------------------------------------------
+// ---- commands
 
 void Card::open(std::uint8_t code, Collecting collecting) {
     Firmware& f = state_.firmware;
@@ -105,7 +105,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
     }
 }
 
-// ---- arguments and answers ------------------------------------------------------------------------------------------
+// ---- arguments and answers
 
 void Card::take_argument(std::uint8_t value) {
     Firmware& f = state_.firmware;
@@ -160,7 +160,7 @@ void Card::next_answer() {
     --f.answer_left;
 }
 
-// ---- C4 -------------------------------------------------------------------------------------------------------------
+// ---- C4
 
 void Card::enable_events(std::uint8_t value) {
     Firmware& f = state_.firmware;

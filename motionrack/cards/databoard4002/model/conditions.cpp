@@ -35,17 +35,22 @@ std::string what_happened(const sim::Condition& c) {
         case CardCondition::unknown_command:
             return fmt::format("the command {} is unknown and did nothing", byte_text(c.a));
         case CardCondition::arguments_dropped:
-            return fmt::format("the arguments of {} were cut short after {} bytes by another command", byte_text(c.a), c.b);
+            return fmt::format("the arguments of {} were cut short after {} bytes by another command", byte_text(c.a),
+                               c.b);
         case CardCondition::data_unexpected:
             return fmt::format("a data byte {:02X}h came that no command waits for; it was dropped", c.a);
         case CardCondition::during_move:
-            return fmt::format("the command {} came during a move; the move keeps its target and table, or is replaced by G",
-                               byte_text(c.a));
+            return fmt::format(
+                "the command {} came during a move; the move keeps its target and table, or is replaced by G",
+                byte_text(c.a));
         case CardCondition::move_refused:
-            return fmt::format("a move from {} to {} was refused: targets are -8,388,608 to 8,388,607 and a move is at most "
-                               "8,388,607 counts long", c.b, c.a);
+            return fmt::format(
+                "a move from {} to {} was refused: targets are -8,388,608 to 8,388,607 and a move is at most "
+                "8,388,607 counts long",
+                c.b, c.a);
         case CardCondition::go_in_emergency:
-            return fmt::format("G was refused at {} because the emergency stop is active; release it and send G again", c.a);
+            return fmt::format("G was refused at {} because the emergency stop is active; release it and send G again",
+                               c.a);
         case CardCondition::move_aborted:
             return fmt::format("the emergency stop ended the move to {} at {}", c.b, c.a);
         case CardCondition::table_flawed:
@@ -53,12 +58,16 @@ std::string what_happened(const sim::Condition& c) {
         case CardCondition::position_wrapped:
             return fmt::format("the counter left its 24 bits at {}; positions read now are 16,777,216 off", c.a);
         case CardCondition::rate_exceeded:
-            return fmt::format("the encoder came to {} counts a second, more than the inputs follow; counts are being lost", c.a);
+            return fmt::format(
+                "the encoder came to {} counts a second, more than the inputs follow; counts are being lost", c.a);
         case CardCondition::counts_lost:
-            return fmt::format("the encoder is slow enough again; {} counts were lost, so find the reference again", c.a);
+            return fmt::format("the encoder is slow enough again; {} counts were lost, so find the reference again",
+                               c.a);
         case CardCondition::line_too_quick:
-            return fmt::format("the line O{} changed more quickly than the input follows; counts are lost, so find the "
-                               "reference again", c.a);
+            return fmt::format(
+                "the line O{} changed more quickly than the input follows; counts are lost, so find the "
+                "reference again",
+                c.a);
         case CardCondition::watchdog_reset:
             return "the watchdog restarted the firmware, which had hung; position and settings are gone";
     }

@@ -9,20 +9,20 @@
 namespace motionrack::databoard4002 {
 
 enum class CardCondition : std::uint16_t {
-    access_lost = 1,       ///< a: port, b: the byte written, -1: it was an INP
-    unknown_command = 2,   ///< a: the byte
-    arguments_dropped = 3, ///< a: the command they were for, b: how many bytes had come
-    data_unexpected = 4,   ///< a: the byte
-    during_move = 5,       ///< a: the command
-    move_refused = 6,      ///< a: the target, b: the position
-    go_in_emergency = 7,   ///< a: the position
-    move_aborted = 8,      ///< a: the position, b: the target
-    table_flawed = 9,      ///< a: SlopeFlaw, b: the interval
-    position_wrapped = 10, ///< a: the counter
-    rate_exceeded = 11,    ///< a: counts a second
-    counts_lost = 12,      ///< a: how many, signed
-    line_too_quick = 13,   ///< a: 1 or 2 (O1, O2)
-    watchdog_reset = 14    ///< the firmware hung
+    access_lost = 1,        ///< a: port, b: the byte written, -1: it was an INP
+    unknown_command = 2,    ///< a: the byte
+    arguments_dropped = 3,  ///< a: the command they were for, b: how many bytes had come
+    data_unexpected = 4,    ///< a: the byte
+    during_move = 5,        ///< a: the command
+    move_refused = 6,       ///< a: the target, b: the position
+    go_in_emergency = 7,    ///< a: the position
+    move_aborted = 8,       ///< a: the position, b: the target
+    table_flawed = 9,       ///< a: SlopeFlaw, b: the interval
+    position_wrapped = 10,  ///< a: the counter
+    rate_exceeded = 11,     ///< a: counts a second
+    counts_lost = 12,       ///< a: how many, signed
+    line_too_quick = 13,    ///< a: 1 or 2 (O1, O2)
+    watchdog_reset = 14     ///< the firmware hung
 };
 
 /// "card c1: at 0.012 s ...". `card`: its name.

@@ -49,8 +49,10 @@ void Card::take_encoder(bool taken) {
         c.lines[i] = {};
         c.lines[i].raw = c.lines[i].taken = level;
         kernel_.want(wires_[i], id_, taken);
-        if (taken) kernel_.force(wires_[i], level);
-        else kernel_.release(wires_[i]);
+        if (taken)
+            kernel_.force(wires_[i], level);
+        else
+            kernel_.release(wires_[i]);
     }
     if (!taken) {
         c.closed.set(value, *encoder_, now);
@@ -60,7 +62,7 @@ void Card::take_encoder(bool taken) {
     reschedule();
 }
 
-// ---- the limit of a motion ------------------------------------------------------------------------------------------
+// ---- the limit of a motion
 
 bool Card::too_quick(double rate) const {
     const double counts = rate < 0 ? -rate : rate;
@@ -86,7 +88,7 @@ void Card::rate_changed(double, double rate, Instant now) {
     reschedule();
 }
 
-// ---- lines driven as wires ------------------------------------------------------------------------------------------
+// ---- lines driven as wires
 
 void Card::line_changed(int line, int level, Instant now) {
     Line& l = state_.counter.lines[static_cast<std::size_t>(line)];

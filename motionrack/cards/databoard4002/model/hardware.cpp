@@ -6,7 +6,7 @@
 
 namespace motionrack::databoard4002 {
 
-// ---- inputs ---------------------------------------------------------------------------------------------------------
+// ---- inputs
 
 /// An opto-isolated input is active without current, so a broken wire is active.
 bool Card::input(Pin pin, std::uint8_t stat_bit) const {
@@ -42,7 +42,8 @@ void Card::on_wire(int pin, int level, Instant now) {
 }
 
 std::span<const std::string_view> Card::fault_names() {
-    static constexpr std::string_view names[] = {"watchdog.hang", "esl.broken", "esr.broken", "ems.broken", "ref.broken"};
+    static constexpr std::string_view names[] = {"watchdog.hang", "esl.broken", "esr.broken", "ems.broken",
+                                                 "ref.broken"};
     return names;
 }
 
@@ -61,7 +62,8 @@ bool Card::fault(std::string_view name, double value, Instant now) {
     constexpr struct {
         std::string_view name;
         std::uint8_t bit;
-    } wires[] = {{"esl.broken", stat::ESL}, {"esr.broken", stat::ESR}, {"ems.broken", stat::EMS}, {"ref.broken", stat::REF}};
+    } wires[] = {
+        {"esl.broken", stat::ESL}, {"esr.broken", stat::ESR}, {"ems.broken", stat::EMS}, {"ref.broken", stat::REF}};
     for (const auto& wire : wires) {
         if (wire.name != name) continue;
         state_.broken = static_cast<std::uint8_t>(value != 0 ? state_.broken | wire.bit : state_.broken & ~wire.bit);
@@ -74,7 +76,7 @@ bool Card::fault(std::string_view name, double value, Instant now) {
     return false;
 }
 
-// ---- events ---------------------------------------------------------------------------------------------------------
+// ---- events
 
 void Card::raise(std::uint8_t bits) {
     state_.firmware.event |= bits;
@@ -118,7 +120,7 @@ void Card::update_interrupt() {
     kernel_.set_wire(wires_[interrupt_pin], asked);
 }
 
-// ---- outputs --------------------------------------------------------------------------------------------------------
+// ---- outputs
 
 bool Card::gate_open() const {
     return state_.firmware.move.direction > 0 ? !input(esr_pin, stat::ESR) : !input(esl_pin, stat::ESL);

@@ -10,8 +10,9 @@ Result<void> check(const Settings& s) {
         return fail(Trouble::refused,
                     fmt::format("A pass of the firmware is {} ticks of 2.5 us, but it is 1 to 4,000.", s.pass_ticks));
     if (s.byte_time < nanoseconds(2'500) || s.byte_time > milliseconds(100))
-        return fail(Trouble::refused, fmt::format("The firmware takes {} ns for a byte, but that is 2,500 to 100,000,000.",
-                                                  s.byte_time.count() / 10));
+        return fail(Trouble::refused,
+                    fmt::format("The firmware takes {} ns for a byte, but that is 2,500 to 100,000,000.",
+                                s.byte_time.count() / 10));
     const int most_pair = s.folding == sim::Edges::all ? 0 : s.folding == sim::Edges::both_of_a ? 1 : 3;
     if (s.first_pair < 0 || s.first_pair > most_pair)
         return fail(Trouble::refused, fmt::format("The first strap pair is {}, but with folding {} it is 0 to {}.",

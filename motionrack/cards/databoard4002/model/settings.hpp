@@ -16,15 +16,15 @@ enum class Counting : std::int32_t {
 };
 
 struct Settings {
-    std::int32_t pass_ticks = 1;                   ///< one pass of the firmware, in ticks of 2.5 us, 1 .. 4,000
-    Duration byte_time = microseconds(100);        ///< the firmware's time for an access, 2.5 us .. 100 ms
-    std::uint8_t version = 0x20;                   ///< what V answers
-    bool zeroing = true;                           ///< enabling the zero or reference event arms the counter's zeroing
-    Counting counting = Counting::quadrature;      ///< strap field
-    sim::Edges folding = sim::Edges::all;          ///< method 2: 4, 2 or 1 counts for a period of the encoder
-    std::int32_t first_pair = 0;                   ///< method 2: the strap pair 0 A-B, 1 C-D, 2 E-F, 3 G-H; with folding 2: 0 or 1
-    bool single_ended = false;                     ///< limit 50 kHz a line instead of 100 kHz
-    Trim trim = default_trim;                      ///< of the frequency/voltage converter
+    std::int32_t pass_ticks = 1;               ///< one pass of the firmware, in ticks of 2.5 us, 1 .. 4,000
+    Duration byte_time = microseconds(100);    ///< the firmware's time for an access, 2.5 us .. 100 ms
+    std::uint8_t version = 0x20;               ///< what V answers
+    bool zeroing = true;                       ///< enabling the zero or reference event arms the counter's zeroing
+    Counting counting = Counting::quadrature;  ///< strap field
+    sim::Edges folding = sim::Edges::all;      ///< method 2: 4, 2 or 1 counts for a period of the encoder
+    std::int32_t first_pair = 0;  ///< method 2: the strap pair 0 A-B, 1 C-D, 2 E-F, 3 G-H; with folding 2: 0 or 1
+    bool single_ended = false;    ///< limit 50 kHz a line instead of 100 kHz
+    Trim trim = default_trim;     ///< of the frequency/voltage converter
 };
 
 /// Errors: refused, with the setting, its value and its range.

@@ -40,12 +40,12 @@ struct Firmware {
     std::uint8_t access_value = 0;
     std::uint8_t latch = 0;  ///< what INP DATA gives
     Collecting collecting = Collecting::idle;
-    std::uint8_t collector = 0;   ///< the command whose arguments or answer are open
-    std::uint8_t answer_left = 0; ///< bytes still to be put into the latch
+    std::uint8_t collector = 0;    ///< the command whose arguments or answer are open
+    std::uint8_t answer_left = 0;  ///< bytes still to be put into the latch
     std::uint8_t reserved0 = 0;
-    std::int32_t collected = 0;   ///< argument bytes so far
+    std::int32_t collected = 0;  ///< argument bytes so far
     std::uint32_t argument = 0;
-    std::uint32_t answer = 0;     ///< what is left of it
+    std::uint32_t answer = 0;  ///< what is left of it
     std::int32_t reserved1 = 0;
     Instant access_due = never;
     // registers
@@ -56,7 +56,8 @@ struct Firmware {
     Move move;
     // events
     std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
-    std::uint8_t interrupts = 0, armed = 0, armed_condition = 0, stops = 0;  ///< stops: STAT bits of ESL, ESR, EMS at the last pass
+    std::uint8_t interrupts = 0, armed = 0, armed_condition = 0,
+                 stops = 0;  ///< stops: STAT bits of ESL, ESR, EMS at the last pass
     // what the last pass put out
     std::int32_t out_rate = 0;
     std::int32_t reserved2 = 0;
@@ -65,11 +66,11 @@ struct Firmware {
 
 /// A line O1 or O2 that is driven as a wire.
 struct Line {
-    std::uint8_t taken = 0;    ///< the level as counted
-    std::uint8_t raw = 0;      ///< the wire's
-    std::uint16_t changes = 0; ///< since the line was last taken
+    std::uint8_t taken = 0;     ///< the level as counted
+    std::uint8_t raw = 0;       ///< the wire's
+    std::uint16_t changes = 0;  ///< since the line was last taken
     std::uint32_t reserved = 0;
-    Instant free_at{};         ///< from here on it is looked at again
+    Instant free_at{};  ///< from here on it is looked at again
 };
 
 struct CounterState {
@@ -77,7 +78,7 @@ struct CounterState {
     std::int64_t count = 0;         ///< behind wires; or while frozen
     std::int64_t frozen_from = 0;   ///< the motion's count when it became too quick
     std::uint32_t frozen = 0;
-    std::uint32_t cut = 0;          ///< the motion is cut off, the wires are counted instead
+    std::uint32_t cut = 0;  ///< the motion is cut off, the wires are counted instead
     std::array<Line, 2> lines{};
 };
 
@@ -88,8 +89,8 @@ struct State {
     Instant pass_at = never;      ///< the next pass that may do something
     Instant watchdog_at = never;  ///< the firmware hangs until then
     Instant reset_pulse_end = never;
-    Instant fout_at = never;      ///< the next edge of the followed wire fout
-    std::uint8_t broken = 0;      ///< STAT bits of inputs whose wire is broken
+    Instant fout_at = never;  ///< the next edge of the followed wire fout
+    std::uint8_t broken = 0;  ///< STAT bits of inputs whose wire is broken
     std::uint8_t hung = 0;
     std::uint8_t fout_wanted = 0;
     std::uint8_t begun = 0;

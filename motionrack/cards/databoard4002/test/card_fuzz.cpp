@@ -22,7 +22,8 @@ class Sum final : public sim::EdgeListener {
 
 class Run {
   public:
-    Run(Feed& feed, Verdict& verdict) : feed_(feed), verdict_(verdict), host_(settings_from(feed)), other_(host_.kernel, "c2") {
+    Run(Feed& feed, Verdict& verdict)
+        : feed_(feed), verdict_(verdict), host_(settings_from(feed)), other_(host_.kernel, "c2") {
         host_.bus.plug(other_, other_select);
         host_.start();
         for (const char* name : {"zero", "ref", "ems", "esr", "esl"}) inputs_[input_count_++] = wire(name);
@@ -91,7 +92,8 @@ class Run {
         constexpr char letters[] = "ADLMNNNOPPPQRRRSVWGGG";
         const char code = letters[feed_.below(sizeof letters - 1)];
         const int full = code == 'S' ? 240 : code == 'R' ? 2 : code == 'D' || code == 'N' || code == 'P' ? 3 : 0;
-        const int bytes = feed_.below(16) == 0 && full > 0 ? static_cast<int>(feed_.below(static_cast<std::uint32_t>(full))) : full;
+        const int bytes =
+            feed_.below(16) == 0 && full > 0 ? static_cast<int>(feed_.below(static_cast<std::uint32_t>(full))) : full;
         out(ports::CS, select);
         run(longest_access());
         out(ports::C2, static_cast<std::uint8_t>(code));
@@ -161,7 +163,8 @@ class Run {
     /// The card will work on that access.
     void taken(std::uint8_t port, std::uint8_t value) {
         if (port == ports::C2 && value == 'G') went_ = true;
-        const bool arms = port == ports::C4 && host_.card.settings().zeroing && (value & (event::ZERO | event::REF)) != 0;
+        const bool arms =
+            port == ports::C4 && host_.card.settings().zeroing && (value & (event::ZERO | event::REF)) != 0;
         if (port == ports::C4) arms_ = arms, armed_ = armed_ || arms;
         if ((port == ports::C2 && value == 'A') || port == ports::C4) {
             loose_ = true;
@@ -185,7 +188,8 @@ class Run {
     // ---- what must hold
     void check(bool holds, const char* what) {
         if (holds || !verdict_.problem.empty()) return;
-        verdict_.problem = fmt::format("{} (access {}, {:.7f} s)", what, verdict_.accesses, to_seconds(host_.kernel.now()));
+        verdict_.problem =
+            fmt::format("{} (access {}, {:.7f} s)", what, verdict_.accesses, to_seconds(host_.kernel.now()));
     }
     std::int64_t pulses() { return host_.card.pulses().count(host_.kernel.now()); }
     void rebase() {
@@ -272,6 +276,8 @@ class Run {
 
 }  // namespace
 
-void run(Feed& feed, std::int64_t accesses, Verdict& verdict) { Run(feed, verdict).go(accesses); }
+void run(Feed& feed, std::int64_t accesses, Verdict& verdict) {
+    Run(feed, verdict).go(accesses);
+}
 
 }  // namespace motionrack::databoard4002::fuzz

@@ -1,5 +1,5 @@
-// Any byte to any port at any time: a stream of numbers becomes accesses, wires, faults and passing time on a card with an ideal
-// motor, and what must always hold is checked after each.
+// Any byte to any port at any time: a stream of numbers becomes accesses, wires, faults and passing time on a card with
+// an ideal motor, and what must always hold is checked after each.
 //
 //   Ready returns       within the firmware's time for an access, unless the firmware hangs
 //   no motion without G no move, no volt and no pulse before the host's first G after a reset

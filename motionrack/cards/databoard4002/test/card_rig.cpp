@@ -38,11 +38,13 @@ class Follower final : public sim::Device {
 };
 
 struct World final : sim::Kernel::WireObserver {
-    explicit World(const Program& program) : pulses(kernel, {}), card(kernel, "c", settings_of(program.strapping)), follower(kernel) {
+    explicit World(const Program& program)
+        : pulses(kernel, {}), card(kernel, "c", settings_of(program.strapping)), follower(kernel) {
         if (program.strapping.source == Strapping::Source::laws) card.connect_encoder(pulses);
         if (program.strapping.source == Strapping::Source::own_output) card.connect_encoder(card.pulses());
         for (int i = 0; i < 7; ++i) inputs[i] = kernel.find_wire("c." + std::string(card_map().pins[i].name));
-        for (const char* name : {"c.vout", "c.sign", "c.relay", "c.rst", "c.int"}) outputs.push_back(kernel.find_wire(name));
+        for (const char* name : {"c.vout", "c.sign", "c.relay", "c.rst", "c.int"})
+            outputs.push_back(kernel.find_wire(name));
         kernel.listen(kernel.find_wire("c.fout"), follower.id, 0);
         kernel.observe_wires(this);
         kernel.start();
@@ -117,7 +119,8 @@ Outcome run_on_card(const Program& program, const Way& way) {
         world.raw.resize(seen);
     }
     out.changes = settled(world.raw);
-    for (const sim::Condition& c : world.kernel.conditions()) out.notes.push_back({c.at / slice_time, c.code, c.a, c.b});
+    for (const sim::Condition& c : world.kernel.conditions())
+        out.notes.push_back({c.at / slice_time, c.code, c.a, c.b});
     out.events = world.kernel.events();
     return out;
 }

@@ -135,7 +135,7 @@ TEST(Databoard4002, AMoveLongerThan23BitsIsRefusedAndNotWrapped) {
     EXPECT_EQ(host.conditions().size(), 2u);
 }
 
-// ---- resets ---------------------------------------------------------------------------------------------------------
+// ---- resets
 
 TEST(Databoard4002, AHangIsEndedByTheWatchdogAfterASecond) {
     Host host;
@@ -174,7 +174,7 @@ TEST(Databoard4002, C3ResetsThisCardAtOnceAndPulsesRst) {
     EXPECT_EQ(host.events(0), 0x80);
 }
 
-// ---- several cards --------------------------------------------------------------------------------------------------
+// ---- several cards
 
 TEST(Databoard4002Bus, OnlyTheChosenCardListensAndAnswersAndInp7ResetsAll) {
     Host host;
@@ -216,10 +216,11 @@ TEST(Databoard4002Bus, AnyCardsInterruptReachesTheHost) {
     EXPECT_FALSE(host.status() & stat::INT) << "not of this card";
 }
 
-// ---- counting -------------------------------------------------------------------------------------------------------
+// ---- counting
 
 TEST(Databoard4002, LinesDrivenAsWiresAreCountedByTheirStraps) {
-    for (const auto& [folding, expected] : {std::pair{sim::Edges::all, 12}, {sim::Edges::both_of_a, 6}, {sim::Edges::rising_a, 3}}) {
+    for (const auto& [folding, expected] :
+         {std::pair{sim::Edges::all, 12}, {sim::Edges::both_of_a, 6}, {sim::Edges::rising_a, 3}}) {
         Settings settings;
         settings.folding = folding;
         Host host(settings, false);

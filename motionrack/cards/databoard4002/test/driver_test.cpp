@@ -12,7 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// ---- exact traffic --------------------------------------------------------------------------------------------------
+// ---- exact traffic
 
 struct Access {
     char kind;  // 'o', 'i'
@@ -20,7 +20,9 @@ struct Access {
     int value;
     friend bool operator==(const Access&, const Access&) = default;
 };
-std::ostream& operator<<(std::ostream& out, const Access& a) { return out << a.kind << a.port << ' ' << a.value; }
+std::ostream& operator<<(std::ostream& out, const Access& a) {
+    return out << a.kind << a.port << ' ' << a.value;
+}
 
 /// Answers STAT with Ready after a few looks, DATA from a list; writes everything else down.
 class ScriptedPort final : public BytePort, public Interrupt {
@@ -54,14 +56,16 @@ TEST(Databoard4002Driver, SendsLettersAndBytesInTheOrderOfTheDescription) {
     ScriptedPort port;
     Driver driver(port, port);
     ASSERT_TRUE(driver.set_number(-10));
-    EXPECT_THAT(port.accesses, ElementsAre(Access{'o', 3, 'N'}, Access{'o', 0, 0xF6}, Access{'o', 0, 0xFF}, Access{'o', 0, 0xFF}));
+    EXPECT_THAT(port.accesses,
+                ElementsAre(Access{'o', 3, 'N'}, Access{'o', 0, 0xF6}, Access{'o', 0, 0xFF}, Access{'o', 0, 0xFF}));
     port.accesses.clear();
     ASSERT_TRUE(driver.set_rate(63 * 256 + 240));
     EXPECT_THAT(port.accesses, ElementsAre(Access{'o', 3, 'R'}, Access{'o', 0, 240}, Access{'o', 0, 63}));
     port.accesses.clear();
     port.answers = {0xFE, 0xFF, 0xFF};
     EXPECT_EQ(*driver.position(), -2);
-    EXPECT_THAT(port.accesses, ElementsAre(Access{'o', 3, 'P'}, Access{'i', 0, 0xFE}, Access{'i', 0, 0xFF}, Access{'i', 0, 0xFF}));
+    EXPECT_THAT(port.accesses,
+                ElementsAre(Access{'o', 3, 'P'}, Access{'i', 0, 0xFE}, Access{'i', 0, 0xFF}, Access{'i', 0, 0xFF}));
     port.accesses.clear();
     port.answers = {0x21};
     EXPECT_EQ(driver.enable_events(0x21)->word, 0x21);
@@ -76,8 +80,8 @@ TEST(Databoard4002Driver, SendsLettersAndBytesInTheOrderOfTheDescription) {
     EXPECT_EQ(port.accesses[4], (Access{'o', 0, 1}));
     std::vector<char> letters;
     port.accesses.clear();
-    for (auto call : {&Driver::athome, &Driver::go, &Driver::initialise, &Driver::lock, &Driver::manual, &Driver::on_regulation,
-                      &Driver::quit, &Driver::clear_watch_out})
+    for (auto call : {&Driver::athome, &Driver::go, &Driver::initialise, &Driver::lock, &Driver::manual,
+                      &Driver::on_regulation, &Driver::quit, &Driver::clear_watch_out})
         ASSERT_TRUE((driver.*call)());
     for (const Access& a : port.accesses) letters.push_back(static_cast<char>(a.value));
     EXPECT_THAT(letters, ElementsAre('A', 'G', 'I', 'L', 'M', 'O', 'Q', 'W'));
@@ -97,7 +101,7 @@ TEST(Databoard4002Driver, RefusesWhatTheCardCannotTakeAndSendsNothing) {
     EXPECT_EQ(*driver.to_counts(-1.2345), -1'234);
 }
 
-// ---- against the virtual card ---------------------------------------------------------------------------------------
+// ---- against the virtual card
 
 struct Rig {
     Rig() : driver(host.port, host.port) {

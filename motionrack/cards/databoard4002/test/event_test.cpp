@@ -10,7 +10,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 
-// ---- stops ----------------------------------------------------------------------------------------------------------
+// ---- stops
 
 TEST(Databoard4002, AnEndStopHoldsItsDirectionInHardwareAndTheOtherStaysFree) {
     Host host;
@@ -79,7 +79,7 @@ TEST(Databoard4002, ABrokenWireIsAStop) {
     EXPECT_FALSE(host.card.fault("fuse", 1, host.kernel.now()));
 }
 
-// ---- events ---------------------------------------------------------------------------------------------------------
+// ---- events
 
 TEST(Databoard4002, AnEventThatIsNotEnabledSetsNoFlagAndALatchedOneStaysUntilC4) {
     Host host;

@@ -26,8 +26,8 @@ TEST(Databoard4002Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     }
     EXPECT_EQ(verdict.problem, "");
     EXPECT_GE(verdict.accesses, count);
-    std::cout << verdict.seconds << " s, " << verdict.pulses << " pulses, " << verdict.resets << " resets, " << verdict.watchdogs
-              << " by the watchdog" << std::endl;
+    std::cout << verdict.seconds << " s, " << verdict.pulses << " pulses, " << verdict.resets << " resets, "
+              << verdict.watchdogs << " by the watchdog" << std::endl;
     if (count >= 1'000'000) {
         EXPECT_GT(verdict.pulses, 1'000'000);
         EXPECT_GT(verdict.resets, 1'000);

@@ -23,13 +23,16 @@ inline constexpr int demo_acceleration[24][2] = {
     {16330, 250}, {16332, 290}, {16334, 330}, {16336, 365}, {16338, 400}, {16340, 450}, {16342, 500}, {16344, 600}};
 
 struct Host {
-    explicit Host(const Settings& settings = {}, bool own_plant = true, sim::Motion* encoder = nullptr, sim::Kernel* shared = nullptr)
+    explicit Host(const Settings& settings = {}, bool own_plant = true, sim::Motion* encoder = nullptr,
+                  sim::Kernel* shared = nullptr)
         : kernel(shared ? *shared : own_kernel),
           card(kernel, "c1", settings),
           bus(kernel, "c1"),
           port(kernel, bus, bus.id(), bus.interrupt_wire(), Duration{0}) {
-        if (encoder) card.connect_encoder(*encoder);
-        else if (own_plant) card.connect_encoder(card.pulses());
+        if (encoder)
+            card.connect_encoder(*encoder);
+        else if (own_plant)
+            card.connect_encoder(card.pulses());
         bus.plug(card, select);
     }
     /// No more cards and parts.
@@ -40,7 +43,7 @@ struct Host {
 
     bool wait_ready(Duration timeout = milliseconds(127)) {
         const Instant until = kernel.now() + timeout;
-        while (!(port.in(ports::STAT) & stat::READY)) {
+        while (!(port.in(ports::STAT)&stat::READY)) {
             if (kernel.now() >= until) return false;
             port.pass(microseconds(10));
         }

@@ -1,5 +1,5 @@
-// The card with a machine behind it: servo amplifier and DC motor, carriage with end stops, reference cam, zero pulse, emergency
-// button.
+// The card with a machine behind it: servo amplifier and DC motor, carriage with end stops, reference cam, zero pulse,
+// emergency button.
 //
 //   vout ─► motor ─► carriage ─► limit switches ─► esr, esl
 //                       ├─► encoder ─► o1, o2, zero
@@ -23,7 +23,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// 1000 counts a turn, 10 mm a turn: 100 counts for a millimetre; the carriage stands at 0, the stops are at -300 and +3000 mm.
+/// 1000 counts a turn, 10 mm a turn: 100 counts for a millimetre; the carriage stands at 0, the stops are at -300 and
+/// +3000 mm.
 parts::AxisMachineSettings carriage() {
     parts::AxisMachineSettings s;
     s.motor = {1'000, 1, 1e12, 1e12};
@@ -59,8 +60,8 @@ struct Machine {
     }
     /// Slope mode with ramps that this motor follows.
     void set_slope(double top, double ramp, double lag_s = 0.01) {
-        const auto table =
-            design_slope({.top_speed = top, .acceleration = ramp, .deceleration = ramp, .creep_speed = 300, .lag_s = lag_s}, scale);
+        const auto table = design_slope(
+            {.top_speed = top, .acceleration = ramp, .deceleration = ramp, .creep_speed = 300, .lag_s = lag_s}, scale);
         ASSERT_TRUE(table) << table.error().message;
         ASSERT_TRUE(driver.set_slope(*table));
         ASSERT_TRUE(driver.on_regulation());

@@ -19,7 +19,8 @@ TEST(Databoard4002Map, TheCardKnowsTheDeclaredCommandsAndNoOthers) {
         const std::size_t before = host.kernel.conditions().size();
         host.command(static_cast<char>(code));
         EXPECT_TRUE(host.wait_ready());
-        EXPECT_EQ(host.kernel.conditions().size() == before, declared.count(static_cast<std::uint32_t>(code)) == 1) << code;
+        EXPECT_EQ(host.kernel.conditions().size() == before, declared.count(static_cast<std::uint32_t>(code)) == 1)
+            << code;
     }
 }
 

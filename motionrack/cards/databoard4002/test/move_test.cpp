@@ -31,7 +31,7 @@ void demo_go(Host& host, int position) {
     host.command('G');
     ASSERT_TRUE(host.wait_event(whole_seconds(200)));
     host.out(ports::C4, 1 + 32);
-    EXPECT_TRUE(host.in(ports::DATA) & 1);
+    EXPECT_TRUE(host.in(ports::DATA)&1);
 }
 
 TEST(Databoard4002Moves, TheDemonstrationProgramRunsItsRounds) {

@@ -1,5 +1,5 @@
-// The event-driven card against the looping twin: random programs of a host, a machine and hands on switches must look the same in
-// every read, in every change of an output, in every condition and in the pulses counted.
+// The event-driven card against the looping twin: random programs of a host, a machine and hands on switches must look
+// the same in every read, in every change of an output, in every condition and in the pulses counted.
 //
 // MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
 #include <gtest/gtest.h>
@@ -27,9 +27,10 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
         const Program program = make_program(seed, number);
         const Outcome twin = run_on_twin(program), card = run_on_card(program, way_of(program));
         const std::string fault = difference(program, twin, card);
-        ASSERT_EQ(fault, "") << "program " << number << ", source " << static_cast<int>(program.strapping.source) << ", pass "
-                             << program.strapping.pass_ticks << " ticks, byte " << program.strapping.byte_slices << " slices, folding "
-                             << program.strapping.folding << " from " << program.strapping.first_pair
+        ASSERT_EQ(fault, "") << "program " << number << ", source " << static_cast<int>(program.strapping.source)
+                             << ", pass " << program.strapping.pass_ticks << " ticks, byte "
+                             << program.strapping.byte_slices << " slices, folding " << program.strapping.folding
+                             << " from " << program.strapping.first_pair
                              << (program.strapping.up_down ? ", up/down" : "");
         ops += program.ops.size();
         changes += twin.changes.size();
@@ -37,12 +38,14 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
         slices += program.ops.back().slice;
         pulses += std::llabs(twin.sights.back().pulses);
     }
-    std::cout << ops << " accesses and wire changes, " << slices / 2'000 << " ms, " << changes << " changes of outputs, " << notes
-              << " conditions, " << pulses << " pulses net" << std::endl;
+    std::cout << ops << " accesses and wire changes, " << slices / 2'000 << " ms, " << changes
+              << " changes of outputs, " << notes << " conditions, " << pulses << " pulses net" << std::endl;
 }
 
 TEST(Databoard4002Oracle, RandomProgramsLookTheSameOnTheCardAndOnItsTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 600), [](const Program& p) { return Way{p.number % 3 == 0, 0}; });
+    compare(0, from_environment("MOTIONRACK_PROGRAMS", 600), [](const Program& p) {
+        return Way{p.number % 3 == 0, 0};
+    });
 }
 
 TEST(Databoard4002Oracle, ARestoredSnapshotGivesTheSameRest) {

@@ -70,7 +70,10 @@ class Maker {
         const auto size = static_cast<std::int64_t>(one_in(10) ? below(1 << 23) : below(1u << (2 + below(10))));
         return one_in(2) ? size : -size;
     }
-    int speed() { return one_in(8) ? static_cast<int>(below(65'536)) : 16'384 - (1 + static_cast<int>(below(1u << (1 + below(9))))); }
+    int speed() {
+        return one_in(8) ? static_cast<int>(below(65'536))
+                         : 16'384 - (1 + static_cast<int>(below(1u << (1 + below(9)))));
+    }
 
     void table() {
         write(3, 'S');
@@ -91,16 +94,23 @@ class Maker {
 
     void action() {
         switch (below(22)) {
-            case 0: case 1: case 2:
+            case 0:
+            case 1:
+            case 2:
                 write(3, 'P'), number(distance(), 3);
                 break;
-            case 3: case 4:
+            case 3:
+            case 4:
                 write(3, 'N'), number(distance(), 3);
                 break;
-            case 5: case 6:
+            case 5:
+            case 6:
                 write(3, 'R'), number(speed(), 2);
                 break;
-            case 7: case 8: case 9: case 10:
+            case 7:
+            case 8:
+            case 9:
+            case 10:
                 write(3, 'G');
                 wait(below(4) * below(20'000));
                 break;
@@ -108,7 +118,9 @@ class Maker {
                 write(3, "PDRPDR"[below(6)]);
                 for (std::uint64_t i = below(5); i > 0; --i) read(0);
                 break;
-            case 12: case 13: case 14:
+            case 12:
+            case 13:
+            case 14:
                 write(5, pick({0x01, 0x21, 0x81, 0xE7, 0x27, 0x02, 0x04, 0x06, 0x40, static_cast<int>(below(256))}));
                 if (one_in(2)) read(0);
                 break;
@@ -124,10 +136,14 @@ class Maker {
                 write(static_cast<int>(below(8)), static_cast<std::int64_t>(below(256)));
                 break;
             case 18:
-                if (one_in(6)) read(7);
-                else if (one_in(4)) write(4, 0);
-                else if (one_in(4)) table();
-                else read(static_cast<int>(below(3)));
+                if (one_in(6))
+                    read(7);
+                else if (one_in(4))
+                    write(4, 0);
+                else if (one_in(4))
+                    table();
+                else
+                    read(static_cast<int>(below(3)));
                 break;
             default:
                 for (std::uint64_t i = below(6); i > 0; --i) disturbance();
@@ -242,23 +258,27 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
         const Sight &a = twin.sights[i], &b = card.sights[i];
         if (a == b) continue;
         const Op& op = program.ops[i];
-        return fmt::format("after op {} (kind {}, {} {}) at slice {}: twin value {:02X} status {:02X} latch {:02X} position {} pulses {}, "
-                           "card {:02X} {:02X} {:02X} {} {}\n", i, static_cast<int>(op.kind), op.a, op.b, op.slice, a.value, a.status,
-                           a.latch, a.position, a.pulses, b.value, b.status, b.latch, b.position, b.pulses);
+        return fmt::format(
+            "after op {} (kind {}, {} {}) at slice {}: twin value {:02X} status {:02X} latch {:02X} position {} pulses "
+            "{}, "
+            "card {:02X} {:02X} {:02X} {} {}\n",
+            i, static_cast<int>(op.kind), op.a, op.b, op.slice, a.value, a.status, a.latch, a.position, a.pulses,
+            b.value, b.status, b.latch, b.position, b.pulses);
     }
     for (std::size_t i = 0; i < twin.changes.size() || i < card.changes.size(); ++i) {
         const Change a = i < twin.changes.size() ? twin.changes[i] : Change{-1, 0, 0};
         const Change b = i < card.changes.size() ? card.changes[i] : Change{-1, 0, 0};
         if (!(a == b))
-            return fmt::format("change {} of the outputs: twin wire {} = {} at slice {}, card wire {} = {} at slice {}\n", i, a.wire,
-                               a.level, a.slice, b.wire, b.level, b.slice);
+            return fmt::format(
+                "change {} of the outputs: twin wire {} = {} at slice {}, card wire {} = {} at slice {}\n", i, a.wire,
+                a.level, a.slice, b.wire, b.level, b.slice);
     }
     for (std::size_t i = 0; i < twin.notes.size() || i < card.notes.size(); ++i) {
         const Note a = i < twin.notes.size() ? twin.notes[i] : Note{-1, 0, 0, 0};
         const Note b = i < card.notes.size() ? card.notes[i] : Note{-1, 0, 0, 0};
         if (!(a == b))
-            return fmt::format("condition {}: twin {} ({}, {}) at slice {}, card {} ({}, {}) at slice {}\n", i, a.code, a.a, a.b, a.slice,
-                               b.code, b.a, b.b, b.slice);
+            return fmt::format("condition {}: twin {} ({}, {}) at slice {}, card {} ({}, {}) at slice {}\n", i, a.code,
+                               a.a, a.b, a.slice, b.code, b.a, b.b, b.slice);
     }
     return {};
 }

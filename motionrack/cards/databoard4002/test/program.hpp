@@ -1,4 +1,5 @@
-// Random programs of a host, a machine and a hand on the switches; run on the card and on its twin they must look the same.
+// Random programs of a host, a machine and a hand on the switches; run on the card and on its twin they must look the
+// same.
 #pragma once
 
 #include <array>

@@ -42,21 +42,25 @@ RC_GTEST_PROP(Databoard4002Slope, TablesAreSoundAndTheirAverageRampsAreThoseAske
     double up = 0, down = 0;
     bool top = false;
     for (const SlopeLeg& leg : motion->legs) {
-        if (leg.speed == motion->top_speed) top = true;
-        else (top ? down : up) += leg.duration_s;
+        if (leg.speed == motion->top_speed)
+            top = true;
+        else
+            (top ? down : up) += leg.duration_s;
     }
     RC_ASSERT(std::fabs(up - ramp_time(d.acceleration)) < 0.1 * ramp_time(d.acceleration) + 0.01);
     RC_ASSERT(std::fabs(down - ramp_time(d.deceleration)) < 0.1 * ramp_time(d.deceleration) + 0.01);
 }
 
 TEST(Databoard4002Slope, ThePlannedMotionIsTheOneThatTheCardMakes) {
-    for (const auto& [distance, limit] : {std::pair{100'000, most_rate}, {3'000, most_rate}, {40'000, 16'300}, {17, most_rate}}) {
+    for (const auto& [distance, limit] :
+         {std::pair{100'000, most_rate}, {3'000, most_rate}, {40'000, 16'300}, {17, most_rate}}) {
         Host host;
         host.start();
         Driver driver(host.port, host.port);
         ASSERT_TRUE(driver.connect());
         const SpeedScale scale;
-        const SlopeTable table = *design_slope({.top_speed = 9'000, .acceleration = 12'000, .deceleration = 7'000}, scale);
+        const SlopeTable table =
+            *design_slope({.top_speed = 9'000, .acceleration = 12'000, .deceleration = 7'000}, scale);
         ASSERT_TRUE(driver.set_slope(table));
         ASSERT_TRUE(driver.on_regulation());
         ASSERT_TRUE(driver.set_rate(limit));
@@ -67,7 +71,8 @@ TEST(Databoard4002Slope, ThePlannedMotionIsTheOneThatTheCardMakes) {
         const Instant start = host.kernel.now();
         while (host.card.moving()) host.run(microseconds(50));
         EXPECT_EQ(host.card.position(), -distance);
-        EXPECT_NEAR(to_seconds(host.kernel.now() - start), planned.duration_s, 0.002 + 0.001 * planned.duration_s) << distance;
+        EXPECT_NEAR(to_seconds(host.kernel.now() - start), planned.duration_s, 0.002 + 0.001 * planned.duration_s)
+            << distance;
     }
 }
 
@@ -96,13 +101,15 @@ TEST(Databoard4002Slope, LegsJoinAndTheSeriesHasTheirCorners) {
 
 TEST(Databoard4002Slope, RefusesWhatCannotBeWithItsNumbers) {
     const SpeedScale scale;
-    EXPECT_THAT(design_slope({.top_speed = 500'000}, scale).error().message, HasSubstr("500000 counts/s, but this machine reaches 400000"));
+    EXPECT_THAT(design_slope({.top_speed = 500'000}, scale).error().message,
+                HasSubstr("500000 counts/s, but this machine reaches 400000"));
     EXPECT_FALSE(design_slope({.top_speed = 0.0 / 1.0}, scale));
     EXPECT_FALSE(design_slope({.acceleration = std::nan("")}, scale));
     EXPECT_FALSE(design_slope({.load = -1}, scale));
     EXPECT_FALSE(design_slope({.top_speed = 100, .creep_speed = 100}, scale));
     EXPECT_THAT(design_slope({.top_speed = 100}, scale).error().message, HasSubstr("slowest rate gives 24.41"));
-    EXPECT_THAT(design_slope({.top_speed = 100'000, .acceleration = 100}, scale).error().message, HasSubstr("is longer than 8388607"));
+    EXPECT_THAT(design_slope({.top_speed = 100'000, .acceleration = 100}, scale).error().message,
+                HasSubstr("is longer than 8388607"));
     EXPECT_FALSE(motion_of(SlopeTable{}, 100, most_rate, scale));
     EXPECT_FALSE(motion_of(SlopeTable{}, -1, most_rate, scale));
 }

@@ -39,7 +39,7 @@ int microvolts(int rate) {
 
 Twin::Twin(const Strapping& strapping) : s_(strapping) {}
 
-// ---- ports ----------------------------------------------------------------------------------------------------------
+// ---- ports
 
 int Twin::status() const {
     int out = 0;
@@ -81,7 +81,7 @@ void Twin::write(int port, int value) {
     }
 }
 
-// ---- time -----------------------------------------------------------------------------------------------------------
+// ---- time
 
 void Twin::slice() {
     ++now_;
@@ -135,7 +135,7 @@ void Twin::reset() {
     drive();
 }
 
-// ---- counter --------------------------------------------------------------------------------------------------------
+// ---- counter
 
 std::int64_t Twin::position() const {
     std::int64_t p = counter_ % 16'777'216;
@@ -221,7 +221,7 @@ void Twin::break_wire(In pin, bool broken) {
     drive();
 }
 
-// ---- events ---------------------------------------------------------------------------------------------------------
+// ---- events
 
 void Twin::raise(int bits) {
     event_ |= bits;
@@ -258,7 +258,7 @@ void Twin::zero_counter() {
     turn_ = 0;
 }
 
-// ---- outputs --------------------------------------------------------------------------------------------------------
+// ---- outputs
 
 int Twin::stops() const {
     return (active(In::esl) ? 1 : 0) | (active(In::esr) ? 2 : 0) | (active(In::ems) ? 4 : 0);
@@ -291,7 +291,8 @@ void Twin::drive() {
 std::array<int, out_count> Twin::outputs() const {
     const bool relay = rate_ != 0 && !active(In::ems);
     const bool asked = ((interrupts_ & 0x40) && ready_) || ((interrupts_ & 0x80) && pending_);
-    return {relay && driven() ? direction_ * microvolts(rate_out_) : 0, direction_ > 0, relay, now_ < reset_pulse_until_, asked};
+    return {relay && driven() ? direction_ * microvolts(rate_out_) : 0, direction_ > 0, relay,
+            now_ < reset_pulse_until_, asked};
 }
 
 }  // namespace motionrack::databoard4002::twin

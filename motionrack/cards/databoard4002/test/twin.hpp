@@ -1,8 +1,10 @@
-// The card as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven model.
+// The card as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven
+// model.
 //
 //   slice (0.5 us):  divider ─► encoder ─► lines ─► watchdog ─► (every pass) firmware: access, stops, position, speed
 //
-// Nothing is worked out ahead: the divider counts down, the encoder is moved edge by edge, the firmware looks at everything again.
+// Nothing is worked out ahead: the divider counts down, the encoder is moved edge by edge, the firmware looks at
+// everything again.
 #pragma once
 
 #include <array>
@@ -121,7 +123,7 @@ class Twin {
     std::int64_t access_at_ = 0;
     int latch_ = 0;
     std::vector<int> answer_;
-    int open_ = 0;         // command whose data is open
+    int open_ = 0;  // command whose data is open
     bool may_write_ = false, may_read_ = false;
     std::vector<int> bytes_;
     std::int64_t target_ = 0, number_ = 0, window_ = 0, requested_ = 0;

@@ -205,7 +205,9 @@ void Twin::go() {
 
 void Twin::flaws() {
     for (int i = 0; i < 48; ++i) {
-        const auto place = [&](int k) { return table_[k * 5 + 2] + 256 * table_[k * 5 + 3] + 65'536 * table_[k * 5 + 4]; };
+        const auto place = [&](int k) {
+            return table_[k * 5 + 2] + 256 * table_[k * 5 + 3] + 65'536 * table_[k * 5 + 4];
+        };
         if ((table_[i * 5] + 256 * table_[i * 5 + 1]) % 16'384 == 0) return note(9, 1, i);
         if (place(i) > 8'388'607) return note(9, 3, i);
         if (i != 0 && i != 24 && place(i) < place(i - 1)) return note(9, 2, i);

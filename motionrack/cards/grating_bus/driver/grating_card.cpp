@@ -7,9 +7,11 @@ namespace motionrack::grating_bus {
 
 namespace {
 
-constexpr Field CLAIM = field("CONTROL", "CLAIM"), RELEASE = field("CONTROL", "RELEASE"), CLEAR_ERRORS = field("CONTROL", "CLEAR_ERRORS");
+constexpr Field CLAIM = field("CONTROL", "CLAIM"), RELEASE = field("CONTROL", "RELEASE"),
+                CLEAR_ERRORS = field("CONTROL", "CLEAR_ERRORS");
 constexpr Field HOST = field("ROLE", "HOST"), CHECKS = field("ROLE", "CHECKS");
-constexpr Field FRAME = field("STATUS", "FRAME"), STALE = field("STATUS", "STALE"), DIRECTION = field("STATUS", "DIRECTION");
+constexpr Field FRAME = field("STATUS", "FRAME"), STALE = field("STATUS", "STALE"),
+                DIRECTION = field("STATUS", "DIRECTION");
 
 }  // namespace
 
@@ -22,8 +24,11 @@ std::uint32_t GratingCard::read32(std::uint32_t at) {
 Result<CardInfo> GratingCard::open() {
     const std::uint16_t answer = port_.read(offset("SIGNATURE"));
     if (answer != signature)
-        return fail(Trouble::refused, fmt::format("What answers has the signature {:04X}h, but a card of a grating bus has {:04X}h. Look at its address.",
-                                                  answer, signature));
+        return fail(
+            Trouble::refused,
+            fmt::format(
+                "What answers has the signature {:04X}h, but a card of a grating bus has {:04X}h. Look at its address.",
+                answer, signature));
     CardInfo info;
     const std::uint16_t role = port_.read(offset("ROLE"));
     info.host = HOST.test(role);
@@ -44,9 +49,13 @@ Result<Reading> GratingCard::take() {
     Frame& frame = out.frame;
     frame.words = port_.read(offset("WORDS"));
     if (frame.words == 0)
-        return fail(Trouble::refused, "The card has no frame yet: no host has read one since the start. Is there a host, and does it run?");
+        return fail(
+            Trouble::refused,
+            "The card has no frame yet: no host has read one since the start. Is there a host, and does it run?");
     if (frame.words > most_scales)
-        return fail(Trouble::refused, fmt::format("The card says that its frame has {} scales, but {} are the most; it was not read.", frame.words, most_scales));
+        return fail(Trouble::refused,
+                    fmt::format("The card says that its frame has {} scales, but {} are the most; it was not read.",
+                                frame.words, most_scales));
     frame.sequence = read32(offset("SEQUENCE_L"));
     std::uint64_t time = 0;
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -57,9 +66,12 @@ Result<Reading> GratingCard::take() {
     frame.crc = read32(offset("CRC_L"));
     for (std::uint32_t k = 0; k < frame.words; ++k) frame.counts[k] = read32(counts_at + 4 * k);
     if (!sound(frame))
-        return fail(Trouble::refused, fmt::format("Frame {} has the CRC {:08X}h, but its content gives {:08X}h; its positions were not used.", frame.sequence,
-                                                  frame.crc, crc_of(frame)));
-    for (std::uint32_t k = 0; k < frame.words; ++k) before_[k] = out.positions[k] = unwrapped(before_[k], frame.counts[k]);
+        return fail(
+            Trouble::refused,
+            fmt::format("Frame {} has the CRC {:08X}h, but its content gives {:08X}h; its positions were not used.",
+                        frame.sequence, frame.crc, crc_of(frame)));
+    for (std::uint32_t k = 0; k < frame.words; ++k)
+        before_[k] = out.positions[k] = unwrapped(before_[k], frame.counts[k]);
     return out;
 }
 
@@ -68,7 +80,8 @@ Result<Reading> GratingCard::read() {
     Result<Reading> out = take();
     port_.write(offset("CONTROL"), RELEASE.mask);
     if (out && stale())
-        return fail(Trouble::refused, fmt::format("Frame {} of {:.7f} s is older than two periods: the positions are stale and must not be used. Look at the "
+        return fail(Trouble::refused, fmt::format("Frame {} of {:.7f} s is older than two periods: the positions are "
+                                                  "stale and must not be used. Look at the "
                                                   "bus' host.",
                                                   out->frame.sequence, to_seconds(out->frame.instant())));
     return out;
@@ -79,9 +92,12 @@ Result<Reading> GratingCard::wait(Duration timeout) {
     while (!FRAME.test(port_.read(offset("STATUS")))) {
         const Duration left = end - interrupt_.now();
         if (interrupt_.stop_requested())
-            return fail(Trouble::stopped, "Waiting for a frame was stopped by the user; none was read. The card goes on reading frames.");
+            return fail(Trouble::stopped,
+                        "Waiting for a frame was stopped by the user; none was read. The card goes on reading frames.");
         if (left <= Duration{0})
-            return fail(Trouble::refused, fmt::format("No frame came within {} us. Is there a host on the bus, and does it run?", to_seconds(timeout) * 1e6));
+            return fail(Trouble::refused,
+                        fmt::format("No frame came within {} us. Is there a host on the bus, and does it run?",
+                                    to_seconds(timeout) * 1e6));
         interrupt_.wait(left);
     }
     return read();

@@ -1,5 +1,5 @@
-// The function library of a motion card on a grating bus: what the processor's program calls to have the positions of one instant. It knows
-// the card only by a register port, so it cannot tell a virtual card from a real one.
+// The function library of a motion card on a grating bus: what the processor's program calls to have the positions of
+// one instant. It knows the card only by a register port, so it cannot tell a virtual card from a real one.
 //
 //   wait: FRAME? ─► CLAIM ─► header, counts, CRC ─► RELEASE ─► Reading
 //
@@ -27,7 +27,7 @@ struct CardInfo {
 
 /// What went wrong on the bus since the last clear_errors(), each at most 65,535.
 struct CardErrors {
-    std::uint16_t broken = 0;        ///< frames that were not published
+    std::uint16_t broken = 0;  ///< frames that were not published
     std::uint16_t missed_words = 0;
     std::uint16_t alien = 0;
     std::uint16_t lines = 0;
@@ -49,13 +49,14 @@ class GratingCard {
     /// Looks whether such a card answers. Errors: refused, with what answered.
     Result<CardInfo> open();
 
-    /// The frame published last. Errors: refused if there is none yet, if it is stale (two periods old), or if its CRC is wrong; the last
-    /// positions are kept.
+    /// The frame published last. Errors: refused if there is none yet, if it is stale (two periods old), or if its CRC
+    /// is wrong; the last positions are kept.
     Result<Reading> read();
-    /// Waits for a frame that was not read yet, and reads it. Errors: refused after `timeout`, stopped where the user asked to stop, and
-    /// those of read().
+    /// Waits for a frame that was not read yet, and reads it. Errors: refused after `timeout`, stopped where the user
+    /// asked to stop, and those of read().
     Result<Reading> wait(Duration timeout);
-    /// From now on scale `n` (0 .. 254) of the frame counts from `count` on where the next reading's low 32 bits allow it.
+    /// From now on scale `n` (0 .. 254) of the frame counts from `count` on where the next reading's low 32 bits allow
+    /// it.
     void set_position(int n, std::int64_t count) { before_[static_cast<std::size_t>(n)] = count; }
 
     bool stale();

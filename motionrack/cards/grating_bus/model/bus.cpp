@@ -25,12 +25,15 @@ constexpr Part part_of(int pin) {
 
 }  // namespace
 
-Bus::Bus(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::cards, name)) {
+Bus::Bus(sim::Kernel& kernel, const std::string& name)
+    : kernel_(kernel), id_(kernel.add(*this, sim::Phase::cards, name)) {
     for (int pin = 0; pin < pin_count; ++pin) {
         const Part part = part_of(pin);
         const auto at = static_cast<std::size_t>(pin);
         const std::string line(line_types[static_cast<std::size_t>(part.line)].name);
-        const std::string wire = pin == conflict_pin ? "conflict" : pin < vector_pins ? line : line + std::to_string(part.shift);
+        const std::string wire = pin == conflict_pin ? "conflict"
+                                 : pin < vector_pins ? line
+                                                     : line + std::to_string(part.shift);
         wire_names_.push_back(name + "." + wire);
         wires_[at] = kernel.add_wire(wire_names_.back(), static_cast<int>(wire_level(pin, Instant{0})),
                                      pin < vector_pins ? line_types[static_cast<std::size_t>(pin)].bits : 1);
@@ -66,14 +69,15 @@ void Bus::begin() {
     for (Card* card : cards_) {
         const CardSettings& s = card->settings();
         if (s.wrong_direction())
-            card->report(BusCondition::wrong_direction, card->is_host(), (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
+            card->report(BusCondition::wrong_direction, card->is_host(),
+                         (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
         if (!alike_ || card->is_remote()) continue;
-        alike_ = !s.wrong_direction() && s.scales == host().scales && s.first == host().first && s.timing == host().timing &&
-                 check(s, decoders_[0]->settings()).has_value();
+        alike_ = !s.wrong_direction() && s.scales == host().scales && s.first == host().first &&
+                 s.timing == host().timing && check(s, decoders_[0]->settings()).has_value();
     }
 }
 
-// ---- one instant ------------------------------------------------------------------------------------------------------------
+// ---- one instant
 
 void Bus::act(Instant now) {
     if (state_.begun == 0) begin();
@@ -86,7 +90,8 @@ void Bus::act(Instant now) {
 
 // 1. samples, 2. drives, 3. edges: what follows from each within the same instant.
 void Bus::step(Instant now) {
-    if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->state_.pulse_at == now && regular()) return begin_span(now);
+    if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->state_.pulse_at == now && regular())
+        return begin_span(now);
     if (state_.span != 0) interrupt_span(now);
     for (Card* card : cards_) card->sample(state_.lines, now);
     for (Card* card : cards_) card->advance(now);
@@ -135,7 +140,7 @@ void Bus::schedule() {
     kernel_.schedule(id_, next);
 }
 
-// ---- wires ------------------------------------------------------------------------------------------------------------------
+// ---- wires
 
 std::uint32_t Bus::level(Line line) const {
     return in_span() ? span_level(line, kernel_.now()) : state_.lines.level(line);

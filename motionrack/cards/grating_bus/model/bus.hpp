@@ -4,9 +4,9 @@
 //   slave 1 ◄─────────────────────┤ bus │
 //   slave 2 ◄─────────────────────└─────┘
 //
-// While one host drives, everybody is set alike, nobody is late and nobody looks at single lines, a frame is one step: the decoder is latched
-// at the pulse and every card gets the counts at S12 (a "span"). Whatever disturbs that within a frame makes the bus take the frame up
-// where it is and go on state by state.
+// While one host drives, everybody is set alike, nobody is late and nobody looks at single lines, a frame is one step:
+// the decoder is latched at the pulse and every card gets the counts at S12 (a "span"). Whatever disturbs that within a
+// frame makes the bus take the frame up where it is and go on state by state.
 #pragma once
 
 #include <motionrack/cards/grating_bus/model/card.hpp>
@@ -21,7 +21,8 @@ namespace motionrack::grating_bus {
 class Bus final : public sim::Device {
   public:
     /// Its wires by number: the lines, whether there is a conflict, then addr and data bit by bit.
-    static constexpr int vector_pins = 5, conflict_pin = 5, addr_pins = 6, data_pins = addr_pins + 8, pin_count = data_pins + 32;
+    static constexpr int vector_pins = 5, conflict_pin = 5, addr_pins = 6, data_pins = addr_pins + 8,
+                         pin_count = data_pins + 32;
 
     /// Adds the bus and its wires "<name>.clk", "<name>.addr", "<name>.addr0", "<name>.conflict" .. to the kernel.
     explicit Bus(sim::Kernel& kernel, const std::string& name = "bus");
@@ -66,13 +67,13 @@ class Bus final : public sim::Device {
   private:
     struct State {
         Lines lines;
-        std::uint32_t span = 0;        // the frame under way, and what follows until the next pulse, is one step
-        std::uint32_t published = 0;   // of a span: S12 has been
-        Instant start{};               // of the span
-        Instant done = never;          // of the span: S12
-        std::uint32_t wanted = 0;      // wires of the bus and its cards that somebody looks at
+        std::uint32_t span = 0;       // the frame under way, and what follows until the next pulse, is one step
+        std::uint32_t published = 0;  // of a span: S12 has been
+        Instant start{};              // of the span
+        Instant done = never;         // of the span: S12
+        std::uint32_t wanted = 0;     // wires of the bus and its cards that somebody looks at
         std::uint32_t clk_was = 0;
-        std::uint32_t told = 0;        // conflicts were reported, a bit a line
+        std::uint32_t told = 0;  // conflicts were reported, a bit a line
         std::uint32_t begun = 0;
     };
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
@@ -106,8 +107,8 @@ class Bus final : public sim::Device {
     std::vector<Decoder*> decoders_;
     std::vector<sim::DeviceId> drivers_;
     std::vector<int> card_driver_, decoder_driver_;
-    int host_ = -1;          // the one host's index in cards_; -1: none or several
-    bool alike_ = false;     // all cards are set alike and fit the one decoder, whatever happens to them
+    int host_ = -1;       // the one host's index in cards_; -1: none or several
+    bool alike_ = false;  // all cards are set alike and fit the one decoder, whatever happens to them
     State state_{};
 };
 

@@ -11,7 +11,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
     state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
     int_wire_ = kernel.add_wire(name + ".int_n", 1);
-    for (int n = 0; n < output_count; ++n) outputs_[static_cast<std::size_t>(n)] = kernel.add_wire(name + ".vout" + std::to_string(n), 0);
+    for (int n = 0; n < output_count; ++n)
+        outputs_[static_cast<std::size_t>(n)] = kernel.add_wire(name + ".vout" + std::to_string(n), 0);
     kernel.drive_lazily(state_wire_, id_, state_pin);
     kernel.drive_lazily(done_wire_, id_, done_pin);
     state_.stale_at = 2 * settings.period;
@@ -19,7 +20,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
     bus.plug(*this);
 }
 
-// ---- wires ------------------------------------------------------------------------------------------------------------------
+// ---- wires
 
 int Card::level_at(int pin, Instant) const {
     const State state = moment().state;
@@ -55,7 +56,7 @@ void Card::count(Counter which, std::uint32_t by) {
     counter = static_cast<std::uint16_t>(std::min<std::uint32_t>(0xFFFF, counter + by));
 }
 
-// ---- reset and faults -------------------------------------------------------------------------------------------------------
+// ---- reset and faults
 
 // Buffers, what is claimed, and how old it is outlive it.
 void Card::reset() {

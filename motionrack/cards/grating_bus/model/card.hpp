@@ -35,7 +35,8 @@ class FrameListener {
 
 class Card final : public sim::Device, public sim::RegisterDevice {
   public:
-    /// Adds the card, its wires "<name>.<pin>" and itself to the bus, before the kernel starts. `settings` must pass check().
+    /// Adds the card, its wires "<name>.<pin>" and itself to the bus, before the kernel starts. `settings` must pass
+    /// check().
     Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings = {});
 
     // ---- the processor's interface: offsets of the map
@@ -61,7 +62,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     enum Counter { broken, missed_words, alien, line_faults, missed_edges, overrun, counter_count };
     std::uint16_t counter(Counter which) const { return state_.counters[which]; }
 
-    /// Of a remote card, between two runs of the kernel: a frame of its bus has come. A frame whose CRC or number of scales is wrong is a bad one.
+    /// Of a remote card, between two runs of the kernel: a frame of its bus has come. A frame whose CRC or number of
+    /// scales is wrong is a bad one.
     void take(const Frame& frame, Instant now);
     /// The processor puts an analog output (0 .. 3) to `microvolts`, +-10 V at most.
     void put_out(int output, int microvolts);
@@ -82,36 +84,36 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         sim::PingPong<Frame> buffers;
         // the sequence
         State fsm = State::S0;
-        std::uint8_t bad = 0;           // of the frame under way: bits of BadFrame
-        std::uint8_t was_bad = 0;       // the last frame was, and was told of
+        std::uint8_t bad = 0;      // of the frame under way: bits of BadFrame
+        std::uint8_t was_bad = 0;  // the last frame was, and was told of
         std::uint8_t stale = 1;
         std::int32_t word = 0;
         Instant state_ends = never;
-        Instant starts = never;         // a late slave
+        Instant starts = never;  // a late slave
         Instant frame_time{};
         std::uint32_t frame_sequence = 0;
         // pulses and edges
-        std::uint32_t sequence = 0;     // of the last one
-        Instant last_edge{-1};          // -1: none yet
-        std::int64_t pulse = 0;         // host: number of the next one
+        std::uint32_t sequence = 0;  // of the last one
+        Instant last_edge{-1};       // -1: none yet
+        std::int64_t pulse = 0;      // host: number of the next one
         Instant pulse_at = never;
-        Instant fall_at = never;        // of its clk
+        Instant fall_at = never;  // of its clk
         // what it drives through its shifters
         std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
-        std::uint32_t quiet = 0;        // in reset: drives nothing
+        std::uint32_t quiet = 0;  // in reset: drives nothing
         std::uint32_t off = 0;
         Instant stale_at = never;
-        Instant held_since{};           // the frame published last: its time, of a remote card when it came
+        Instant held_since{};  // the frame published last: its time, of a remote card when it came
         std::uint32_t published_sequence = 0;
-        std::uint32_t any = 0;          // one was published
-        std::uint32_t bad_word = 0;     // the word under way was counted as bad
+        std::uint32_t any = 0;       // one was published
+        std::uint32_t bad_word = 0;  // the word under way was counted as bad
         // counters
         std::uint32_t frames = 0;
         std::array<std::uint16_t, counter_count> counters{};
         std::uint32_t told_overrun = 0;
-        std::uint32_t fresh = 0;        // STATUS.FRAME
+        std::uint32_t fresh = 0;  // STATUS.FRAME
         // faults
-        std::uint32_t miss = 0;         // edges that are not seen
+        std::uint32_t miss = 0;  // edges that are not seen
         Duration late{};
         Duration jitter{};
     };

@@ -22,21 +22,34 @@ std::string reasons(std::int64_t bits) {
 std::string what_happened(const sim::Condition& c) {
     switch (static_cast<BusCondition>(c.code)) {
         case BusCondition::wrong_direction:
-            return fmt::format("the card is set as a {}, but its shifter of clk, hold and read_n is set {} and that of addr {}; a host drives with "
-                               "both, a slave with none. Set the shifters to fit the role",
-                               c.a != 0 ? "host" : "slave", c.b & 1 ? "outwards" : "inwards", c.b & 2 ? "outwards" : "inwards");
+            return fmt::format(
+                "the card is set as a {}, but its shifter of clk, hold and read_n is set {} and that of addr {}; a "
+                "host drives with "
+                "both, a slave with none. Set the shifters to fit the role",
+                c.a != 0 ? "host" : "slave", c.b & 1 ? "outwards" : "inwards", c.b & 2 ? "outwards" : "inwards");
         case BusCondition::bad_frame:
-            return fmt::format("frame {} was not published: {}. The last good frame is kept; more bad frames in a row are only counted (BROKEN)", c.a,
-                               reasons(c.b));
+            return fmt::format(
+                "frame {} was not published: {}. The last good frame is kept; more bad frames in a row are only "
+                "counted (BROKEN)",
+                c.a, reasons(c.b));
         case BusCondition::missed_edges:
-            return fmt::format("{} edge{} of clk before frame {} {} not seen; no frame was read in that time, and the sequence goes on as if they had been",
-                               c.a, c.a == 1 ? "" : "s", c.b, c.a == 1 ? "was" : "were");
+            return fmt::format(
+                "{} edge{} of clk before frame {} {} not seen; no frame was read in that time, and the sequence goes "
+                "on as if they had been",
+                c.a, c.a == 1 ? "" : "s", c.b, c.a == 1 ? "was" : "were");
         case BusCondition::overrun:
-            return fmt::format("the pulse of frame {} came while a frame was still being read; it was lost. More of them are only counted (OVERRUN)", c.a);
+            return fmt::format(
+                "the pulse of frame {} came while a frame was still being read; it was lost. More of them are only "
+                "counted (OVERRUN)",
+                c.a);
         case BusCondition::stale:
-            if (c.a < 0) return "no frame has come for two periods since the start; there are no positions. Is there a host, and does it run?";
-            return fmt::format("no good frame for two periods since frame {} of {:.7f} s; its positions are stale and must not be used", c.a,
-                               to_seconds(Duration{c.b}));
+            if (c.a < 0)
+                return "no frame has come for two periods since the start; there are no positions. Is there a host, "
+                       "and does it run?";
+            return fmt::format(
+                "no good frame for two periods since frame {} of {:.7f} s; its positions are stale and must not be "
+                "used",
+                c.a, to_seconds(Duration{c.b}));
         case BusCondition::no_register:
             if (c.b < 0) return fmt::format("a read from {:02X}h, where there is no register, gave FFFFh", c.a);
             return fmt::format("{:04X}h was written to {:02X}h, which takes nothing; nothing was changed", c.b, c.a);
@@ -53,10 +66,12 @@ std::string describe(const sim::Condition& condition, std::string_view card) {
 }
 
 std::string describe(const sim::Condition& c, const Bus& bus) {
-    return fmt::format("bus: at {:.7f} s two cards drive {} at once, {} high and {} low: a conflict; low wins, and what is read is wrong. More on this "
-                       "line are only listed. A bus has one host",
-                       to_seconds(c.at), line_types[static_cast<std::size_t>(c.a)].name, bus.driver_name(static_cast<int>(c.b / most_drivers)),
-                       bus.driver_name(static_cast<int>(c.b % most_drivers)));
+    return fmt::format(
+        "bus: at {:.7f} s two cards drive {} at once, {} high and {} low: a conflict; low wins, and what is read is "
+        "wrong. More on this "
+        "line are only listed. A bus has one host",
+        to_seconds(c.at), line_types[static_cast<std::size_t>(c.a)].name,
+        bus.driver_name(static_cast<int>(c.b / most_drivers)), bus.driver_name(static_cast<int>(c.b % most_drivers)));
 }
 
 }  // namespace motionrack::grating_bus

@@ -40,7 +40,8 @@ void Decoder::ask(Instant now) {
 
 void Decoder::follow(Lines& lines, int driver, Instant now) {
     State& s = state_;
-    const std::uint32_t hold = lines.level(Line::hold), read_n = lines.level(Line::read_n), addr = lines.level(Line::addr);
+    const std::uint32_t hold = lines.level(Line::hold), read_n = lines.level(Line::read_n),
+                        addr = lines.level(Line::addr);
     const bool rose = hold != 0 && s.hold == 0, fell = hold == 0 && s.hold != 0;
     const bool asked = read_n == 0 && (s.read_n != 0 || addr != s.addr);
     s.hold = hold, s.read_n = read_n, s.addr = addr;
@@ -64,10 +65,12 @@ void Decoder::follow(Lines& lines, int driver, Instant now) {
     lines.drive(Line::data, driver, s.out);
 }
 
-// ---- the host's bus ---------------------------------------------------------------------------------------------------------
+// ---- the host's bus
 
 std::uint16_t Decoder::peek(std::uint32_t at) const {
-    if (is_count(at)) return static_cast<std::uint16_t>(at % 4 != 0 ? state_.high : count(static_cast<int>(at - counts_at) / 4, kernel_.now()));
+    if (is_count(at))
+        return static_cast<std::uint16_t>(at % 4 != 0 ? state_.high
+                                                      : count(static_cast<int>(at - counts_at) / 4, kernel_.now()));
     if (at == decoder_offset("SIGNATURE")) return decoder_signature;
     if (at == decoder_offset("SCALES")) return static_cast<std::uint16_t>(settings_.scales);
     return 0xFFFF;
@@ -75,7 +78,8 @@ std::uint16_t Decoder::peek(std::uint32_t at) const {
 
 std::uint16_t Decoder::read(std::uint32_t at) {
     if (is_count(at) && at % 4 == 0) state_.high = count(static_cast<int>(at - counts_at) / 4, kernel_.now()) >> 16;
-    if (!is_count(at) && at > decoder_offset("SCALES")) kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::no_register), at, -1);
+    if (!is_count(at) && at > decoder_offset("SCALES"))
+        kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::no_register), at, -1);
     return peek(at);
 }
 

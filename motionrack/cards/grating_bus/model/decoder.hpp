@@ -21,7 +21,8 @@ class Bus;
 
 class Decoder final : public sim::Device, public sim::RegisterDevice {
   public:
-    /// Adds the card, its wires NAME.a0, NAME.b0 .. and itself to the bus, before the kernel starts. `settings` must pass check().
+    /// Adds the card, its wires NAME.a0, NAME.b0 .. and itself to the bus, before the kernel starts. `settings` must
+    /// pass check().
     Decoder(sim::Kernel& kernel, const std::string& name, Bus& bus, const DecoderSettings& settings = {});
 
     /// Scale `n` counts what this one counts; nullptr: the wires a<n> and b<n>.
@@ -49,16 +50,16 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     friend class Bus;
     struct State {
         std::array<std::uint32_t, most_scales> latched{};
-        std::uint32_t out = 0;          // what it drives, or drove last
+        std::uint32_t out = 0;  // what it drives, or drove last
         std::uint32_t no_latch = 0;
-        std::uint32_t high = 0;         // high word kept by a read of a low one
-        Instant valid{};                // when the latch became, or becomes, valid
-        Instant asked{};                // when read_n fell or addr changed last
-        Instant output = never;         // when the addressed count comes out
+        std::uint32_t high = 0;                                          // high word kept by a read of a low one
+        Instant valid{};                                                 // when the latch became, or becomes, valid
+        Instant asked{};                                                 // when read_n fell or addr changed last
+        Instant output = never;                                          // when the addressed count comes out
         std::uint32_t hold = 0, read_n = 1, addr = rest_of(Line::addr);  // as it reacted to them last
-        std::uint32_t frozen = 0;       // a latch is being held
+        std::uint32_t frozen = 0;                                        // a latch is being held
         std::uint32_t reserved = 0;
-        std::uint32_t lines[most_scales] = {}; // bit 0: A, bit 1: B
+        std::uint32_t lines[most_scales] = {};  // bit 0: A, bit 1: B
         std::array<sim::QuadratureDecoder, most_scales> counters;
     };
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
@@ -69,7 +70,9 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     /// Follows hold, read_n and addr.
     void follow(Lines& lines, int driver, Instant now);
     void ask(Instant now);
-    bool is_count(std::uint32_t at) const { return at >= counts_at && at < counts_at + 4u * static_cast<std::uint32_t>(settings_.scales) && at % 2 == 0; }
+    bool is_count(std::uint32_t at) const {
+        return at >= counts_at && at < counts_at + 4u * static_cast<std::uint32_t>(settings_.scales) && at % 2 == 0;
+    }
 
     sim::Kernel& kernel_;
     DecoderSettings settings_;

@@ -22,7 +22,11 @@ struct LineType {
     int bits;
 };
 inline constexpr std::array<LineType, line_count> line_types = {{
-    {"clk", 0, 1}, {"hold", 0, 1}, {"read_n", 1, 1}, {"addr", 0xFF, 8}, {"data", 0xFFFFFFFF, 32},
+    {"clk", 0, 1},
+    {"hold", 0, 1},
+    {"read_n", 1, 1},
+    {"addr", 0xFF, 8},
+    {"data", 0xFFFFFFFF, 32},
 }};
 constexpr std::uint32_t rest_of(Line line) {
     return line_types[static_cast<std::size_t>(line)].rest;
@@ -53,7 +57,9 @@ class Lines {
     }
     void leave(Line line, int driver) { driving_[at(line)] &= ~(std::uint64_t{1} << driver); }
     /// From now on the bits `mask` of the line have the levels `value`, whatever is driven.
-    void force(Line line, std::uint32_t mask, std::uint32_t value) { forced_[at(line)] = mask, stuck_[at(line)] = value & mask; }
+    void force(Line line, std::uint32_t mask, std::uint32_t value) {
+        forced_[at(line)] = mask, stuck_[at(line)] = value & mask;
+    }
     bool any_forced() const { return (forced_[0] | forced_[1] | forced_[2] | forced_[3] | forced_[4]) != 0; }
 
     /// Makes the levels of what is driven.
@@ -68,7 +74,8 @@ class Lines {
     const Conflict& conflict(std::uint64_t n) const { return list_[n % slots]; }
 
   private:
-    static constexpr std::size_t slots = kept + line_count;  // those of no length, which are taken back, push nothing out
+    static constexpr std::size_t slots =
+        kept + line_count;  // those of no length, which are taken back, push nothing out
 
     static constexpr std::size_t at(Line line) { return static_cast<std::size_t>(line); }
     /// All levels that are driven, and-ed; `any`: or-ed.

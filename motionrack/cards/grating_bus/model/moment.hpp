@@ -1,4 +1,5 @@
-// Where the sequence of a card is so long after it entered S1: what nobody needs to step through can be told from the time alone.
+// Where the sequence of a card is so long after it entered S1: what nobody needs to step through can be told from the
+// time alone.
 #pragma once
 
 #include <motionrack/cards/grating_bus/map.hpp>
@@ -50,7 +51,8 @@ constexpr Moment moment_of(const Timing& timing, int words, Duration elapsed) {
     const Duration word_time = timing.word_time();
     const auto word = static_cast<int>(elapsed / word_time);
     const Duration begin = word * word_time;
-    if (word >= words) return elapsed < timing.frame_time(words) ? Moment{State::S12, words - 1, timing.frame_time(words)} : Moment{};
+    if (word >= words)
+        return elapsed < timing.frame_time(words) ? Moment{State::S12, words - 1, timing.frame_time(words)} : Moment{};
     State state = word == 0 ? State::S1 : State::S7;
     Duration until = begin + time_in(timing, state);
     while (elapsed >= until) {
@@ -72,7 +74,9 @@ constexpr Outputs outputs_of(const Moment& moment, int first) {
     return {1, reads ? 0u : 1u, static_cast<std::uint32_t>(first + (s == State::S7 ? moment.word - 1 : moment.word))};
 }
 
-static_assert(moment_of({}, 4, nanoseconds(50)).state == State::S3 && moment_of({}, 4, nanoseconds(440)).state == State::S12);
-static_assert(moment_of({}, 4, nanoseconds(449)).state == State::S12 && moment_of({}, 4, nanoseconds(450)).state == State::S0);
+static_assert(moment_of({}, 4, nanoseconds(50)).state == State::S3 &&
+              moment_of({}, 4, nanoseconds(440)).state == State::S12);
+static_assert(moment_of({}, 4, nanoseconds(449)).state == State::S12 &&
+              moment_of({}, 4, nanoseconds(450)).state == State::S0);
 
 }  // namespace motionrack::grating_bus

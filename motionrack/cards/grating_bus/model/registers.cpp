@@ -8,14 +8,16 @@ namespace motionrack::grating_bus {
 
 namespace {
 
-constexpr Field CLAIM = field("CONTROL", "CLAIM"), RELEASE = field("CONTROL", "RELEASE"), CLEAR = field("CONTROL", "CLEAR_ERRORS"),
-                RESET = field("CONTROL", "RESET");
-constexpr Field HOST = field("ROLE", "HOST"), CLOCK_OUT = field("ROLE", "CLOCK_OUT"), ADDRESS_OUT = field("ROLE", "ADDRESS_OUT"),
-                CHECKS = field("ROLE", "CHECKS");
-constexpr Field FRAME = field("STATUS", "FRAME"), CLAIMED = field("STATUS", "CLAIMED"), STALE = field("STATUS", "STALE"),
-                DIRECTION = field("STATUS", "DIRECTION"), BUSY = field("STATUS", "BUSY"), OFF = field("STATUS", "OFF");
+constexpr Field CLAIM = field("CONTROL", "CLAIM"), RELEASE = field("CONTROL", "RELEASE"),
+                CLEAR = field("CONTROL", "CLEAR_ERRORS"), RESET = field("CONTROL", "RESET");
+constexpr Field HOST = field("ROLE", "HOST"), CLOCK_OUT = field("ROLE", "CLOCK_OUT"),
+                ADDRESS_OUT = field("ROLE", "ADDRESS_OUT"), CHECKS = field("ROLE", "CHECKS");
+constexpr Field FRAME = field("STATUS", "FRAME"), CLAIMED = field("STATUS", "CLAIMED"),
+                STALE = field("STATUS", "STALE"), DIRECTION = field("STATUS", "DIRECTION"),
+                BUSY = field("STATUS", "BUSY"), OFF = field("STATUS", "OFF");
 constexpr Field STATE = field("STATE", "STATE"), WORD = field("STATE", "WORD");
-static_assert((offset("OVERRUN") - offset("BROKEN")) / 2 + 1 == Card::counter_count, "Card::Counter has the registers' order");
+static_assert((offset("OVERRUN") - offset("BROKEN")) / 2 + 1 == Card::counter_count,
+              "Card::Counter has the registers' order");
 
 /// A word with these flags.
 std::uint16_t flags(std::initializer_list<std::pair<Field, bool>> all) {
@@ -42,16 +44,26 @@ std::uint16_t frame_word(const Frame& frame, std::uint32_t at) {
         return k < frame.words ? low(frame.counts[k], at % 4 / 2) : std::uint16_t{0};
     }
     switch (at) {
-        case offset("SEQUENCE_L"): return low(frame.sequence);
-        case offset("SEQUENCE_H"): return low(frame.sequence, 1);
-        case offset("TIME_0"): return low(static_cast<std::uint64_t>(frame.time));
-        case offset("TIME_1"): return low(static_cast<std::uint64_t>(frame.time), 1);
-        case offset("TIME_2"): return low(static_cast<std::uint64_t>(frame.time), 2);
-        case offset("TIME_3"): return low(static_cast<std::uint64_t>(frame.time), 3);
-        case offset("WORDS"): return low(frame.words);
-        case offset("CRC_L"): return low(frame.crc);
-        case offset("CRC_H"): return low(frame.crc, 1);
-        default: return 0;
+        case offset("SEQUENCE_L"):
+            return low(frame.sequence);
+        case offset("SEQUENCE_H"):
+            return low(frame.sequence, 1);
+        case offset("TIME_0"):
+            return low(static_cast<std::uint64_t>(frame.time));
+        case offset("TIME_1"):
+            return low(static_cast<std::uint64_t>(frame.time), 1);
+        case offset("TIME_2"):
+            return low(static_cast<std::uint64_t>(frame.time), 2);
+        case offset("TIME_3"):
+            return low(static_cast<std::uint64_t>(frame.time), 3);
+        case offset("WORDS"):
+            return low(frame.words);
+        case offset("CRC_L"):
+            return low(frame.crc);
+        case offset("CRC_H"):
+            return low(frame.crc, 1);
+        default:
+            return 0;
     }
 }
 
@@ -63,28 +75,47 @@ std::uint16_t Card::peek(std::uint32_t at) const {
         const Frame* held = state_.buffers.held();
         return frame_word(held ? *held : nothing, at);
     }
-    if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0) return state_.counters[(at - offset("BROKEN")) / 2];
+    if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0)
+        return state_.counters[(at - offset("BROKEN")) / 2];
     const CardSettings& s = settings_;
     const Moment m = moment();
     switch (at) {
-        case offset("SIGNATURE"): return signature;
+        case offset("SIGNATURE"):
+            return signature;
         case offset("ROLE"):
-            return flags({{HOST, is_host()}, {CLOCK_OUT, s.clock_out()}, {ADDRESS_OUT, s.address_out()}, {CHECKS, s.checks}});
+            return flags(
+                {{HOST, is_host()}, {CLOCK_OUT, s.clock_out()}, {ADDRESS_OUT, s.address_out()}, {CHECKS, s.checks}});
         case offset("STATUS"):
-            return flags({{FRAME, state_.fresh != 0}, {CLAIMED, state_.buffers.held() != nullptr}, {STALE, stale()},
-                          {DIRECTION, s.wrong_direction()}, {BUSY, m.state != State::S0}, {OFF, off()}});
-        case offset("STATE"): return WORD.set(STATE.set(0, static_cast<unsigned>(m.state)), static_cast<unsigned>(m.word));
-        case offset("SCALES"): return static_cast<std::uint16_t>(s.scales);
-        case offset("FIRST"): return static_cast<std::uint16_t>(s.first);
-        case offset("T1"): return ticks(s.timing.t1);
-        case offset("T2"): return ticks(s.timing.t2);
-        case offset("T3"): return ticks(s.timing.t3);
-        case offset("CLOCK"): return ticks(s.timing.clock);
-        case offset("PERIOD_L"): return low(static_cast<std::uint64_t>(s.period.count()));
-        case offset("PERIOD_H"): return low(static_cast<std::uint64_t>(s.period.count()), 1);
-        case offset("FRAMES_L"): return low(state_.frames);
-        case offset("FRAMES_H"): return low(state_.frames, 1);
-        default: return 0xFFFF;
+            return flags({{FRAME, state_.fresh != 0},
+                          {CLAIMED, state_.buffers.held() != nullptr},
+                          {STALE, stale()},
+                          {DIRECTION, s.wrong_direction()},
+                          {BUSY, m.state != State::S0},
+                          {OFF, off()}});
+        case offset("STATE"):
+            return WORD.set(STATE.set(0, static_cast<unsigned>(m.state)), static_cast<unsigned>(m.word));
+        case offset("SCALES"):
+            return static_cast<std::uint16_t>(s.scales);
+        case offset("FIRST"):
+            return static_cast<std::uint16_t>(s.first);
+        case offset("T1"):
+            return ticks(s.timing.t1);
+        case offset("T2"):
+            return ticks(s.timing.t2);
+        case offset("T3"):
+            return ticks(s.timing.t3);
+        case offset("CLOCK"):
+            return ticks(s.timing.clock);
+        case offset("PERIOD_L"):
+            return low(static_cast<std::uint64_t>(s.period.count()));
+        case offset("PERIOD_H"):
+            return low(static_cast<std::uint64_t>(s.period.count()), 1);
+        case offset("FRAMES_L"):
+            return low(state_.frames);
+        case offset("FRAMES_H"):
+            return low(state_.frames, 1);
+        default:
+            return 0xFFFF;
     }
 }
 

@@ -13,17 +13,19 @@ std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
 
 Instant Card::next() const {
     if (state_.off != 0) return std::min(state_.pulse_at, state_.stale_at);
-    return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(state_.pulse_at, state_.fall_at)), state_.stale_at);
+    return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(state_.pulse_at, state_.fall_at)),
+                    state_.stale_at);
 }
 
-// ---- the order of an instant: sample, advance, clock_rose ------------------------------------------------------------------
+// ---- the order of an instant: sample, advance, clock_rose
 
 void Card::sample(const Lines& lines, Instant now) {
     if (state_.state_ends != now) return;
     const bool takes = state_.fsm == State::S2 || state_.fsm == State::S8;
     if (!takes && state_.fsm != State::S4 && state_.fsm != State::S10) return;
     const bool read_off = lines.level(Line::read_n) != 0;
-    if (takes && !read_off) state_.buffers.current().counts[static_cast<std::size_t>(state_.word)] = lines.level(Line::data);
+    if (takes && !read_off)
+        state_.buffers.current().counts[static_cast<std::size_t>(state_.word)] = lines.level(Line::data);
     if (!settings_.checks) return;
     if (takes) state_.bad_word = 0;
     const bool clock_wrong = is_host() && lines.level(Line::clk) != state_.clk;
@@ -89,7 +91,8 @@ void Card::note_edge(Instant now) {
     } else if (is_host() || now - state_.last_edge < settings_.period + settings_.period / 2) {
         ++state_.sequence;
     } else {
-        const auto periods = static_cast<std::uint32_t>((now - state_.last_edge + settings_.period / 2) / settings_.period);
+        const auto periods =
+            static_cast<std::uint32_t>((now - state_.last_edge + settings_.period / 2) / settings_.period);
         state_.sequence += periods;
         if (periods > 1) {
             count(missed_edges, periods - 1);
@@ -170,7 +173,7 @@ void Card::drive(Lines& lines, int driver) const {
     put(Line::addr, settings_.address_out(), host ? state_.addr : rest_of(Line::addr));
 }
 
-// ---- frames -----------------------------------------------------------------------------------------------------------------
+// ---- frames
 
 void Card::put_words(const std::uint32_t* counts, int words) {
     std::copy_n(counts, words, state_.buffers.current().counts.begin());
@@ -183,7 +186,8 @@ void Card::publish(Instant now, const Frame* like) {
     frame.time = state_.frame_time.count();
     frame.sequence = state_.frame_sequence;
     frame.words = static_cast<std::uint32_t>(settings_.scales);
-    const bool known = like && like->sequence == frame.sequence && like->time == frame.time && like->words == frame.words;
+    const bool known =
+        like && like->sequence == frame.sequence && like->time == frame.time && like->words == frame.words;
     frame.crc = known ? like->crc : crc_of(frame);
     hand_out(now, state_.frame_time);
 }
@@ -226,17 +230,19 @@ void Card::check_stale(Instant now) {
     if (state_.stale_at > now) return;
     state_.stale_at = never;
     state_.stale = 1;
-    report(BusCondition::stale, state_.any != 0 ? std::int64_t{state_.published_sequence} : -1, state_.held_since.count());
+    report(BusCondition::stale, state_.any != 0 ? std::int64_t{state_.published_sequence} : -1,
+           state_.held_since.count());
 }
 
-// ---- whole frames -----------------------------------------------------------------------------------------------------------
+// ---- whole frames
 
 void Card::take_up(Instant start, const std::uint32_t* counts, Instant now) {
     const Moment m = moment_of(settings_.timing, settings_.scales, now - start);
     if (m.state == State::S0 || is_remote()) return;
     if (m.state != State::S12) {
         begin_frame(start);
-        const bool sampled = m.state != State::S1 && m.state != State::S2 && m.state != State::S7 && m.state != State::S8;
+        const bool sampled =
+            m.state != State::S1 && m.state != State::S2 && m.state != State::S7 && m.state != State::S8;
         put_words(counts, m.word + (sampled ? 1 : 0));
     }
     state_.fsm = m.state;
@@ -247,7 +253,8 @@ void Card::take_up(Instant start, const std::uint32_t* counts, Instant now) {
 }
 
 Moment Card::moment() const {
-    if (bus_.in_span() && !is_remote() && state_.fsm == State::S0 && state_.off == 0) return moment_of(settings_.timing, settings_.scales, kernel_.now() - bus_.span_start());
+    if (bus_.in_span() && !is_remote() && state_.fsm == State::S0 && state_.off == 0)
+        return moment_of(settings_.timing, settings_.scales, kernel_.now() - bus_.span_start());
     return {state_.fsm, state_.word, state_.state_ends - state_.frame_time};
 }
 

@@ -13,7 +13,8 @@ double ns(Duration d) {
 
 Result<void> within(const char* name, Duration value, Duration least, Duration most) {
     if (value >= least && value <= most) return {};
-    return fail(Trouble::refused, fmt::format("{} is {:.1f} ns, but it is {:.1f} to {:.1f} ns.", name, ns(value), ns(least), ns(most)));
+    return fail(Trouble::refused,
+                fmt::format("{} is {:.1f} ns, but it is {:.1f} to {:.1f} ns.", name, ns(value), ns(least), ns(most)));
 }
 
 Result<void> within(const char* name, int value, int least, int most) {
@@ -37,10 +38,11 @@ Result<void> check(const CardSettings& s) {
     const Duration frame = s.timing.frame_time(s.scales);
     if (frame < s.period) return {};
     return fail(Trouble::refused,
-                fmt::format("A frame of {} scales takes {:.1f} ns ({} x (T1 {:.1f} + T2 {:.1f} + T3 {:.1f}) + {} x {:.1f} ns), which does not fit "
+                fmt::format("A frame of {} scales takes {:.1f} ns ({} x (T1 {:.1f} + T2 {:.1f} + T3 {:.1f}) + {} x "
+                            "{:.1f} ns), which does not fit "
                             "into its period of {:.1f} ns. Read fewer scales, wait less or take a longer period.",
-                            s.scales, ns(frame), s.scales, ns(s.timing.t1), ns(s.timing.t2), ns(s.timing.t3), 3 * s.scales + 1,
-                            ns(s.timing.clock), ns(s.period)));
+                            s.scales, ns(frame), s.scales, ns(s.timing.t1), ns(s.timing.t2), ns(s.timing.t3),
+                            3 * s.scales + 1, ns(s.timing.clock), ns(s.period)));
 }
 
 Result<void> check(const DecoderSettings& s) {
@@ -51,14 +53,20 @@ Result<void> check(const DecoderSettings& s) {
 
 Result<void> check(const CardSettings& card, const DecoderSettings& decoder) {
     if (card.first + card.scales > decoder.scales)
-        return fail(Trouble::refused, fmt::format("The card reads the scales {} to {}, but the decoder has {} (0 to {}).", card.first,
-                                                  card.first + card.scales - 1, decoder.scales, decoder.scales - 1));
+        return fail(Trouble::refused,
+                    fmt::format("The card reads the scales {} to {}, but the decoder has {} (0 to {}).", card.first,
+                                card.first + card.scales - 1, decoder.scales, decoder.scales - 1));
     if (decoder.latch > card.timing.t1)
-        return fail(Trouble::refused, fmt::format("The decoder needs {:.1f} ns to latch, but the card waits T1 = {:.1f} ns only.",
-                                                  ns(decoder.latch), ns(card.timing.t1)));
+        return fail(Trouble::refused,
+                    fmt::format("The decoder needs {:.1f} ns to latch, but the card waits T1 = {:.1f} ns only.",
+                                ns(decoder.latch), ns(card.timing.t1)));
     if (decoder.output >= card.timing.t2)
-        return fail(Trouble::refused, fmt::format("The decoder needs {:.1f} ns to put data out, but the card takes them after T2 = {:.1f} ns; T2 must "
-                                                  "be longer.", ns(decoder.output), ns(card.timing.t2)));
+        return fail(
+            Trouble::refused,
+            fmt::format(
+                "The decoder needs {:.1f} ns to put data out, but the card takes them after T2 = {:.1f} ns; T2 must "
+                "be longer.",
+                ns(decoder.output), ns(card.timing.t2)));
     return {};
 }
 

@@ -16,19 +16,25 @@ enum class Shifter : std::uint8_t { as_role, out, in };
 /// Of a motion card.
 struct CardSettings {
     Role role = Role::slave;
-    int scales = 4;                          ///< N, 1 .. 255: scales of a frame
-    int first = 0;                           ///< 0 .. 255 - N: address of the first one
-    Timing timing;                           ///< waits and clock, 0.1 ns .. 6 us each
-    Duration period = microseconds(200);     ///< of the frames, 1 us .. 100 ms
-    Duration offset{0};                      ///< host: its first pulse, 0 .. period
+    int scales = 4;                              ///< N, 1 .. 255: scales of a frame
+    int first = 0;                               ///< 0 .. 255 - N: address of the first one
+    Timing timing;                               ///< waits and clock, 0.1 ns .. 6 us each
+    Duration period = microseconds(200);         ///< of the frames, 1 us .. 100 ms
+    Duration offset{0};                          ///< host: its first pulse, 0 .. period
     Shifter clock_shifter = Shifter::as_role;    ///< of clk, hold and read_n
     Shifter address_shifter = Shifter::as_role;  ///< of addr
-    bool checks = true;                      ///< frames whose lines are not as they should be are not published
-    std::uint32_t seed = 1;                  ///< of jitter
+    bool checks = true;                          ///< frames whose lines are not as they should be are not published
+    std::uint32_t seed = 1;                      ///< of jitter
 
-    bool clock_out() const { return clock_shifter == Shifter::as_role ? role == Role::host : clock_shifter == Shifter::out; }
-    bool address_out() const { return address_shifter == Shifter::as_role ? role == Role::host : address_shifter == Shifter::out; }
-    bool wrong_direction() const { return clock_out() != (role == Role::host) || address_out() != (role == Role::host); }
+    bool clock_out() const {
+        return clock_shifter == Shifter::as_role ? role == Role::host : clock_shifter == Shifter::out;
+    }
+    bool address_out() const {
+        return address_shifter == Shifter::as_role ? role == Role::host : address_shifter == Shifter::out;
+    }
+    bool wrong_direction() const {
+        return clock_out() != (role == Role::host) || address_out() != (role == Role::host);
+    }
 };
 
 /// Of a decoder card.
@@ -38,7 +44,8 @@ struct DecoderSettings {
     Duration output = nanoseconds(20);  ///< from the address to valid data, 0.1 ns .. 6 us
 };
 
-/// Errors: refused, with the setting, its value and its range; so is a frame that does not fit into its period, with its time.
+/// Errors: refused, with the setting, its value and its range; so is a frame that does not fit into its period, with
+/// its time.
 Result<void> check(const CardSettings& settings);
 Result<void> check(const DecoderSettings& settings);
 /// Whether a card can read its scales from this decoder in its waits. Errors: refused, with the numbers.

@@ -14,7 +14,8 @@ bool Bus::regular() const {
     }
     const Card::Data& first = cards_[static_cast<std::size_t>(host_)]->state_;
     const Instant next_period = cards_[static_cast<std::size_t>(host_)]->grid() + host().period;
-    if (first.pulse_at + host().timing.frame_time(host().scales) >= next_period) return false;  // the next pulse may come too soon
+    if (first.pulse_at + host().timing.frame_time(host().scales) >= next_period)
+        return false;  // the next pulse may come too soon
     return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && first.quiet == 0);
 }
 

@@ -6,7 +6,8 @@
 
 namespace motionrack::grating_bus {
 
-SpeedChange::SpeedChange(double from_nm_s, double to_nm_s, const MotionLimits& limits) : from_(from_nm_s), to_(to_nm_s) {
+SpeedChange::SpeedChange(double from_nm_s, double to_nm_s, const MotionLimits& limits)
+    : from_(from_nm_s), to_(to_nm_s) {
     const double change = std::fabs(to_ - from_), accel = limits.accel_nm_s2, jerk = limits.jerk_nm_s3;
     if (change == 0) return;
     jerk_ = to_ > from_ ? jerk : -jerk;
@@ -29,7 +30,7 @@ Setpoint SpeedChange::at(double seconds) const {
     return {way() - left * (to_ - jerk_ * left * left / 6), to_ - jerk_ * left * left / 2, jerk_ * left};
 }
 
-// ---- scan -----------------------------------------------------------------------------------------------------------
+// ---- scan
 
 ScanProfile::ScanProfile(double from_nm, double to_nm, const MotionLimits& limits)
     : from_(from_nm),
@@ -72,7 +73,7 @@ bool ScanProfile::scanning(double seconds) const {
     return (t >= half ? t - half : t) < line_s_;
 }
 
-// ---- steps ----------------------------------------------------------------------------------------------------------
+// ---- steps
 
 StepProfile::StepProfile(double start_nm, double step_nm, int steps, double every_s, const MotionLimits& limits)
     : start_(start_nm), step_(step_nm), steps_(steps), every_(every_s) {

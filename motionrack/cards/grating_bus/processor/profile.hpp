@@ -1,4 +1,5 @@
-// Where an axis is to be, as closed forms of time: a scan to and fro, and a staircase of steps; acceleration and jerk are limited.
+// Where an axis is to be, as closed forms of time: a scan to and fro, and a staircase of steps; acceleration and jerk
+// are limited.
 //
 //   scan                                             steps
 //   place ^      to .--.            .-- turn         place ^            .------
@@ -30,9 +31,9 @@ constexpr Setpoint geared(const Setpoint& s, double factor) {
 
 /// Limits of a profile, all more than 0.
 struct MotionLimits {
-    double speed_nm_s = 1e8;     ///< 100 mm/s
-    double accel_nm_s2 = 5e9;    ///< 5 m/s2
-    double jerk_nm_s3 = 1e12;    ///< 1000 m/s3
+    double speed_nm_s = 1e8;   ///< 100 mm/s
+    double accel_nm_s2 = 5e9;  ///< 5 m/s2
+    double jerk_nm_s3 = 1e12;  ///< 1000 m/s3
 };
 
 /// A change of speed with limited acceleration and jerk.
@@ -107,8 +108,8 @@ class StepProfile {
     SpeedChange down_;
 };
 
-/// What a loop needs at a frame of `seconds`: place and speed of that instant, the acceleration of the middle of the period that follows, which
-/// is the one that its voltage will act on.
+/// What a loop needs at a frame of `seconds`: place and speed of that instant, the acceleration of the middle of the
+/// period that follows, which is the one that its voltage will act on.
 template <class Profile>
 Setpoint wanted_at(const Profile& profile, double seconds, double period_s) {
     Setpoint out = profile.at(seconds);

@@ -1,12 +1,13 @@
-// A position loop closed through the bus' frames: every frame gives a position, and the position a voltage for the period that follows.
+// A position loop closed through the bus' frames: every frame gives a position, and the position a voltage for the
+// period that follows.
 //
 //   frame ──► count, unwrapped ──► nm ──┐
 //                                       ▼
 //   profile ──► wanted ───────────────(-)──► error ──► P + I + D ──┐
 //         └──► speed, acceleration ──► feed-forward ──────────────(+)──► limit ──► volts
 //
-// A frame that is not sound or not newer is not used. Stale data and too great an error open the loop: 0 V, and the position is not trusted
-// until close().
+// A frame that is not sound or not newer is not used. Stale data and too great an error open the loop: 0 V, and the
+// position is not trusted until close().
 #pragma once
 
 #include <cstdint>
@@ -24,31 +25,32 @@ struct ServoGains {
     double accel_ff = 0;  ///< V for a nm/s2
 };
 
-/// Gains that make the open loop cross 1 at `bandwidth_hz` (about a twentieth of the frames' rate leaves room for the frames' own delay), for a
-/// stage that is accelerated by `accel_per_volt` m/s2 for a volt and braked by `viscous` m/s2 for a m/s.
+/// Gains that make the open loop cross 1 at `bandwidth_hz` (about a twentieth of the frames' rate leaves room for the
+/// frames' own delay), for a stage that is accelerated by `accel_per_volt` m/s2 for a volt and braked by `viscous` m/s2
+/// for a m/s.
 ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
 
 struct ServoSettings {
-    std::uint64_t word = 0;     ///< of the frame, 0 .. 254
-    double nm_per_count = 1;    ///< not 0; negative: the scale counts the other way
-    double zero_nm = 0;         ///< where the scale's count is 0
+    std::uint64_t word = 0;   ///< of the frame, 0 .. 254
+    double nm_per_count = 1;  ///< not 0; negative: the scale counts the other way
+    double zero_nm = 0;       ///< where the scale's count is 0
     ServoGains gains;
-    double limit_v = 10;        ///< > 0: of the output
-    double limit_i_v = 5;       ///< >= 0: of the integral part
-    double limit_nm = 0;        ///< >= 0: a greater following error opens the loop; 0: none does
+    double limit_v = 10;   ///< > 0: of the output
+    double limit_i_v = 5;  ///< >= 0: of the integral part
+    double limit_nm = 0;   ///< >= 0: a greater following error opens the loop; 0: none does
 };
 
 enum class LoopState : std::uint32_t {
     not_begun,  ///< close() was not called
     closed,
-    stale,      ///< opened: no frame came in time
-    too_far     ///< opened: the following error was greater than limit_nm
+    stale,   ///< opened: no frame came in time
+    too_far  ///< opened: the following error was greater than limit_nm
 };
 
 /// What the loop has missed since it was last reset.
 struct FollowingError {
-    double last_nm = 0;   ///< wanted - measured, at the last frame
-    double peak_nm = 0;   ///< the greatest without its sign
+    double last_nm = 0;  ///< wanted - measured, at the last frame
+    double peak_nm = 0;  ///< the greatest without its sign
     double squares = 0;
     std::uint64_t frames = 0;
     double rms_nm() const;
@@ -60,7 +62,8 @@ class ServoLoop {
     ServoLoop() : ServoLoop(ServoSettings{}) {}
     explicit ServoLoop(const ServoSettings& settings);
 
-    /// The position is trusted from now on: the next frame's count is the one next to `count` (64 bits, of the scale). Closes the loop.
+    /// The position is trusted from now on: the next frame's count is the one next to `count` (64 bits, of the scale).
+    /// Closes the loop.
     void close(std::int64_t count = 0);
     /// Takes the frame's position; the volts from now on. A frame that cannot be used changes nothing and is counted.
     double on_frame(const Frame& frame, const Setpoint& wanted);
@@ -89,7 +92,7 @@ class ServoLoop {
     double integral_ = 0;  // V
     double before_ = 0;    // error at the last frame, nm
     double volts_ = 0;
-    Instant last_{};       // of the last frame used
+    Instant last_{};  // of the last frame used
     LoopState state_ = LoopState::not_begun;
     std::uint32_t begun_ = 0;  // a frame was used since close()
     std::uint64_t unused_ = 0;

@@ -25,7 +25,9 @@ void expect_true_frames(const Crate& crate, std::size_t frames, int scales) {
             ASSERT_EQ(frame.sequence, i);
             ASSERT_EQ(frame.instant(), static_cast<std::int64_t>(i) * period);
             for (int k = 0; k < scales; ++k)
-                ASSERT_EQ(frame.counts[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(crate.truth(k, frame.instant()))) << k;
+                ASSERT_EQ(frame.counts[static_cast<std::size_t>(k)],
+                          static_cast<std::uint32_t>(crate.truth(k, frame.instant())))
+                    << k;
         }
     }
 }
@@ -39,7 +41,8 @@ TEST_P(GratingBusOf, ManySlavesHaveTheFramesOfTheHostWhichAreTrueAtHold) {
         crate.run(20 * period - nanoseconds(1));
         expect_true_frames(crate, 20, 6);
         EXPECT_TRUE(crate.sentences().empty()) << crate.sentences()[0];
-        EXPECT_EQ(crate.heard(0)[3].at, 3 * period + Timing{}.frame_time(6) - nanoseconds(10)) << "complete on entering S12";
+        EXPECT_EQ(crate.heard(0)[3].at, 3 * period + Timing{}.frame_time(6) - nanoseconds(10))
+            << "complete on entering S12";
     }
 }
 INSTANTIATE_TEST_SUITE_P(Slaves, GratingBusOf, testing::Values(0, 1, 2, 5, 10, 30));
@@ -53,9 +56,11 @@ TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
             fast.run(step), slow.run(step), turning.run(step);
             turning.cards[0]->fault("miss_edge", 0, turning.kernel.now());  // refused of a host: nothing happens
             turning.cards[1]->fault("late", 0, turning.kernel.now());       // takes the frame up where it is
-            for (const char* wire : {"bus.clk", "bus.hold", "bus.read_n", "bus.addr", "bus.data", "bus.data3", "c0.state", "c2.state", "c1.frame_done"})
+            for (const char* wire : {"bus.clk", "bus.hold", "bus.read_n", "bus.addr", "bus.data", "bus.data3",
+                                     "c0.state", "c2.state", "c1.frame_done"})
                 for (const Crate* crate : {&fast, &turning})
-                    ASSERT_EQ(crate->kernel.level(crate->kernel.find_wire(wire)), slow.kernel.level(slow.kernel.find_wire(wire)))
+                    ASSERT_EQ(crate->kernel.level(crate->kernel.find_wire(wire)),
+                              slow.kernel.level(slow.kernel.find_wire(wire)))
                         << wire << " at " << fast.kernel.now().count();
         }
         ASSERT_EQ(fast.heard(2).size(), slow.heard(2).size());
@@ -80,8 +85,11 @@ TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusSaysWho) {
     for (std::size_t card = 0; card < 3; ++card)
         for (std::size_t i = 0; i < 10; ++i) {
             const Frame& frame = crate.heard(card)[i].frame;
-            for (int k = 0; k < 4; ++k) wrong += frame.counts[static_cast<std::size_t>(k)] != static_cast<std::uint32_t>(crate.truth(k, frame.instant()));
-            different += !std::equal(frame.positions().begin(), frame.positions().end(), crate.heard(0)[i].frame.positions().begin());
+            for (int k = 0; k < 4; ++k)
+                wrong += frame.counts[static_cast<std::size_t>(k)] !=
+                         static_cast<std::uint32_t>(crate.truth(k, frame.instant()));
+            different += !std::equal(frame.positions().begin(), frame.positions().end(),
+                                     crate.heard(0)[i].frame.positions().begin());
         }
     EXPECT_GT(wrong, 30);
     EXPECT_GT(different, 10);
@@ -92,7 +100,9 @@ TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusSaysWho) {
     EXPECT_EQ(first.high & 2u, 2u) << "driver 1 is c0: the decoder was plugged first";
     EXPECT_EQ(first.low & 12u, 12u);
     EXPECT_EQ(first.end, nanoseconds(1'300)) << "when the last host's clk has risen, too";
-    EXPECT_THAT(crate.sentences(), Contains(AllOf(HasSubstr("bus: at 0.0000000 s two cards drive clk at once, c0 high and c1 low"), HasSubstr("one host"))));
+    EXPECT_THAT(crate.sentences(),
+                Contains(AllOf(HasSubstr("bus: at 0.0000000 s two cards drive clk at once, c0 high and c1 low"),
+                               HasSubstr("one host"))));
 }
 
 TEST(GratingBus, HostsWithChecksPublishNothingThatTheyCannotTrust) {
@@ -104,7 +114,8 @@ TEST(GratingBus, HostsWithChecksPublishNothingThatTheyCannotTrust) {
     for (std::size_t card = 0; card < 3; ++card)
         for (const Heard& heard : crate.heard(card))
             for (int k = 0; k < 4; ++k)
-                EXPECT_EQ(heard.frame.counts[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(crate.truth(k, heard.frame.instant())));
+                EXPECT_EQ(heard.frame.counts[static_cast<std::size_t>(k)],
+                          static_cast<std::uint32_t>(crate.truth(k, heard.frame.instant())));
     EXPECT_EQ(crate.heard(0).size(), 0u);
     EXPECT_GE(crate.cards[0]->counter(Card::broken), 9);
     EXPECT_TRUE(crate.status(0) & stale_bit);
@@ -143,7 +154,8 @@ TEST(GratingBus, ASlaveThatMissesEdgesStaysInStepAndSaysSo) {
     ASSERT_EQ(crate.heard(1).size(), crate.heard(0).size() - 3);
     EXPECT_TRUE(same(crate.heard(1).back().frame, crate.heard(0).back().frame));
     EXPECT_EQ(crate.cards[1]->counter(Card::missed_edges), 3);
-    EXPECT_THAT(crate.sentences(), Contains(HasSubstr("card c1: at 0.0012000 s no good frame for two periods since frame 4")));
+    EXPECT_THAT(crate.sentences(),
+                Contains(HasSubstr("card c1: at 0.0012000 s no good frame for two periods since frame 4")));
     EXPECT_THAT(crate.sentences(), Contains(HasSubstr("3 edges of clk before frame 8 were not seen")));
 }
 
@@ -160,10 +172,13 @@ TEST(GratingBus, WhenTheHostIsGoneSlavesMarkTheirDataStaleWithinTwoPeriods) {
         EXPECT_TRUE(crate.status(slave) & stale_bit);
         EXPECT_TRUE(same(*crate.cards[slave]->last(), crate.heard(0).back().frame)) << "the last good frame is kept";
     }
-    EXPECT_THAT(crate.sentences(), Contains(HasSubstr("card c3: at 0.0014000 s no good frame for two periods since frame 5 of 0.0010000 s")));
+    EXPECT_THAT(
+        crate.sentences(),
+        Contains(HasSubstr("card c3: at 0.0014000 s no good frame for two periods since frame 5 of 0.0010000 s")));
     ASSERT_TRUE(crate.cards[0]->fault("off", 0, crate.kernel.now()));
     crate.run(period + microseconds(10));
-    for (const std::size_t slave : {1, 2, 3}) EXPECT_FALSE(crate.status(slave) & stale_bit) << "in again with the next frame";
+    for (const std::size_t slave : {1, 2, 3})
+        EXPECT_FALSE(crate.status(slave) & stale_bit) << "in again with the next frame";
     EXPECT_EQ(crate.heard(1).back().frame.sequence, 8u) << "slaves count on";
     EXPECT_EQ(crate.heard(0).back().frame.sequence, 0u) << "the host begins anew";
 }
@@ -198,7 +213,8 @@ TEST_P(GratingBusStuck, NoCardPublishesAWrongFrameAndThoseWithoutSaySo) {
     for (std::size_t card = 0; card < 3; ++card) {
         for (const Heard& heard : crate.heard(card))
             for (int k = 0; k < 4; ++k)
-                EXPECT_EQ(heard.frame.counts[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(crate.truth(k, heard.frame.instant())));
+                EXPECT_EQ(heard.frame.counts[static_cast<std::size_t>(k)],
+                          static_cast<std::uint32_t>(crate.truth(k, heard.frame.instant())));
         if (deaf && card == 0) continue;
         EXPECT_LE(crate.heard(card).size(), 5u);
         EXPECT_TRUE(crate.status(card) & stale_bit) << card;
@@ -215,18 +231,23 @@ TEST_P(GratingBusStuck, NoCardPublishesAWrongFrameAndThoseWithoutSaySo) {
         EXPECT_TRUE(same(crate.heard(card).back().frame, crate.heard(0).back().frame));
     }
 }
-INSTANTIATE_TEST_SUITE_P(Lines, GratingBusStuck,
-                         testing::Values(Stuck{"bus.clk", 0, "clk, hold or read_n"}, Stuck{"bus.clk", 1, ""}, Stuck{"bus.hold", 0, "clk, hold or read_n"},
-                                         Stuck{"bus.read_n", 1, "read_n was high"}, Stuck{"bus.read_n", 0, "clk, hold or read_n"},
-                                         Stuck{"bus.addr0", 1, "another address"}, Stuck{"bus.addr1", 0, "another address"}, Stuck{"bus.addr", 2, "another address"}),
-                         [](const auto& one) { return std::string(one.param.wire).substr(4).append("_at_").append(std::to_string(one.param.level)); });
+INSTANTIATE_TEST_SUITE_P(
+    Lines, GratingBusStuck,
+    testing::Values(Stuck{"bus.clk", 0, "clk, hold or read_n"}, Stuck{"bus.clk", 1, ""},
+                    Stuck{"bus.hold", 0, "clk, hold or read_n"}, Stuck{"bus.read_n", 1, "read_n was high"},
+                    Stuck{"bus.read_n", 0, "clk, hold or read_n"}, Stuck{"bus.addr0", 1, "another address"},
+                    Stuck{"bus.addr1", 0, "another address"}, Stuck{"bus.addr", 2, "another address"}),
+    [](const auto& one) {
+        return std::string(one.param.wire).substr(4).append("_at_").append(std::to_string(one.param.level));
+    });
 
 TEST(GratingBus, AShifterTheWrongWayIsReportedAtTheStart) {
     std::vector<CardSettings> settings = crew(2);
     settings[2].clock_shifter = Shifter::out;
     Crate crate(settings);
     crate.run(5 * period);
-    EXPECT_THAT(crate.sentences(), Contains(AllOf(HasSubstr("card c2: at 0.0000000 s the card is set as a slave"), HasSubstr("outwards"))));
+    EXPECT_THAT(crate.sentences(), Contains(AllOf(HasSubstr("card c2: at 0.0000000 s the card is set as a slave"),
+                                                  HasSubstr("outwards"))));
     EXPECT_THAT(crate.sentences(), Contains(HasSubstr("two cards drive clk at once, c0 high and c2 low")));
     EXPECT_TRUE(crate.status(2) & 8);
     EXPECT_EQ(crate.heard(1).size(), 0u) << "clk cannot rise";
@@ -242,7 +263,9 @@ TEST(GratingBus, TheJitterOfTheClockIsInTheTimesAndNotInTheAgreement) {
         const std::int64_t late = frame.time - static_cast<std::int64_t>(i) * period.count();
         least = std::min(least, late), most = std::max(most, late);
         for (std::size_t card = 1; card < 4; ++card) EXPECT_TRUE(same(crate.heard(card)[i].frame, frame));
-        for (int k = 0; k < 4; ++k) EXPECT_EQ(frame.counts[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(crate.truth(k, frame.instant())));
+        for (int k = 0; k < 4; ++k)
+            EXPECT_EQ(frame.counts[static_cast<std::size_t>(k)],
+                      static_cast<std::uint32_t>(crate.truth(k, frame.instant())));
     }
     EXPECT_GE(least, 0);
     EXPECT_LE(most, 200'000);
@@ -297,7 +320,8 @@ TEST(GratingBus, ARemoteCardHoldsWhatComesFromOutsideAndNothingElse) {
 TEST(GratingBus, WhatDoesNotFitIsRefusedWithItsNumbers) {
     CardSettings s = host_settings(255);
     s.period = microseconds(20);
-    EXPECT_THAT(check(s).error().message, AllOf(HasSubstr("28060.0 ns"), HasSubstr("255 scales"), HasSubstr("20000.0 ns")));
+    EXPECT_THAT(check(s).error().message,
+                AllOf(HasSubstr("28060.0 ns"), HasSubstr("255 scales"), HasSubstr("20000.0 ns")));
     DecoderSettings decoder;
     EXPECT_THAT(check(host_settings(5), decoder).error().message, HasSubstr("scales 0 to 4, but the decoder has 4"));
     decoder.latch = nanoseconds(21);

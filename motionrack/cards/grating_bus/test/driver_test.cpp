@@ -17,9 +17,11 @@ constexpr Duration period = microseconds(200);
 
 /// A crate with a processor at each card.
 struct Bench : Crate {
-    explicit Bench(const std::vector<CardSettings>& settings, int scales = 4, Duration access = nanoseconds(40)) : Crate(settings, scales, {}, false) {
+    explicit Bench(const std::vector<CardSettings>& settings, int scales = 4, Duration access = nanoseconds(40))
+        : Crate(settings, scales, {}, false) {
         for (auto& card : cards) {
-            ports.push_back(std::make_unique<sim::VirtualPort>(kernel, *card, card->id(), card->interrupt_wire(), access));
+            ports.push_back(
+                std::make_unique<sim::VirtualPort>(kernel, *card, card->id(), card->interrupt_wire(), access));
             libraries.push_back(std::make_unique<GratingCard>(*ports.back(), *ports.back()));
         }
     }
@@ -52,7 +54,8 @@ TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {
         ASSERT_TRUE(slave);
         EXPECT_TRUE(same(slave->frame, host->frame));
     }
-    for (int k = 0; k < 4; ++k) EXPECT_EQ(host->counts()[static_cast<std::size_t>(k)], bench.truth(k, host->frame.instant()));
+    for (int k = 0; k < 4; ++k)
+        EXPECT_EQ(host->counts()[static_cast<std::size_t>(k)], bench.truth(k, host->frame.instant()));
 }
 
 TEST(GratingCardLibrary, IsNeverShownHalfAFrameHoweverSlowItReads) {
@@ -66,7 +69,8 @@ TEST(GratingCardLibrary, IsNeverShownHalfAFrameHoweverSlowItReads) {
             continue;
         }
         for (int k = 0; k < 8; ++k)
-            ASSERT_EQ(reading->frame.counts[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(bench.truth(k, reading->frame.instant())));
+            ASSERT_EQ(reading->frame.counts[static_cast<std::size_t>(k)],
+                      static_cast<std::uint32_t>(bench.truth(k, reading->frame.instant())));
         EXPECT_GE(reading->frame.sequence, last);
         last = reading->frame.sequence;
     }
@@ -119,7 +123,8 @@ TEST(GratingCardLibrary, FollowsAScaleBeyond32Bits) {
     bench.run(whole_seconds(60));
     const auto last = bench.libraries[0]->wait(2 * period);
     ASSERT_TRUE(last);
-    EXPECT_EQ(last->positions[0] - first->positions[0], bench.truth(0, last->frame.instant()) - bench.truth(0, first->frame.instant()));
+    EXPECT_EQ(last->positions[0] - first->positions[0],
+              bench.truth(0, last->frame.instant()) - bench.truth(0, first->frame.instant()));
     EXPECT_GT(bench.truth(0, last->frame.instant()), std::int64_t{1} << 31);
 }
 

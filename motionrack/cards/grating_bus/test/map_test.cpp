@@ -17,7 +17,8 @@ std::string stored(const std::string& page) {
 }
 
 TEST(GratingBusMap, TheReferencePagesAreCurrent) {
-    EXPECT_EQ(stored("grating_bus.md"), describe_markdown(card_map())) << "make it anew: motionrack describe grating_bus --markdown > docs/reference/grating_bus.md";
+    EXPECT_EQ(stored("grating_bus.md"), describe_markdown(card_map()))
+        << "make it anew: motionrack describe grating_bus --markdown > docs/reference/grating_bus.md";
     EXPECT_EQ(stored("grating_decoder.md"), describe_markdown(decoder_map()))
         << "make it anew: motionrack describe grating_decoder --markdown > docs/reference/grating_decoder.md";
 }

@@ -1,4 +1,5 @@
-// Random programs of cards, faults and stuck lines look the same on the event-driven cards and on their slow twin, whoever looks at wires.
+// Random programs of cards, faults and stuck lines look the same on the event-driven cards and on their slow twin,
+// whoever looks at wires.
 //
 // MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
 #include <gtest/gtest.h>
@@ -22,7 +23,13 @@ std::string difference(const char* what, const std::vector<std::string>& twin, c
     while (i < twin.size() && i < cards.size() && twin[i] == cards[i]) ++i;
     const auto at = [i](const std::vector<std::string>& all) { return i < all.size() ? all[i] : "none"; };
     std::string out = what;
-    out.append(" ").append(std::to_string(i)).append("\n  twin:  ").append(at(twin)).append("\n  cards: ").append(at(cards)).append("\n");
+    out.append(" ")
+        .append(std::to_string(i))
+        .append("\n  twin:  ")
+        .append(at(twin))
+        .append("\n  cards: ")
+        .append(at(cards))
+        .append("\n");
     return out;
 }
 
@@ -34,18 +41,25 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
         const Program program = Maker(seed + number).make();
         const Outcome twin = on_twin(program);
         for (const Watch watch : {Watch::nobody, Watch::everybody, Watch::now_and_then}) {
-            const Outcome cards = on_cards(program, watch, with_snapshot ? number % program.ops.size() : program.ops.size());
-            std::string differs = difference("frame", twin.frames, cards.frames) + difference("look", twin.looks, cards.looks) +
-                                  difference("conflict", twin.conflicts, cards.conflicts) + difference("report", twin.reports, cards.reports);
+            const Outcome cards =
+                on_cards(program, watch, with_snapshot ? number % program.ops.size() : program.ops.size());
+            std::string differs = difference("frame", twin.frames, cards.frames) +
+                                  difference("look", twin.looks, cards.looks) +
+                                  difference("conflict", twin.conflicts, cards.conflicts) +
+                                  difference("report", twin.reports, cards.reports);
             if (watch == Watch::everybody) differs += difference("change", twin.changes, cards.changes);
-            ASSERT_EQ(differs, "") << "program " << number << " of seed " << seed << ", watched by " << static_cast<int>(watch) << "\n" << text_of(program);
-            ASSERT_EQ(twin.conflict_count, cards.conflict_count) << "program " << number << " of seed " << seed << "\n" << text_of(program);
+            ASSERT_EQ(differs, "") << "program " << number << " of seed " << seed << ", watched by "
+                                   << static_cast<int>(watch) << "\n"
+                                   << text_of(program);
+            ASSERT_EQ(twin.conflict_count, cards.conflict_count) << "program " << number << " of seed " << seed << "\n"
+                                                                 << text_of(program);
         }
-        frames += twin.frames.size(), conflicts += twin.conflict_count, changes += twin.changes.size(), reports += twin.reports.size();
+        frames += twin.frames.size(), conflicts += twin.conflict_count, changes += twin.changes.size(),
+            reports += twin.reports.size();
         looks += twin.looks.size();
     }
-    std::cout << frames << " frames, " << conflicts << " conflicts, " << changes << " changes of wires, " << reports << " reports, " << looks << " looks"
-              << std::endl;
+    std::cout << frames << " frames, " << conflicts << " conflicts, " << changes << " changes of wires, " << reports
+              << " reports, " << looks << " looks" << std::endl;
 }
 
 TEST(GratingBusOracle, RandomProgramsLookTheSameOnTheCardsAndOnTheirTwin) {

@@ -84,9 +84,11 @@ struct World {
             decoder->connect(static_cast<int>(i), motions.back().get());
         }
         for (int line = 0; line < line_count; ++line)
-            for (int bit = 0; bit < width[line]; ++bit) wires.push_back(wire(static_cast<Line>(line), width[line] > 1 ? bit : -1));
+            for (int bit = 0; bit < width[line]; ++bit)
+                wires.push_back(wire(static_cast<Line>(line), width[line] > 1 ? bit : -1));
         for (std::size_t i = 0; i < cards.size(); ++i)
-            for (const char* pin : {".state", ".frame_done"}) wires.push_back(kernel.find_wire(std::string("c").append(std::to_string(i)).append(pin)));
+            for (const char* pin : {".state", ".frame_done"})
+                wires.push_back(kernel.find_wire(std::string("c").append(std::to_string(i)).append(pin)));
         watcher.connect();
         kernel.start();
     }
@@ -120,25 +122,49 @@ void World::carry_out(const Op& op) {
     const double ns = static_cast<double>(op.a) / 10;
     const auto control = [&](const char* field) {
         for (const FieldInfo& info : map::control_fields)
-            if (info.name == std::string_view(field)) cards[op.who]->write(offset("CONTROL"), static_cast<std::uint16_t>(info.mask));
+            if (info.name == std::string_view(field))
+                cards[op.who]->write(offset("CONTROL"), static_cast<std::uint16_t>(info.mask));
     };
     bool done = true;
     switch (op.kind) {
-        case Op::look: break;
-        case Op::off: done = cards[op.who]->fault("off", static_cast<double>(op.a), now); break;
-        case Op::reset:
-            if (op.a == 0) control("RESET");
-            else done = cards[op.who]->fault("reset", 1, now);
+        case Op::look:
             break;
-        case Op::late: done = cards[op.who]->fault("late", ns, now); break;
-        case Op::miss_edges: done = cards[op.who]->fault("miss_edge", static_cast<double>(op.a), now); break;
-        case Op::jitter: done = cards[op.who]->fault("jitter", ns, now); break;
-        case Op::no_latch: done = decoder->fault("no_latch", static_cast<double>(op.a), now); break;
-        case Op::force: kernel.force(wire(op.line, op.bit), static_cast<int>(op.a)); break;
-        case Op::release: kernel.release(wire(op.line, op.bit)); break;
-        case Op::claim: control("CLAIM"); break;
-        case Op::give_back: control("RELEASE"); break;
-        case Op::clear: control("CLEAR_ERRORS"); break;
+        case Op::off:
+            done = cards[op.who]->fault("off", static_cast<double>(op.a), now);
+            break;
+        case Op::reset:
+            if (op.a == 0)
+                control("RESET");
+            else
+                done = cards[op.who]->fault("reset", 1, now);
+            break;
+        case Op::late:
+            done = cards[op.who]->fault("late", ns, now);
+            break;
+        case Op::miss_edges:
+            done = cards[op.who]->fault("miss_edge", static_cast<double>(op.a), now);
+            break;
+        case Op::jitter:
+            done = cards[op.who]->fault("jitter", ns, now);
+            break;
+        case Op::no_latch:
+            done = decoder->fault("no_latch", static_cast<double>(op.a), now);
+            break;
+        case Op::force:
+            kernel.force(wire(op.line, op.bit), static_cast<int>(op.a));
+            break;
+        case Op::release:
+            kernel.release(wire(op.line, op.bit));
+            break;
+        case Op::claim:
+            control("CLAIM");
+            break;
+        case Op::give_back:
+            control("RELEASE");
+            break;
+        case Op::clear:
+            control("CLEAR_ERRORS");
+            break;
     }
     MOTIONRACK_ASSERT(done);
     settle();
@@ -150,13 +176,17 @@ void World::look(Outcome& out, Ticks at) const {
     out.looks.push_back(text);
     for (std::size_t i = 0; i < cards.size(); ++i) {
         const Card& card = *cards[i];
-        const auto two = [&card](std::uint32_t where) { return card.peek(where) | std::int64_t{card.peek(where + 2)} << 16; };
+        const auto two = [&card](std::uint32_t where) {
+            return card.peek(where) | std::int64_t{card.peek(where + 2)} << 16;
+        };
         const std::uint16_t status = card.peek(offset("STATUS"));
-        text = row({at, static_cast<std::int64_t>(i), status & 1, status >> 1 & 1, status >> 2 & 1, status >> 4 & 1, status >> 5 & 1,
-                    card.peek(offset("STATE")) & 15, two(offset("FRAMES_L"))});
-        for (std::uint32_t where = offset("BROKEN"); where <= offset("OVERRUN"); where += 2) text.append(row({card.peek(where)}));
+        text = row({at, static_cast<std::int64_t>(i), status & 1, status >> 1 & 1, status >> 2 & 1, status >> 4 & 1,
+                    status >> 5 & 1, card.peek(offset("STATE")) & 15, two(offset("FRAMES_L"))});
+        for (std::uint32_t where = offset("BROKEN"); where <= offset("OVERRUN"); where += 2)
+            text.append(row({card.peek(where)}));
         const std::int64_t words = card.peek(offset("WORDS"));
-        text.append(row({two(offset("SEQUENCE_L")), two(offset("TIME_0")) | two(offset("TIME_2")) << 32, words, two(offset("CRC_L"))}));
+        text.append(row({two(offset("SEQUENCE_L")), two(offset("TIME_0")) | two(offset("TIME_2")) << 32, words,
+                         two(offset("CRC_L"))}));
         for (std::uint32_t k = 0; k < words; ++k) text.append(row({two(counts_at + 4 * k)}));
         out.looks.push_back(text);
     }
@@ -203,10 +233,12 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
     const Lines& lines = world.bus.lines();
     out.conflict_count = lines.all_conflicts();
     std::vector<grating_bus::Conflict> conflicts;
-    for (std::uint64_t n = lines.all_conflicts() - std::min<std::uint64_t>(lines.all_conflicts(), Lines::kept); n < lines.all_conflicts(); ++n)
+    for (std::uint64_t n = lines.all_conflicts() - std::min<std::uint64_t>(lines.all_conflicts(), Lines::kept);
+         n < lines.all_conflicts(); ++n)
         conflicts.push_back(lines.conflict(n));
-    std::stable_sort(conflicts.begin(), conflicts.end(),
-                     [](const auto& a, const auto& b) { return std::tie(a.begin, a.line) < std::tie(b.begin, b.line); });
+    std::stable_sort(conflicts.begin(), conflicts.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.begin, a.line) < std::tie(b.begin, b.line);
+    });
     const std::size_t forgotten = out.conflict_count - conflicts.size();
     for (std::size_t i = first_compared(out.conflict_count) - forgotten; i < conflicts.size(); ++i) {
         const grating_bus::Conflict& c = conflicts[i];

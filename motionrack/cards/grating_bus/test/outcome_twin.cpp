@@ -55,20 +55,25 @@ void put_conflicts(Outcome& out, const Twin& twin) {
     };
     std::vector<Whole> all;
     std::vector<Conflict> of_bits = twin.conflicts();
-    std::stable_sort(of_bits.begin(), of_bits.end(),
-                     [](const Conflict& a, const Conflict& b) { return std::tie(a.line, a.begin) < std::tie(b.line, b.begin); });
+    std::stable_sort(of_bits.begin(), of_bits.end(), [](const Conflict& a, const Conflict& b) {
+        return std::tie(a.line, a.begin) < std::tie(b.line, b.begin);
+    });
     for (const Conflict& bit : of_bits) {
         const Ticks end = bit.end == lasting ? INT64_MAX : bit.end;
-        if (all.empty() || all.back().line != bit.line || all.back().end < bit.begin) all.push_back({bit.begin, end, bit.line, 0, 0});
+        if (all.empty() || all.back().line != bit.line || all.back().end < bit.begin)
+            all.push_back({bit.begin, end, bit.line, 0, 0});
         all.back().end = std::max(all.back().end, end);
         for (const int driver : bit.high) all.back().high |= std::uint64_t{1} << driver;
         for (const int driver : bit.low) all.back().low |= std::uint64_t{1} << driver;
     }
     all.erase(std::remove_if(all.begin(), all.end(), [](const Whole& w) { return w.begin == w.end; }), all.end());
-    std::stable_sort(all.begin(), all.end(), [](const Whole& a, const Whole& b) { return std::tie(a.begin, a.line) < std::tie(b.begin, b.line); });
+    std::stable_sort(all.begin(), all.end(), [](const Whole& a, const Whole& b) {
+        return std::tie(a.begin, a.line) < std::tie(b.begin, b.line);
+    });
     out.conflict_count = all.size();
     for (std::size_t i = first_compared(all.size()); i < all.size(); ++i)
-        out.conflicts.push_back(row({all[i].begin, all[i].end, all[i].line, static_cast<std::int64_t>(all[i].high), static_cast<std::int64_t>(all[i].low)}));
+        out.conflicts.push_back(row({all[i].begin, all[i].end, all[i].line, static_cast<std::int64_t>(all[i].high),
+                                     static_cast<std::int64_t>(all[i].low)}));
 }
 
 void look(Outcome& out, const Twin& twin, Ticks at, std::size_t cards) {
@@ -78,8 +83,9 @@ void look(Outcome& out, const Twin& twin, Ticks at, std::size_t cards) {
     for (std::size_t i = 0; i < cards; ++i) {
         const int card = static_cast<int>(i);
         const Counters& c = twin.counters(card);
-        text = row({at, card, twin.fresh(card), twin.claimed(card), twin.stale(card), twin.state(card) != 0, twin.off(card), twin.state(card), c.frames,
-                    c.broken, c.missed_words, c.alien, c.lines, c.missed_edges, c.overrun});
+        text = row({at, card, twin.fresh(card), twin.claimed(card), twin.stale(card), twin.state(card) != 0,
+                    twin.off(card), twin.state(card), c.frames, c.broken, c.missed_words, c.alien, c.lines,
+                    c.missed_edges, c.overrun});
         const Frame frame = twin.claimed_frame(card);
         text.append(row({frame.sequence, frame.time, frame.words, frame.crc}));
         for (const std::uint32_t count : frame.positions()) text.append(row({count}));

@@ -20,9 +20,12 @@ Program Maker::make() {
     for (std::size_t i = 0; i < program_.ops.size() && program_.ops.size() < 60; ++i) {
         Op other = program_.ops[i];
         if (one_in(4)) continue;
-        if (other.kind == Op::force) other.kind = Op::release;
-        else if ((other.kind == Op::off || other.kind == Op::no_latch) && other.a == 1) other.a = 0;
-        else continue;
+        if (other.kind == Op::force)
+            other.kind = Op::release;
+        else if ((other.kind == Op::off || other.kind == Op::no_latch) && other.a == 1)
+            other.a = 0;
+        else
+            continue;
         other.at = std::min(program_.end, other.at + (one_in(2) ? time(0, 40) : below(2 * period_)));
         program_.ops.push_back(other);
     }
@@ -38,14 +41,16 @@ Timing Maker::timing() {
 }
 
 void Maker::set(CardSettings& card, const Timing& timing) {
-    card.t1 = timing.t1.count(), card.t2 = timing.t2.count(), card.t3 = timing.t3.count(), card.clock = timing.clock.count();
+    card.t1 = timing.t1.count(), card.t2 = timing.t2.count(), card.t3 = timing.t3.count(),
+    card.clock = timing.clock.count();
 }
 
 void Maker::add_cards() {
     const std::int64_t count = 1 + below(one_in(5) ? 11 : 4);
     const bool alike = healthy_ || !one_in(3);
     const Timing common = timing();
-    const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)), first = one_in(3) ? static_cast<int>(below(6)) : 0;
+    const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)),
+              first = one_in(3) ? static_cast<int>(below(6)) : 0;
     Ticks longest = 0;
     for (std::int64_t i = 0; i < count; ++i) {
         CardSettings card;
@@ -84,23 +89,37 @@ void Maker::add_decoder() {
         program_.decoder.output = std::min(program_.decoder.output, program_.cards[0].t2 - 1);
     }
     for (int k = 0; k < scales; ++k)
-        program_.scales.push_back({static_cast<std::uint32_t>(random_()), below(7) - 3, one_in(3) ? 1 + below(20) : 500 + below(3000)});
-    program_.decoder.count = [scales_of = program_.scales](int scale, Ticks at) { return scales_of[static_cast<std::size_t>(scale)].at(at); };
+        program_.scales.push_back(
+            {static_cast<std::uint32_t>(random_()), below(7) - 3, one_in(3) ? 1 + below(20) : 500 + below(3000)});
+    program_.decoder.count = [scales_of = program_.scales](int scale, Ticks at) {
+        return scales_of[static_cast<std::size_t>(scale)].at(at);
+    };
 }
 
 /// Mostly where frames are read, and often at an instant at which something happens.
 Ticks Maker::instant() {
-    const CardSettings& card = program_.cards[static_cast<std::size_t>(below(static_cast<std::int64_t>(program_.cards.size())))];
+    const CardSettings& card =
+        program_.cards[static_cast<std::size_t>(below(static_cast<std::int64_t>(program_.cards.size())))];
     const Timing timing{Duration{card.t1}, Duration{card.t2}, Duration{card.t3}, Duration{card.clock}};
     const Ticks begin = card.offset + below(program_.end / card.period + 1) * card.period;
     const Ticks frame = timing.frame_time(card.words).count();
     Ticks at = 0;
     switch (below(5)) {
-        case 0: at = below(program_.end + 1); break;
-        case 1: at = begin + below(frame + 1) / grain_ * grain_; break;
-        case 2: at = begin + timing.sample_at(static_cast<int>(below(card.words))).count() + (one_in(2) ? 0 : time(-1, 1)); break;
-        case 3: at = begin + (one_in(2) ? frame : card.period / 2); break;
-        default: at = begin; break;
+        case 0:
+            at = below(program_.end + 1);
+            break;
+        case 1:
+            at = begin + below(frame + 1) / grain_ * grain_;
+            break;
+        case 2:
+            at = begin + timing.sample_at(static_cast<int>(below(card.words))).count() + (one_in(2) ? 0 : time(-1, 1));
+            break;
+        case 3:
+            at = begin + (one_in(2) ? frame : card.period / 2);
+            break;
+        default:
+            at = begin;
+            break;
     }
     return std::clamp<Ticks>(at, 0, program_.end);
 }
@@ -123,7 +142,8 @@ Op Maker::op() {
     } else if (what < 50) {
         op.kind = host ? Op::look : Op::miss_edges, op.a = below(4);
     } else if (what < 55) {
-        op.kind = host ? Op::jitter : Op::look, op.a = one_in(3) ? 0 : below(one_in(2) ? period_ / 2 : 1 + period_ / 20);
+        op.kind = host ? Op::jitter : Op::look,
+        op.a = one_in(3) ? 0 : below(one_in(2) ? period_ / 2 : 1 + period_ / 20);
     } else if (what < 60) {
         op.kind = Op::no_latch, op.who = 0, op.a = 1;
     } else if (what < 78) {
@@ -149,18 +169,41 @@ Twin twin_of(const Program& program, bool every_tick) {
 void carry_out(Twin& twin, const Op& op) {
     twin.run_to(op.at);
     switch (op.kind) {
-        case Op::look: break;
-        case Op::off: twin.set_off(op.who, op.a != 0); break;
-        case Op::reset: twin.reset(op.who); break;
-        case Op::late: twin.set_late(op.who, op.a); break;
-        case Op::miss_edges: twin.set_miss_edges(op.who, static_cast<int>(op.a)); break;
-        case Op::jitter: twin.set_jitter(op.who, op.a); break;
-        case Op::no_latch: twin.set_no_latch(op.who, op.a != 0); break;
-        case Op::force: twin.force(op.line, op.bit, static_cast<std::uint32_t>(op.a)); break;
-        case Op::release: twin.release(op.line, op.bit); break;
-        case Op::claim: twin.claim(op.who); break;
-        case Op::give_back: twin.give_back(op.who); break;
-        case Op::clear: twin.clear_errors(op.who); break;
+        case Op::look:
+            break;
+        case Op::off:
+            twin.set_off(op.who, op.a != 0);
+            break;
+        case Op::reset:
+            twin.reset(op.who);
+            break;
+        case Op::late:
+            twin.set_late(op.who, op.a);
+            break;
+        case Op::miss_edges:
+            twin.set_miss_edges(op.who, static_cast<int>(op.a));
+            break;
+        case Op::jitter:
+            twin.set_jitter(op.who, op.a);
+            break;
+        case Op::no_latch:
+            twin.set_no_latch(op.who, op.a != 0);
+            break;
+        case Op::force:
+            twin.force(op.line, op.bit, static_cast<std::uint32_t>(op.a));
+            break;
+        case Op::release:
+            twin.release(op.line, op.bit);
+            break;
+        case Op::claim:
+            twin.claim(op.who);
+            break;
+        case Op::give_back:
+            twin.give_back(op.who);
+            break;
+        case Op::clear:
+            twin.clear_errors(op.who);
+            break;
     }
 }
 
@@ -168,10 +211,13 @@ std::string text_of(const Program& program) {
     constexpr const char* kinds[] = {"look",     "off",   "reset",   "late",  "miss_edges", "jitter",
                                      "no_latch", "force", "release", "claim", "give_back",  "clear"};
     std::string out;
-    const auto add = [&out](const char* name, std::int64_t value) { out.append(" ").append(name).append(" ").append(std::to_string(value)); };
+    const auto add = [&out](const char* name, std::int64_t value) {
+        out.append(" ").append(name).append(" ").append(std::to_string(value));
+    };
     for (const CardSettings& card : program.cards) {
         out += card.host ? "host " : "slave";
-        add("clock_out", card.clock_out), add("address_out", card.address_out), add("checks", card.checks), add("first", card.first);
+        add("clock_out", card.clock_out), add("address_out", card.address_out), add("checks", card.checks),
+            add("first", card.first);
         add("words", card.words), add("t1", card.t1), add("t2", card.t2), add("t3", card.t3), add("t", card.clock);
         add("period", card.period), add("offset", card.offset);
         out += "\n";

@@ -15,7 +15,8 @@ struct Op {
     Ticks at = 0;
     Kind kind = look;
     int who = 0;
-    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: how many; force: the level; look: other wires are looked at
+    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: how many; force: the level; look:
+                         ///< other wires are looked at
     Line line = clk;
     int bit = -1;  ///< of addr or data, or the whole line
 };

@@ -65,7 +65,8 @@ class Watcher final : public sim::Device {
 };
 
 struct Crate {
-    explicit Crate(const std::vector<CardSettings>& settings, int scales = 4, const DecoderSettings& decoder_settings = {}, bool hear = true) {
+    explicit Crate(const std::vector<CardSettings>& settings, int scales = 4,
+                   const DecoderSettings& decoder_settings = {}, bool hear = true) {
         DecoderSettings own = decoder_settings;
         own.scales = scales;
         decoder = std::make_unique<Decoder>(kernel, "decoder", bus, own);
@@ -75,7 +76,8 @@ struct Crate {
         }
         for (const CardSettings& s : settings) {
             ears.push_back(std::make_unique<Ear>());
-            cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, s));
+            cards.push_back(
+                std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, s));
             if (hear) cards.back()->add_listener(*ears.back());
         }
         watcher.connect();

@@ -1,4 +1,5 @@
-// Profiles against their own derivatives and limits; loops closed through frames of a scale on a stage, in time and late.
+// Profiles against their own derivatives and limits; loops closed through frames of a scale on a stage, in time and
+// late.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -22,7 +23,9 @@ void check(const Profile& profile, double until, const MotionLimits& most) {
     for (double t = h; t < until; t += h) {
         const Setpoint here = profile.at(t);
         ASSERT_NEAR((here.position_nm - before.position_nm) / h, (here.speed_nm_s + before.speed_nm_s) / 2, 2.0) << t;
-        ASSERT_NEAR((here.speed_nm_s - before.speed_nm_s) / h, (here.accel_nm_s2 + before.accel_nm_s2) / 2, most.jerk_nm_s3 * h) << t;
+        ASSERT_NEAR((here.speed_nm_s - before.speed_nm_s) / h, (here.accel_nm_s2 + before.accel_nm_s2) / 2,
+                    most.jerk_nm_s3 * h)
+            << t;
         ASSERT_LE(std::fabs(here.speed_nm_s), most.speed_nm_s * (1 + 1e-9)) << t;
         ASSERT_LE(std::fabs(here.accel_nm_s2), most.accel_nm_s2 * (1 + 1e-9)) << t;
         ASSERT_LE(std::fabs(here.accel_nm_s2 - before.accel_nm_s2), most.jerk_nm_s3 * h * (1 + 1e-6)) << t;
@@ -74,7 +77,8 @@ TEST(StepProfile, StepsUpAndDownAndRests) {
 }
 
 RC_GTEST_PROP(StepProfile, EndsWhereItShould, ()) {
-    MotionLimits any{1e5 * *rc::gen::inRange(1, 1'000), 1e8 * *rc::gen::inRange(1, 100), 1e11 * *rc::gen::inRange(1, 100)};
+    MotionLimits any{1e5 * *rc::gen::inRange(1, 1'000), 1e8 * *rc::gen::inRange(1, 100),
+                     1e11 * *rc::gen::inRange(1, 100)};
     const double step = 10.0 * *rc::gen::inRange(1, 100'000);
     const StepProfile steps(0, step, 2, 100, any);
     RC_ASSERT(std::fabs(steps.at(steps.move_s()).position_nm - step) < 1e-6 * step + 1e-3);
@@ -82,7 +86,7 @@ RC_GTEST_PROP(StepProfile, EndsWhereItShould, ()) {
     RC_ASSERT(std::fabs(steps.at(steps.move_s() / 2).position_nm - step / 2) < 1e-6 * step + 1e-3);
 }
 
-// ---- loops ----------------------------------------------------------------------------------------------------------
+// ---- loops
 
 constexpr Duration period = microseconds(200);
 
@@ -109,8 +113,8 @@ struct Axis {
         frame.crc = crc_of(frame);
         return frame;
     }
-    /// Runs `seconds` with frames that are used `late` periods after their instant and whose counts were latched `skew` after it.
-    /// Returns the greatest true distance from the profile at the frames' instants.
+    /// Runs `seconds` with frames that are used `late` periods after their instant and whose counts were latched `skew`
+    /// after it. Returns the greatest true distance from the profile at the frames' instants.
     template <class Profile>
     double run(const Profile& profile, double seconds, std::size_t late = 0, Duration skew = Duration{0}) {
         double worst = 0;

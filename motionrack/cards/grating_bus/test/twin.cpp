@@ -12,7 +12,8 @@ void count_up(std::uint32_t& counter, std::int64_t by = 1) {
 
 }  // namespace
 
-Twin::Twin(std::vector<CardSettings> cards, std::vector<DecoderSettings> decoders, bool every_tick) : every_tick_(every_tick) {
+Twin::Twin(std::vector<CardSettings> cards, std::vector<DecoderSettings> decoders, bool every_tick)
+    : every_tick_(every_tick) {
     for (CardSettings& settings : cards) {
         Card card;
         card.settings = std::move(settings);
@@ -27,7 +28,7 @@ Twin::Twin(std::vector<CardSettings> cards, std::vector<DecoderSettings> decoder
     }
 }
 
-// ---- time ----------------------------------------------------------------------------------------------------------------------
+// ---- time
 
 void Twin::run_to(Ticks until) {
     while (now_ < until) {
@@ -83,7 +84,7 @@ void Twin::settle() {
     for (int line = 0; line < line_count; ++line) note_conflicts(static_cast<Line>(line));
 }
 
-// ---- the host's clock, the slave's edges ---------------------------------------------------------------------------------------
+// ---- the host's clock, the slave's edges
 
 void Twin::own_clock(Card& card) {
     const CardSettings& s = card.settings;
@@ -137,7 +138,7 @@ void Twin::edge(Card& card) {
     }
 }
 
-// ---- one frame -----------------------------------------------------------------------------------------------------------------
+// ---- one frame
 
 void Twin::start(Card& card) {
     card.start_at = nothing_due;
@@ -156,23 +157,32 @@ Ticks Twin::duration(const Card& card) const {
     const CardSettings& s = card.settings;
     switch (card.state) {
         case 1:
-        case 7: return s.t1;
+        case 7:
+            return s.t1;
         case 2:
-        case 8: return s.t2;
+        case 8:
+            return s.t2;
         case 3:
-        case 9: return s.t3;
-        default: return s.clock;
+        case 9:
+            return s.t3;
+        default:
+            return s.clock;
     }
 }
 
 /// The state's time is over.
 void Twin::leave(Card& card) {
     switch (card.state) {
-        case 4: return enter(card, 5);
-        case 5: return enter(card, card.word == card.settings.words ? 11 : 6);
-        case 10: return enter(card, 5);
-        case 12: return enter(card, 0);
-        default: return enter(card, card.state + 1);
+        case 4:
+            return enter(card, 5);
+        case 5:
+            return enter(card, card.word == card.settings.words ? 11 : 6);
+        case 10:
+            return enter(card, 5);
+        case 12:
+            return enter(card, 0);
+        default:
+            return enter(card, card.state + 1);
     }
 }
 
@@ -190,10 +200,13 @@ void Twin::enter(Card& card, int state) {
             break;
         case 2:
         case 8:
-            if (drives) card.read_pin = 0, card.address_pin = static_cast<std::uint32_t>(card.settings.first + card.word);
+            if (drives)
+                card.read_pin = 0, card.address_pin = static_cast<std::uint32_t>(card.settings.first + card.word);
             break;
         case 3:
-        case 9: sample(card); break;
+        case 9:
+            sample(card);
+            break;
         case 4:
         case 10:
             if (drives) card.read_pin = 1;
@@ -202,8 +215,11 @@ void Twin::enter(Card& card, int state) {
             check_read_ended(card);
             ++card.word;
             break;
-        case 12: finish(card); break;
-        default: break;
+        case 12:
+            finish(card);
+            break;
+        default:
+            break;
     }
 }
 
@@ -267,7 +283,7 @@ void Twin::look_at_age(Card& card) {
     card.stale_changes.push_back({now_, stale});
 }
 
-// ---- from outside --------------------------------------------------------------------------------------------------------------
+// ---- from outside
 
 void Twin::reset(int number) {
     if (cards_[number].off) return;

@@ -1,8 +1,9 @@
-// The grating bus as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven cards.
+// The grating bus as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the
+// event-driven cards.
 //
-// Each instant is worked off in the order that RULES.md gives: all cards sample the lines as they were, all that drive change what they
-// drive, edges act. Instants at which nothing can happen are left out, or visited too if `every_tick`. What is done from outside (faults, stuck
-// lines, claims) comes after everything of its instant.
+// Each instant is worked off in the order that RULES.md gives: all cards sample the lines as they were, all that drive
+// change what they drive, edges act. Instants at which nothing can happen are left out, or visited too if `every_tick`.
+// What is done from outside (faults, stuck lines, claims) comes after everything of its instant.
 #pragma once
 
 #include <array>
@@ -40,7 +41,9 @@ struct DecoderSettings {
 struct Published {
     Ticks at = 0;
     Frame frame;
-    friend bool operator==(const Published& a, const Published& b) { return a.at == b.at && a.frame.crc == b.frame.crc && same(a.frame, b.frame); }
+    friend bool operator==(const Published& a, const Published& b) {
+        return a.at == b.at && a.frame.crc == b.frame.crc && same(a.frame, b.frame);
+    }
 };
 struct StateChange {
     Ticks at = 0;
@@ -61,7 +64,8 @@ struct LevelChange {
 
 inline constexpr Ticks lasting = -1;
 
-/// Drivers of one bit that differed from `begin` to `end` (`lasting` while they do). Drivers: cards by number, then decoders.
+/// Drivers of one bit that differed from `begin` to `end` (`lasting` while they do). Drivers: cards by number, then
+/// decoders.
 struct Conflict {
     Ticks begin = 0, end = lasting;
     Line line = clk;
@@ -83,7 +87,7 @@ class Twin {
     /// Works off every instant up to and with `until`.
     void run_to(Ticks until);
 
-    // ---- from outside, at the instant that was run to -------------------------------------------------------------------------
+    // ---- from outside, at the instant that was run to
     void set_off(int card, bool off);
     void reset(int card);
     void set_late(int card, Ticks late) { cards_[card].late = late; }
@@ -97,7 +101,7 @@ class Twin {
     void give_back(int card) { cards_[card].claimed = none; }
     void clear_errors(int card);
 
-    // ---- what is seen ---------------------------------------------------------------------------------------------------------
+    // ---- what is seen
     const Levels& levels() const { return levels_; }
     const std::vector<LevelChange>& changes() const { return changes_; }
     const std::vector<Conflict>& conflicts() const { return conflicts_; }
@@ -196,7 +200,7 @@ class Twin {
     bool every_tick_;
     Ticks now_ = -1;
     Levels levels_ = rest;
-    Levels before_ = rest;  // as they were just before this instant
+    Levels before_ = rest;                                  // as they were just before this instant
     std::map<std::pair<Line, int>, std::uint32_t> forced_;  // line and bit, or -1 -> level
     std::vector<LevelChange> changes_;
     std::vector<Conflict> conflicts_;

@@ -32,7 +32,8 @@ void Twin::take_levels(Line line) {
     }
     if (const auto whole = forced_.find({line, -1}); whole != forced_.end()) level = whole->second;
     for (int bit = 0; bit < width[line]; ++bit)
-        if (const auto held = forced_.find({line, bit}); held != forced_.end()) level = (level & ~(1u << bit)) | held->second << bit;
+        if (const auto held = forced_.find({line, bit}); held != forced_.end())
+            level = (level & ~(1u << bit)) | held->second << bit;
     if (level != levels_[line]) changes_.push_back({now_, line, level});
     levels_[line] = level;
 }
@@ -62,7 +63,8 @@ void Twin::note_conflicts(Line line) {
 
 /// When the count that is asked for is put out; never, if it has been or none is asked for.
 Ticks Twin::ready_at(const Decoder& decoder) const {
-    if (levels_[read_n] != 0 || decoder.put_out || levels_[addr] >= static_cast<std::uint32_t>(decoder.settings.scales)) return nothing_due;
+    if (levels_[read_n] != 0 || decoder.put_out || levels_[addr] >= static_cast<std::uint32_t>(decoder.settings.scales))
+        return nothing_due;
     Ticks last = std::max(decoder.read_fell, decoder.address_changed);
     if (decoder.latched) last = std::max(last, decoder.valid_at);
     return last + decoder.settings.output;
@@ -88,7 +90,8 @@ void Twin::decode(Decoder& decoder) {
     decoder.seen = levels_;
     if (ready_at(decoder) <= now_) {
         const int scale = static_cast<int>(levels_[addr]);
-        decoder.drives = decoder.latched ? decoder.taken[static_cast<std::size_t>(scale)] : decoder.settings.count(scale, now_);
+        decoder.drives =
+            decoder.latched ? decoder.taken[static_cast<std::size_t>(scale)] : decoder.settings.count(scale, now_);
         decoder.put_out = true;
     }
     decoder.answers = levels_[read_n] == 0 && levels_[addr] < static_cast<std::uint32_t>(decoder.settings.scales);

@@ -41,7 +41,8 @@ std::vector<Ticks> entered(const Twin& twin, int card, int state, int other) {
 }
 
 TEST(GratingTwin, FramesLastAsLongAsTheSourceSays) {
-    for (const auto& [words, lasts] : std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {255, 28'060}}) {
+    for (const auto& [words, lasts] :
+         std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {255, 28'060}}) {
         Twin twin({host(words)}, {decoder(255)});
         twin.run_to(150'000 * ns);
         EXPECT_EQ(twin.states(0)[1].at, 0);
@@ -54,7 +55,8 @@ TEST(GratingTwin, FramesLastAsLongAsTheSourceSays) {
         ASSERT_EQ(twin.frames(0).size(), 1u);
         EXPECT_EQ(twin.frames(0)[0].at, (lasts - 10) * ns);
         EXPECT_TRUE(sound(twin.frames(0)[0].frame));
-        for (int k = 0; k < words; ++k) EXPECT_EQ(twin.frames(0)[0].frame.counts[static_cast<std::size_t>(k)], moving(k, 0));
+        for (int k = 0; k < words; ++k)
+            EXPECT_EQ(twin.frames(0)[0].frame.counts[static_cast<std::size_t>(k)], moving(k, 0));
     }
 }
 
@@ -63,8 +65,21 @@ TEST(GratingTwin, WalksTheStatesInTheSourcesOrder) {
     twin.run_to(1000 * ns);
     std::vector<std::pair<Ticks, int>> walked;
     for (const StateChange& change : twin.states(0)) walked.emplace_back(change.at / ns, change.state);
-    EXPECT_EQ(walked, (std::vector<std::pair<Ticks, int>>{{0, 0}, {0, 1}, {20, 2}, {50, 3}, {80, 4}, {90, 5}, {100, 6}, {110, 7}, {130, 8},
-                                                         {160, 9}, {190, 10}, {200, 5}, {210, 11}, {220, 12}, {230, 0}}));
+    EXPECT_EQ(walked, (std::vector<std::pair<Ticks, int>>{{0, 0},
+                                                          {0, 1},
+                                                          {20, 2},
+                                                          {50, 3},
+                                                          {80, 4},
+                                                          {90, 5},
+                                                          {100, 6},
+                                                          {110, 7},
+                                                          {130, 8},
+                                                          {160, 9},
+                                                          {190, 10},
+                                                          {200, 5},
+                                                          {210, 11},
+                                                          {220, 12},
+                                                          {230, 0}}));
 }
 
 TEST(GratingTwin, HostAndTenSlavesHoldTheCountsOfHold) {
@@ -175,9 +190,9 @@ TEST(GratingTwin, NothingHappensAtTheInstantsThatAreLeftOut) {
         conflicts += twins[0].conflicts().size();
         changes += twins[0].changes().size();
     }
-    std::cout << published << " frames, " << conflicts << " conflicts, " << changes << " changes of lines; broken " << sum.broken
-              << ", missed words " << sum.missed_words << ", alien " << sum.alien << ", lines " << sum.lines << ", missed edges "
-              << sum.missed_edges << ", overrun " << sum.overrun << std::endl;
+    std::cout << published << " frames, " << conflicts << " conflicts, " << changes << " changes of lines; broken "
+              << sum.broken << ", missed words " << sum.missed_words << ", alien " << sum.alien << ", lines "
+              << sum.lines << ", missed edges " << sum.missed_edges << ", overrun " << sum.overrun << std::endl;
     EXPECT_GT(published, 100u);
     EXPECT_GT(conflicts, 100u);
     EXPECT_TRUE(sum.broken && sum.missed_words && sum.alien && sum.lines && sum.missed_edges && sum.overrun);

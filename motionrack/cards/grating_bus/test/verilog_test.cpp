@@ -1,7 +1,8 @@
-// The bus in Verilog (tests/verilog/grating, run by iverilog) against the twin: another writing of the rules, clock by clock.
+// The bus in Verilog (tests/verilog/grating, run by iverilog) against the twin: another writing of the rules, clock by
+// clock.
 //
-// The logic takes a clock from the edge of clk to S1, and its decoder one from a scale's lines to the count; so the offset below, and
-// counts of the clock before HOLD.
+// The logic takes a clock from the edge of clk to S1, and its decoder one from a scale's lines to the count; so the
+// offset below, and counts of the clock before HOLD.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -35,15 +36,18 @@ bool installed(const std::string& program) {
 
 Shown run_verilog(const System& system) {
     Shown out{std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)),
-               std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)), ""};
-    const std::string program = (std::filesystem::temp_directory_path() / ("grating_" + std::to_string(getpid()))).string();
+              std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)), ""};
+    const std::string program =
+        (std::filesystem::temp_directory_path() / ("grating_" + std::to_string(getpid()))).string();
     std::string command = "iverilog -g2012 -o " + program;
     const auto parameter = [&](const char* name, int value) {
         command += std::string(" -Pgrating_system_tb.") + name + "=" + std::to_string(value);
     };
-    parameter("N", system.words), parameter("CARDS", system.cards), parameter("PERIOD", system.period), parameter("FRAMES", system.frames);
+    parameter("N", system.words), parameter("CARDS", system.cards), parameter("PERIOD", system.period),
+        parameter("FRAMES", system.frames);
     parameter("HOSTS", system.hosts), parameter("APART", system.apart);
-    for (const char* file : {"scales", "decoder", "card", "system", "system_tb"}) command += " " + folder + "grating_" + file + ".sv";
+    for (const char* file : {"scales", "decoder", "card", "system", "system_tb"})
+        command += " " + folder + "grating_" + file + ".sv";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     std::FILE* pipe = popen(("vvp " + program).c_str(), "r");
     if (!pipe) return out;
@@ -74,7 +78,8 @@ std::uint32_t position(int scale, std::int64_t edge) {
 std::size_t conflicting(const Twin& twin, const std::set<Line>& lines) {
     std::set<std::int64_t> clocks;
     for (const Conflict& conflict : twin.conflicts())
-        for (Ticks at = conflict.begin; lines.count(conflict.line) && at < conflict.end; at += clock_ticks) clocks.insert(at);
+        for (Ticks at = conflict.begin; lines.count(conflict.line) && at < conflict.end; at += clock_ticks)
+            clocks.insert(at);
     return clocks.size();
 }
 
@@ -99,17 +104,21 @@ Shown run_twin(const System& system) {
     for (int i = 0; i < system.cards; ++i) {
         std::vector<std::string>& states = out.states.emplace_back();
         for (const StateChange& change : twin.states(i))
-            if (change.at > 0) states.push_back(std::to_string(change.at / clock_ticks).append(" ").append(std::to_string(change.state)));
+            if (change.at > 0)
+                states.push_back(
+                    std::to_string(change.at / clock_ticks).append(" ").append(std::to_string(change.state)));
         std::vector<std::string>& frames = out.frames.emplace_back();
         for (const Published& published : twin.frames(i)) {
             const Frame& frame = published.frame;
-            std::string text = std::to_string(frame.sequence) + " " + std::to_string(frame.time) + " " + std::to_string(frame.crc);
+            std::string text =
+                std::to_string(frame.sequence) + " " + std::to_string(frame.time) + " " + std::to_string(frame.crc);
             for (const std::uint32_t count : frame.positions()) text.append(" ").append(std::to_string(count));
             frames.push_back(text);
         }
     }
     std::ostringstream end;
-    end << system.period * system.frames << " " << conflicting(twin, {clk}) << " " << conflicting(twin, {hold, read_n, addr}) << " 0";
+    end << system.period * system.frames << " " << conflicting(twin, {clk}) << " "
+        << conflicting(twin, {hold, read_n, addr}) << " 0";
     out.end = end.str();
     return out;
 }
@@ -126,25 +135,32 @@ std::size_t compare(const std::vector<System>& systems) {
     std::size_t different = 0;
     for (const System& system : systems) {
         const Shown twin = run_twin(system), verilog = run_verilog(system);
-        EXPECT_EQ(verilog.end, twin.end) << "clocks, clocks with a conflict on clk, on other lines, whether a scale's lines jumped";
+        EXPECT_EQ(verilog.end, twin.end)
+            << "clocks, clocks with a conflict on clk, on other lines, whether a scale's lines jumped";
         for (std::size_t card = 0; card < twin.frames.size(); ++card) {
-            SCOPED_TRACE("card " + std::to_string(card) + " of " + std::to_string(system.cards) + ", N " + std::to_string(system.words) +
-                         ", hosts " + std::to_string(system.hosts) + ", apart " + std::to_string(system.apart));
+            SCOPED_TRACE("card " + std::to_string(card) + " of " + std::to_string(system.cards) + ", N " +
+                         std::to_string(system.words) + ", hosts " + std::to_string(system.hosts) + ", apart " +
+                         std::to_string(system.apart));
             EXPECT_EQ(twin.frames[card].size(), static_cast<std::size_t>(system.frames));
             EXPECT_EQ(verilog.frames[card], twin.frames[card]);
             EXPECT_EQ(verilog.states[card], twin.states[card]);
-            for (std::size_t i = 0; i < verilog.frames[card].size(); ++i) different += counts_of(verilog.frames[card][i]) != counts_of(verilog.frames[0].at(i));
+            for (std::size_t i = 0; i < verilog.frames[card].size(); ++i)
+                different += counts_of(verilog.frames[card][i]) != counts_of(verilog.frames[0].at(i));
         }
     }
     return different;
 }
 
-constexpr const char* no_iverilog = "iverilog is not installed (Debian package iverilog); the Verilog referee did not run";
-bool no_referee() { return !installed("iverilog") || !installed("vvp"); }
+constexpr const char* no_iverilog =
+    "iverilog is not installed (Debian package iverilog); the Verilog referee did not run";
+bool no_referee() {
+    return !installed("iverilog") || !installed("vvp");
+}
 
 TEST(GratingVerilog, HoldsTheSameFramesInTheSameStatesAsTheTwin) {
     if (no_referee()) GTEST_SKIP() << no_iverilog;
-    const std::size_t different = compare({{4, 3}, {4, 11}, {8, 3}, {8, 11}, {1, 2}, {16, 1}, {40, 2}, {8, 11, 20'000, 2}});
+    const std::size_t different =
+        compare({{4, 3}, {4, 11}, {8, 3}, {8, 11}, {1, 2}, {16, 1}, {40, 2}, {8, 11, 20'000, 2}});
     EXPECT_EQ(different, 0u);
 }
 
@@ -156,9 +172,11 @@ TEST(GratingVerilog, ThreeHostsReadTheSameWrongFramesAsOnTheTwin) {
 }
 
 TEST(GratingVerilog, IsAcceptedByVerilatorToo) {
-    if (!installed("verilator")) GTEST_SKIP() << "verilator is not installed (Debian package verilator); it did not read the Verilog";
+    if (!installed("verilator"))
+        GTEST_SKIP() << "verilator is not installed (Debian package verilator); it did not read the Verilog";
     std::string command = "verilator --lint-only -Wall -Wno-WIDTH -GN=8 -GCARDS=11 --top-module grating_system";
-    for (const char* file : {"scales", "decoder", "card", "system"}) command += " " + folder + "grating_" + file + ".sv";
+    for (const char* file : {"scales", "decoder", "card", "system"})
+        command += " " + folder + "grating_" + file + ".sv";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
 }
 

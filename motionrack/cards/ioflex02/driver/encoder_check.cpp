@@ -15,7 +15,7 @@ std::int64_t modulo_16(int now, int before) {
 
 }  // namespace
 
-// ---- lines ----------------------------------------------------------------------------------------------------------
+// ---- lines
 
 void EncoderCheck::look_at_lines(const AxisDetail& now, std::vector<Finding>& out) {
     const std::int64_t illegal = now.illegal >= last_.illegal ? now.illegal - last_.illegal : now.illegal;
@@ -35,7 +35,7 @@ void EncoderCheck::look_at_lines(const AxisDetail& now, std::vector<Finding>& ou
     out.push_back({fault, alone, std::min(alone_from_, now.at.raw), std::max(alone_from_, now.at.raw)});
 }
 
-// ---- index ----------------------------------------------------------------------------------------------------------
+// ---- index
 
 /// How far `to` is from the nearest place of the grid through `from`.
 std::int64_t EncoderCheck::off_grid(std::int64_t from, std::int64_t to) const {
@@ -47,7 +47,8 @@ void EncoderCheck::tell_spacing(std::int64_t from, std::int64_t to, std::vector<
     const std::int64_t spacing = std::llabs(to - from), turn = settings_.counts_per_index;
     const std::int64_t wanted = std::max<std::int64_t>(1, (spacing + turn / 2) / turn) * turn;
     if (spacing == wanted) return;
-    out.push_back({spacing < wanted ? EncoderFault::counts_lost : EncoderFault::counts_extra, std::llabs(spacing - wanted), from, to});
+    out.push_back({spacing < wanted ? EncoderFault::counts_lost : EncoderFault::counts_extra,
+                   std::llabs(spacing - wanted), from, to});
 }
 
 void EncoderCheck::index_came(std::int64_t at, std::vector<Finding>& out) {
@@ -76,7 +77,8 @@ void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& ou
     const std::int64_t turn = settings_.counts_per_index, came = modulo_16(now.indexes, last_.indexes);
     if (turn <= 0) return;
     // Without an index a turn and an eighth are waited for.
-    const std::int64_t here = came > 0 ? now.index_at : now.at.raw, patience = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
+    const std::int64_t here = came > 0 ? now.index_at : now.at.raw,
+                       patience = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
     const auto passed = [&] { return std::max<std::int64_t>(0, std::llabs(here - index_) - patience) / turn; };
     if (came == 0 && doubtful_known_ && passed() > 1) {
         tell_spacing(index_, doubtful_, out);
@@ -92,7 +94,7 @@ void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& ou
     if (came > 0) index_came(here, out);
 }
 
-// ---- looks ----------------------------------------------------------------------------------------------------------
+// ---- looks
 
 std::vector<Finding> EncoderCheck::look(const AxisDetail& now) {
     std::vector<Finding> out;
@@ -105,7 +107,8 @@ std::vector<Finding> EncoderCheck::look(const AxisDetail& now) {
     return out;
 }
 
-std::vector<Finding> EncoderCheck::check_move(const AxisDetail& before, const AxisDetail& now, std::int64_t counts) const {
+std::vector<Finding> EncoderCheck::check_move(const AxisDetail& before, const AxisDetail& now,
+                                              std::int64_t counts) const {
     std::vector<Finding> out;
     const std::int64_t seen = now.at.raw - before.at.raw;
     const std::int64_t a = modulo_16(now.edges_a, before.edges_a), b = modulo_16(now.edges_b, before.edges_b);
@@ -115,40 +118,61 @@ std::vector<Finding> EncoderCheck::check_move(const AxisDetail& before, const Ax
     if (a <= enough / 8 && b > enough) out.push_back({EncoderFault::line_a_missing, b, before.at.raw, now.at.raw});
     if (b <= enough / 8 && a > enough) out.push_back({EncoderFault::line_b_missing, a, before.at.raw, now.at.raw});
     const std::int64_t more = a + b - (std::max(std::llabs(seen), std::llabs(counts)) + 1) * (4 / now.edges);
-    if (more > settings_.edges_alone && out.empty()) out.push_back({EncoderFault::too_many_edges, more, before.at.raw, now.at.raw});
+    if (more > settings_.edges_alone && out.empty())
+        out.push_back({EncoderFault::too_many_edges, more, before.at.raw, now.at.raw});
     return out;
 }
 
-// ---- sentences ------------------------------------------------------------------------------------------------------
+// ---- sentences
 
 std::string describe(const Finding& f, const AxisDetail& now, const std::string& axis) {
     const std::int64_t from = now.position_of(f.from), to = now.position_of(f.to);
     switch (f.fault) {
         case EncoderFault::illegal:
-            return fmt::format("axis {}: lines A and B changed at once {} times, the last time at {}; the position may be off. The encoder is "
-                               "too quick, or there is noise on the lines", axis, f.number, to);
+            return fmt::format(
+                "axis {}: lines A and B changed at once {} times, the last time at {}; the position may be off. The "
+                "encoder is "
+                "too quick, or there is noise on the lines",
+                axis, f.number, to);
         case EncoderFault::line_a_missing:
-            return fmt::format("axis {}: line A stood at {} while B changed {} times, from {} to {}: A is broken, or the axis trembles on an "
-                               "edge of B", axis, now.a ? 1 : 0, f.number, from, to);
+            return fmt::format(
+                "axis {}: line A stood at {} while B changed {} times, from {} to {}: A is broken, or the axis "
+                "trembles on an "
+                "edge of B",
+                axis, now.a ? 1 : 0, f.number, from, to);
         case EncoderFault::line_b_missing:
-            return fmt::format("axis {}: line B stood at {} while A changed {} times, from {} to {}: B is broken, or the axis trembles on an "
-                               "edge of A", axis, now.b ? 1 : 0, f.number, from, to);
+            return fmt::format(
+                "axis {}: line B stood at {} while A changed {} times, from {} to {}: B is broken, or the axis "
+                "trembles on an "
+                "edge of A",
+                axis, now.b ? 1 : 0, f.number, from, to);
         case EncoderFault::index_missing:
-            return fmt::format("axis {}: {} index {} did not come between {} and {}: Z is broken, or counts come without motion", axis, f.number,
-                               f.number == 1 ? "pulse" : "pulses", from, to);
+            return fmt::format(
+                "axis {}: {} index {} did not come between {} and {}: Z is broken, or counts come without motion", axis,
+                f.number, f.number == 1 ? "pulse" : "pulses", from, to);
         case EncoderFault::index_extra:
             return fmt::format("axis {}: an index pulse came at {}, where none should be", axis, to);
         case EncoderFault::counts_lost:
-            return fmt::format("axis {}: {} counts were lost between the index pulses at {} and {}: lines are dirty there, or the encoder was too "
-                               "quick. Calibrate again", axis, f.number, from, to);
+            return fmt::format(
+                "axis {}: {} counts were lost between the index pulses at {} and {}: lines are dirty there, or the "
+                "encoder was too "
+                "quick. Calibrate again",
+                axis, f.number, from, to);
         case EncoderFault::counts_extra:
-            return fmt::format("axis {}: there are {} counts too many between the index pulses at {} and {}: noise on the lines. Calibrate again",
-                               axis, f.number, from, to);
+            return fmt::format(
+                "axis {}: there are {} counts too many between the index pulses at {} and {}: noise on the lines. "
+                "Calibrate again",
+                axis, f.number, from, to);
         case EncoderFault::backwards:
-            return fmt::format("axis {}: it counted {} against the move, from {} to {}: A and B are swapped, or one of them is inverted. Swap them, "
-                               "or set the axis reversed", axis, f.number, from, to);
+            return fmt::format(
+                "axis {}: it counted {} against the move, from {} to {}: A and B are swapped, or one of them is "
+                "inverted. Swap them, "
+                "or set the axis reversed",
+                axis, f.number, from, to);
         case EncoderFault::too_many_edges:
-            return fmt::format("axis {}: {} edges more than the move from {} to {} needs: noise on the lines. A filter helps", axis, f.number, from, to);
+            return fmt::format(
+                "axis {}: {} edges more than the move from {} to {} needs: noise on the lines. A filter helps", axis,
+                f.number, from, to);
     }
     return axis;
 }

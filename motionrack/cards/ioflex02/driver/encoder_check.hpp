@@ -1,10 +1,12 @@
-// What is wrong with an encoder, which line, and where: from the card's counts of edges, index pulses and illegal transitions.
+// What is wrong with an encoder, which line, and where: from the card's counts of edges, index pulses and illegal
+// transitions.
 //
 //   index    |        |        |     |          |          a grid of counts_per_index
 //                              ^ extra          ^ counts lost: one or more lines are dirty between the two
 //
-// Looks must come often enough that an axis makes less than 65,536 edges between two of them; an index pulse is placed best when there is
-// not more than one between two looks. Places are raw counts (AxisDetail::position_of makes positions of them).
+// Looks must come often enough that an axis makes less than 65,536 edges between two of them; an index pulse is placed
+// best when there is not more than one between two looks. Places are raw counts (AxisDetail::position_of makes
+// positions of them).
 #pragma once
 
 #include <cstdint>
@@ -37,9 +39,11 @@ struct Finding {
 std::string describe(const Finding& finding, const AxisDetail& now, const std::string& axis);
 
 struct EncoderCheckSettings {
-    std::int64_t counts_per_index = 0;  ///< counts from one index pulse to the next, >= 0; 0: the index is not looked at
-    std::int64_t tolerance = 1;         ///< counts, >= 0, that an index pulse may be off its grid
-    int edges_alone = 64;  ///< > 0: edges of one line while the other stands still, or more than a move needs, until that is a fault
+    std::int64_t counts_per_index =
+        0;                       ///< counts from one index pulse to the next, >= 0; 0: the index is not looked at
+    std::int64_t tolerance = 1;  ///< counts, >= 0, that an index pulse may be off its grid
+    int edges_alone =
+        64;  ///< > 0: edges of one line while the other stands still, or more than a move needs, until that is a fault
 };
 
 class EncoderCheck {
@@ -48,8 +52,8 @@ class EncoderCheck {
 
     /// What has come to light since the look before; the first look only begins.
     std::vector<Finding> look(const AxisDetail& now);
-    /// After a move in one direction of about `counts` counts (signed, more than 8) from `before` to `now`: did it count that way, with
-    /// hardly more edges than it needs?
+    /// After a move in one direction of about `counts` counts (signed, more than 8) from `before` to `now`: did it
+    /// count that way, with hardly more edges than it needs?
     std::vector<Finding> check_move(const AxisDetail& before, const AxisDetail& now, std::int64_t counts) const;
 
   private:

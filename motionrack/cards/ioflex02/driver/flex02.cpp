@@ -9,7 +9,8 @@ namespace motionrack::ioflex02 {
 namespace {
 
 namespace status {
-constexpr Field LOADING = field("STATUS", "LOADING"), RUNNING = field("STATUS", "RUNNING"), FAILED = field("STATUS", "FAILED");
+constexpr Field LOADING = field("STATUS", "LOADING"), RUNNING = field("STATUS", "RUNNING"),
+                FAILED = field("STATUS", "FAILED");
 }
 
 const char* refusal(std::uint16_t code) {
@@ -34,7 +35,7 @@ Flex02::Flex02(RegisterPort& port, Interrupt& interrupt, FlexSettings settings)
     MOTIONRACK_ASSERT(settings_.start_timeout > Duration{0} && settings_.poll > Duration{0});
 }
 
-// ---- configuration --------------------------------------------------------------------------------------------------
+// ---- configuration
 
 bool Flex02::set(FlexResult result, std::string why) {
     Result = result;
@@ -65,11 +66,18 @@ bool Flex02::find_card() {
     const std::uint16_t serial = in(offset("SERIAL"));
     const std::uint16_t inverted = in(offset("SERIAL_N"));
     if (seen != signature)
-        return set(Flex_ErrDevice, fmt::format("No IOFLEX02 answers at {:04X}h: the signature reads {:04X}h, but it is {:04X}h. Nothing was "
-                                               "written; check the base address and its switches.", base_, seen, signature));
+        return set(
+            Flex_ErrDevice,
+            fmt::format("No IOFLEX02 answers at {:04X}h: the signature reads {:04X}h, but it is {:04X}h. Nothing was "
+                        "written; check the base address and its switches.",
+                        base_, seen, signature));
     if ((serial ^ inverted) != 0xFFFF)
-        return set(Flex_ErrDevice, fmt::format("At {:04X}h two cards answer, or the card is faulty: the serial number reads {:04X}h and, inverted, "
-                                               "{:04X}h. Nothing was written; give each card its own base address.", base_, serial, inverted));
+        return set(
+            Flex_ErrDevice,
+            fmt::format(
+                "At {:04X}h two cards answer, or the card is faulty: the serial number reads {:04X}h and, inverted, "
+                "{:04X}h. Nothing was written; give each card its own base address.",
+                base_, serial, inverted));
     return true;
 }
 
@@ -77,8 +85,12 @@ bool Flex02::feed(std::span<const std::uint8_t> raw) {
     out(offset("CONTROL"), field("CONTROL", "CONFIGURE").mask);
     const std::uint16_t state = in(offset("STATUS"));
     if (!status::LOADING.test(state))
-        return set(Flex_ErrDevice, fmt::format("The card at {:04X}h does not take an image: its status reads {:04X}h after CONFIGURE. Its array is "
-                                               "empty; the card seems faulty.", base_, state));
+        return set(
+            Flex_ErrDevice,
+            fmt::format(
+                "The card at {:04X}h does not take an image: its status reads {:04X}h after CONFIGURE. Its array is "
+                "empty; the card seems faulty.",
+                base_, state));
     for (std::size_t i = 0; i < raw.size(); i += 2) {
         const unsigned high = i + 1 < raw.size() ? raw[i + 1] : 0u;
         out(offset("DATA"), static_cast<std::uint16_t>(raw[i] | high << 8));
@@ -94,14 +106,24 @@ bool Flex02::wait_until_running() {
         if (status::RUNNING.test(state)) return true;
         if (status::FAILED.test(state)) {
             const std::uint16_t code = in(offset("CFG_ERROR"));
-            return set(Flex_ErrCfg, fmt::format("The card at {:04X}h refused the configuration image (error {}): {}. Its array is empty; make or "
-                                                "copy the image anew.", base_, code, refusal(code)));
+            return set(
+                Flex_ErrCfg,
+                fmt::format(
+                    "The card at {:04X}h refused the configuration image (error {}): {}. Its array is empty; make or "
+                    "copy the image anew.",
+                    base_, code, refusal(code)));
         }
         if (interrupt_.stop_requested())
-            return set(Flex_ErrCfg, fmt::format("The configuration of the card at {:04X}h was stopped by the user. Call Init again.", base_));
+            return set(Flex_ErrCfg,
+                       fmt::format("The configuration of the card at {:04X}h was stopped by the user. Call Init again.",
+                                   base_));
         if (interrupt_.now() >= until)
-            return set(Flex_ErrCfg, fmt::format("The array of the card at {:04X}h did not start within {:.1f} s after its image. Call Init again; "
-                                                "if this stays, the card is faulty.", base_, to_seconds(settings_.start_timeout)));
+            return set(
+                Flex_ErrCfg,
+                fmt::format(
+                    "The array of the card at {:04X}h did not start within {:.1f} s after its image. Call Init again; "
+                    "if this stays, the card is faulty.",
+                    base_, to_seconds(settings_.start_timeout)));
         interrupt_.pass(settings_.poll);
     }
 }
@@ -110,15 +132,23 @@ bool Flex02::check_project() {
     const std::uint16_t code = in(offset("CFG_ERROR"));
     const std::uint16_t ident = in(offset("IDENT"));
     if (static_cast<CfgError>(code) == CfgError::unknown_project)
-        return set(Flex_ErrProject, fmt::format("The image for the card at {:04X}h is of another project than \"{}\" (ident {:02X}h). The array runs "
-                                                "it, but it cannot be used here.", base_, position_project, ident));
+        return set(
+            Flex_ErrProject,
+            fmt::format(
+                "The image for the card at {:04X}h is of another project than \"{}\" (ident {:02X}h). The array runs "
+                "it, but it cannot be used here.",
+                base_, position_project, ident));
     if (ident != settings_.ident)
-        return set(Flex_ErrProject, fmt::format("The array of the card at {:04X}h has version {:02X}h of the project, but {:02X}h is needed. Use the "
-                                                "image that belongs to this library.", base_, ident, settings_.ident));
+        return set(
+            Flex_ErrProject,
+            fmt::format(
+                "The array of the card at {:04X}h has version {:02X}h of the project, but {:02X}h is needed. Use the "
+                "image that belongs to this library.",
+                base_, ident, settings_.ident));
     return true;
 }
 
-// ---- registers ------------------------------------------------------------------------------------------------------
+// ---- registers
 
 std::uint16_t Flex02::get(std::uint32_t at) {
     return ok() ? in(at) : std::uint16_t{0};

@@ -1,5 +1,5 @@
-// The card's configuration object, the source's tIOFlex02: loads the array with an image, drives the outputs, reads the inputs. It knows
-// the card only by a register port, so it cannot tell a virtual card from a real one.
+// The card's configuration object, the source's tIOFlex02: loads the array with an image, drives the outputs, reads the
+// inputs. It knows the card only by a register port, so it cannot tell a virtual card from a real one.
 //
 //   signature? ─► one card? ─► unpack ─► CONFIGURE, DATA .. DATA, END ─► RUNNING? ─► Result
 #pragma once
@@ -17,10 +17,10 @@ namespace motionrack::ioflex02 {
 
 /// Outcomes of Init; the source names them, the numbers are chosen.
 enum FlexResult : int {
-    Flex_Ok = 0,          ///< the array is configured
-    Flex_ErrCfg = 1,      ///< configuration failed: the image is cut short, damaged or foreign, or the array did not start
-    Flex_ErrDevice = 2,   ///< no card at the address, or two
-    Flex_ErrProject = 3   ///< the array runs, but another project or version
+    Flex_Ok = 0,      ///< the array is configured
+    Flex_ErrCfg = 1,  ///< configuration failed: the image is cut short, damaged or foreign, or the array did not start
+    Flex_ErrDevice = 2,  ///< no card at the address, or two
+    Flex_ErrProject = 3  ///< the array runs, but another project or version
 };
 
 struct FlexSettings {
@@ -37,8 +37,8 @@ class Flex02 {
     Flex02(const Flex02&) = delete;
     Flex02& operator=(const Flex02&) = delete;
 
-    /// What the last Init or Configure came to, a FlexResult; before it Flex_ErrDevice. While it is not Flex_Ok nothing is written, and
-    /// every read gives 0.
+    /// What the last Init or Configure came to, a FlexResult; before it Flex_ErrDevice. While it is not Flex_Ok nothing
+    /// is written, and every read gives 0.
     int Result = Flex_ErrDevice;
     /// The sentence to Result; empty if it is Flex_Ok.
     const std::string& why() const { return why_; }

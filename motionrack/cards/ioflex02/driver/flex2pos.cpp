@@ -39,7 +39,7 @@ void Flex2Pos::forget() {
     host_then_ = now();
 }
 
-// ---- carrying on ----------------------------------------------------------------------------------------------------
+// ---- carrying on
 
 /// The host's clock says only how often the counter went round.
 std::int64_t Flex2Pos::carry_time(std::uint32_t time, bool cleared) {
@@ -110,7 +110,7 @@ std::array<AxisDetail, axis_count> Flex2Pos::read_details() {
     return out;
 }
 
-// ---- the source's functions -----------------------------------------------------------------------------------------
+// ---- the source's functions
 
 std::int32_t Flex2Pos::ReadTime() {
     put(offset("STROBE"), capture);
@@ -131,7 +131,8 @@ std::int32_t Flex2Pos::read_position(std::uint32_t axis) {
     return signed24(get24(of_axis(offset("POS0_L"), axis)));
 }
 
-void Flex2Pos::ReadTimeClrPosition(std::int32_t& Time, std::int32_t& Pos0, std::int32_t& Pos1, std::int32_t& Pos2, std::int32_t& Pos3) {
+void Flex2Pos::ReadTimeClrPosition(std::int32_t& Time, std::int32_t& Pos0, std::int32_t& Pos1, std::int32_t& Pos2,
+                                   std::int32_t& Pos3) {
     Time = ReadTimeClr();
     Pos0 = signed24(get24(offset("POS0_L")));
     Pos1 = signed24(get24(offset("POS1_L")));
@@ -156,7 +157,7 @@ void Flex2Pos::ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIO
     Sts3 = field("STS", "CAL3").test(word) ? sCal : sNotCal;
 }
 
-// ---- one layer up ---------------------------------------------------------------------------------------------------
+// ---- one layer up
 
 void Flex2Pos::calibrate(const std::array<tIOFlexCmd, axis_count>& commands) {
     WriteCmd(commands[0], commands[1], commands[2], commands[3]);
@@ -173,10 +174,16 @@ motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
     if (!ok()) return fail(Trouble::machine, why());
     const Instant until = later(now(), timeout);
     while (statuses()[static_cast<std::size_t>(axis)] != sCal) {
-        if (stop_requested()) return fail(Trouble::stopped, fmt::format("Waiting for the calibration of axis {} was stopped by the user.", axis));
+        if (stop_requested())
+            return fail(Trouble::stopped,
+                        fmt::format("Waiting for the calibration of axis {} was stopped by the user.", axis));
         if (now() >= until)
-            return fail(Trouble::machine, fmt::format("Axis {} was not calibrated within {:.3f} s: no index pulse came. Move the axis over its zero "
-                                                      "position, and look at lines Z and Cal.", axis, to_seconds(timeout)));
+            return fail(
+                Trouble::machine,
+                fmt::format(
+                    "Axis {} was not calibrated within {:.3f} s: no index pulse came. Move the axis over its zero "
+                    "position, and look at lines Z and Cal.",
+                    axis, to_seconds(timeout)));
         pass(milliseconds(1));
     }
     return {};
@@ -186,9 +193,13 @@ motionrack::Result<void> Flex2Pos::set_mode(int axis, const AxisMode& wanted) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
     if (!ok()) return fail(Trouble::machine, why());
     if (wanted.edges != 4 && wanted.edges != 2 && wanted.edges != 1)
-        return fail(Trouble::refused, fmt::format("Axis {} is to count {} edges of a line, but that is 4, 2 or 1. Nothing was written.", axis, wanted.edges));
+        return fail(Trouble::refused,
+                    fmt::format("Axis {} is to count {} edges of a line, but that is 4, 2 or 1. Nothing was written.",
+                                axis, wanted.edges));
     if (wanted.filter < 0 || wanted.filter > 15)
-        return fail(Trouble::refused, fmt::format("The filter of axis {} is {}, but it is 0 to 15. Nothing was written.", axis, wanted.filter));
+        return fail(
+            Trouble::refused,
+            fmt::format("The filter of axis {} is {}, but it is 0 to 15. Nothing was written.", axis, wanted.filter));
     std::uint16_t word = 0;
     word = REVERSED.set(word, wanted.reversed);
     word = EDGES.set(word, wanted.edges == 4 ? 0u : wanted.edges == 2 ? 1u : 2u);

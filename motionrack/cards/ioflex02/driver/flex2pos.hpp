@@ -1,10 +1,11 @@
-// The unit uFlex2Pos: the source's object tIOFlexPos with every name of its table, and one layer up what a program of today wants:
-// readings of one instant whose time and counts do not wrap, modes, diagnostics.
+// The unit uFlex2Pos: the source's object tIOFlexPos with every name of its table, and one layer up what a program of
+// today wants: readings of one instant whose time and counts do not wrap, modes, diagnostics.
 //
 //   tIOFlex02 (Flex02) ◄── tIOFlexPos (Flex2Pos)
 //
-// Time and counts of the card have 24 bits. The object carries them on in 64 bits as long as it sees every clearing of the time (so do not
-// share a card between two objects), and as long as an axis moves less than 8,388,607 counts between two readings.
+// Time and counts of the card have 24 bits. The object carries them on in 64 bits as long as it sees every clearing of
+// the time (so do not share a card between two objects), and as long as an axis moves less than 8,388,607 counts
+// between two readings.
 #pragma once
 
 #include <array>
@@ -13,13 +14,13 @@
 
 namespace motionrack::ioflex02 {
 
-inline constexpr int cVerNo = 0x0251;                 ///< version of the unit, BCD
-inline constexpr char cVer[] = "02.51, 07.08.2003";   ///< the same as text, with its date
+inline constexpr int cVerNo = 0x0251;                ///< version of the unit, BCD
+inline constexpr char cVer[] = "02.51, 07.08.2003";  ///< the same as text, with its date
 
 /// An axis in a reading.
 struct AxisReading {
     std::int64_t position = 0;  ///< counts since the calibration, carried on beyond 24 bits
-    std::int64_t raw = 0;    ///< counts since Init, which no calibration touches
+    std::int64_t raw = 0;       ///< counts since Init, which no calibration touches
     std::int64_t age = 0;       ///< ticks since the last count; oldest_age: that or more, or none yet
     bool down = false;          ///< the last count was downwards
 };
@@ -34,7 +35,7 @@ struct Reading {
 
 /// An axis looked at closely; places are raw counts.
 struct AxisDetail {
-    AxisReading at;                ///< where it is at this instant
+    AxisReading at;  ///< where it is at this instant
     std::int64_t ticks = 0;
     bool a = false, b = false, z = false, cal = false;  ///< levels of the lines
     std::uint16_t edges_a = 0, edges_b = 0;             ///< modulo 65,536
@@ -72,7 +73,8 @@ class Flex2Pos final : public Flex02 {
     std::int32_t ReadPosition2() { return read_position(2); }
     std::int32_t ReadPosition3() { return read_position(3); }
     /// Time (cleared) and the positions of one instant; 11 accesses, four ReadPosition are 12.
-    void ReadTimeClrPosition(std::int32_t& Time, std::int32_t& Pos0, std::int32_t& Pos1, std::int32_t& Pos2, std::int32_t& Pos3);
+    void ReadTimeClrPosition(std::int32_t& Time, std::int32_t& Pos0, std::int32_t& Pos1, std::int32_t& Pos2,
+                             std::int32_t& Pos3);
     /// One calibration command for each axis, together; what was pending is replaced.
     void WriteCmd(tIOFlexCmd Cmd0, tIOFlexCmd Cmd1, tIOFlexCmd Cmd2, tIOFlexCmd Cmd3);
     void ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIOFlexSts& Sts3);
@@ -85,7 +87,8 @@ class Flex2Pos final : public Flex02 {
     /// Commands and statuses as lists.
     void calibrate(const std::array<tIOFlexCmd, axis_count>& commands);
     std::array<tIOFlexSts, axis_count> statuses();
-    /// Waits until the axis is sCal, with `never` however long it takes. Errors: machine, if that has not come within `timeout`; stopped.
+    /// Waits until the axis is sCal, with `never` however long it takes. Errors: machine, if that has not come within
+    /// `timeout`; stopped.
     motionrack::Result<void> wait_calibrated(int axis, Duration timeout);
     /// Errors: refused (edges or filter out of range; nothing was written), machine (Init has not succeeded).
     motionrack::Result<void> set_mode(int axis, const AxisMode& mode);

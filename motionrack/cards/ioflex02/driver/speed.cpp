@@ -10,7 +10,8 @@ const double tick_s = to_seconds(time_tick);
 /// How far the length of a stretch may be off: a tick, and a sample.
 const double stretch_error_s = to_seconds(time_tick + sample_time);
 
-/// `counts` +- `off` over `ticks` ticks, of which as much as above may be missing. Not known if nothing of them is sure.
+/// `counts` +- `off` over `ticks` ticks, of which as much as above may be missing. Not known if nothing of them is
+/// sure.
 SpeedEstimate mean(std::int64_t counts, double off, std::int64_t from, std::int64_t to) {
     SpeedEstimate out;
     const double length = static_cast<double>(to - from) * tick_s;

@@ -5,9 +5,9 @@
 //              .    |         |   .            edges (1/T): counts between two edges / time between those        (slow)
 //                   last      last
 //
-// Each reading tells, by the age of the last count, when the last edge was: to 1.2 us (the time's tick) and 100 ns (the sample). The
-// difference is off by up to a count, the edges only by those 1.3 us. What is estimated is the mean speed of the stretch that is named; of
-// a speed that changes within the stretch no bound can be stated.
+// Each reading tells, by the age of the last count, when the last edge was: to 1.2 us (the time's tick) and 100 ns (the
+// sample). The difference is off by up to a count, the edges only by those 1.3 us. What is estimated is the mean speed
+// of the stretch that is named; of a speed that changes within the stretch no bound can be stated.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,16 @@ namespace motionrack::ioflex02 {
 struct SpeedEstimate {
     bool known = false;
     double counts_s = 0;
-    double error = 0;        ///< counts/s, >= 0
-    std::int64_t from = 0;   ///< the stretch, in ticks of Reading::ticks
+    double error = 0;       ///< counts/s, >= 0
+    std::int64_t from = 0;  ///< the stretch, in ticks of Reading::ticks
     std::int64_t to = 0;
 };
 
 struct Speed {
     SpeedEstimate difference;  ///< between this reading and the one before
-    SpeedEstimate edges;       ///< between the last edges of this reading and of an earlier one; if no edge came: since the last edge
-    bool edge_came = false;    ///< there was a new edge for `edges`
+    SpeedEstimate
+        edges;  ///< between the last edges of this reading and of an earlier one; if no edge came: since the last edge
+    bool edge_came = false;  ///< there was a new edge for `edges`
     /// The one with the smaller error; not known before the second reading.
     const SpeedEstimate& best() const {
         return edges.known && (!difference.known || edges.error <= difference.error) ? edges : difference;
@@ -36,7 +37,8 @@ struct Speed {
 
 class SpeedMeter {
   public:
-    /// `edge_error`: how far an edge of the encoder may be from its place, counts (0: a perfect one); it is in the errors.
+    /// `edge_error`: how far an edge of the encoder may be from its place, counts (0: a perfect one); it is in the
+    /// errors.
     explicit SpeedMeter(double edge_error = 0) : edge_error_(edge_error) {}
 
     /// Readings in their order, at any distance; `ticks` is Reading::ticks.

@@ -1,9 +1,10 @@
 // Counts of an axis in the user's unit: mm of a scale, degrees of a spindle.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
 #include <motionrack/base/result.hpp>
 
 namespace motionrack::ioflex02 {
@@ -28,8 +29,10 @@ class Units {
   private:
     static Result<Units> of(double counts_per_unit, const char* what) {
         if (!std::isfinite(counts_per_unit) || counts_per_unit == 0)
-            return fail(Trouble::refused, fmt::format("There are {} {}, but that must be a number other than 0. The units were not changed.",
-                                                      counts_per_unit, what));
+            return fail(
+                Trouble::refused,
+                fmt::format("There are {} {}, but that must be a number other than 0. The units were not changed.",
+                            counts_per_unit, what));
         Units out;
         out.counts_per_unit_ = counts_per_unit;
         return out;

@@ -70,10 +70,8 @@ inline constexpr TransitionInfo calibration_transitions[] = {
     {"wait cal", "calibrated", "cRes, cNop"},
 };
 inline constexpr StateInfo array_states[] = {
-    {"empty", "no project: the project's registers read FFFFh"},
-    {"loading", "the image's bytes are taken"},
-    {"starting", "the image is whole; the array configures itself"},
-    {"running", "the project works"},
+    {"empty", "no project: the project's registers read FFFFh"},     {"loading", "the image's bytes are taken"},
+    {"starting", "the image is whole; the array configures itself"}, {"running", "the project works"},
     {"failed", "the image was refused: CFG_ERROR has the reason"},
 };
 inline constexpr TransitionInfo array_transitions[] = {

@@ -1,5 +1,5 @@
-// The IOFLEX02's registers, declared once. The map is the project's own: the card's hardware manual is not at hand. Registers are 16 bits
-// wide; offsets are byte offsets from the card's base address.
+// The IOFLEX02's registers, declared once. The map is the project's own: the card's hardware manual is not at hand.
+// Registers are 16 bits wide; offsets are byte offsets from the card's base address.
 //
 //   00h .. 08h  the card's fixed logic: answers whether an array is loaded or not
 //   0Ah .. 45h  the project in the array: FFFFh while no project runs
@@ -20,7 +20,8 @@ inline constexpr FieldInfo status_fields[] = {
     {"ILLEGAL", 0x00F0, "bit 4 + n: axis n has had illegal transitions since CLEAR_ERRORS"},
 };
 inline constexpr FieldInfo error_fields[] = {
-    {"CODE", 0x000F, "0 none, 1 no image of this card, 2 length out of range, 3 cut short, 4 CRC-32 wrong, 5 unknown project"},
+    {"CODE", 0x000F,
+     "0 none, 1 no image of this card, 2 length out of range, 3 cut short, 4 CRC-32 wrong, 5 unknown project"},
 };
 inline constexpr FieldInfo ident_fields[] = {
     {"IDENT", 0x00FF, "version of the project"},
@@ -73,11 +74,19 @@ inline constexpr Access r = Access::read, w = Access::write;
 
 inline constexpr RegisterInfo registers[] = {
     // ---- the card
-    {"CONTROL", 0x00, 16, w, false, "", "configuration and reset; bits act from the lowest to the highest", control_fields},
+    {"CONTROL", 0x00, 16, w, false, "", "configuration and reset; bits act from the lowest to the highest",
+     control_fields},
     {"DATA", 0x02, 16, w, false, "", "two bytes of the image, the first one low", {}},
     {"SIGNATURE", 0x00, 16, r, false, "", "4F49h: an IOFLEX02 answers here", {}},
     {"SERIAL", 0x02, 16, r, false, "", "the card's serial number", {}},
-    {"SERIAL_N", 0x04, 16, r, false, "", "the same with every bit inverted; two cards at one address do not read so", {}},
+    {"SERIAL_N",
+     0x04,
+     16,
+     r,
+     false,
+     "",
+     "the same with every bit inverted; two cards at one address do not read so",
+     {}},
     {"STATUS", 0x06, 16, r, false, "", "the array's state, and which axes have errors", status_fields},
     {"CFG_ERROR", 0x08, 16, r, false, "", "why the last image was refused; cleared by CONFIGURE", error_fields},
     // ---- the project
@@ -99,7 +108,14 @@ inline constexpr RegisterInfo registers[] = {
     {"POS2_H", 0x1E, 16, r, false, "", "captured: axis 2", {}},
     {"POS3_L", 0x20, 16, r, false, "", "captured: axis 3", {}},
     {"POS3_H", 0x22, 16, r, false, "", "captured: axis 3", {}},
-    {"RAW0_L", 0x24, 16, r, false, "", "captured: counts of axis 0 since the start, which no calibration zeroes, low", {}},
+    {"RAW0_L",
+     0x24,
+     16,
+     r,
+     false,
+     "",
+     "captured: counts of axis 0 since the start, which no calibration zeroes, low",
+     {}},
     {"RAW0_H", 0x26, 16, r, false, "", "captured: the same, high", {}},
     {"RAW1_L", 0x28, 16, r, false, "", "captured: axis 1", {}},
     {"RAW1_H", 0x2A, 16, r, false, "", "captured: axis 1", {}},
@@ -107,7 +123,14 @@ inline constexpr RegisterInfo registers[] = {
     {"RAW2_H", 0x2E, 16, r, false, "", "captured: axis 2", {}},
     {"RAW3_L", 0x30, 16, r, false, "", "captured: axis 3", {}},
     {"RAW3_H", 0x32, 16, r, false, "", "captured: axis 3", {}},
-    {"AGE0_L", 0x34, 16, r, false, "", "captured: ticks of 1.2 us since the last count of axis 0, low; FFFFFFh: that or more, or none yet", {}},
+    {"AGE0_L",
+     0x34,
+     16,
+     r,
+     false,
+     "",
+     "captured: ticks of 1.2 us since the last count of axis 0, low; FFFFFFh: that or more, or none yet",
+     {}},
     {"AGE0_H", 0x36, 16, r, false, "", "captured: the same, high", {}},
     {"AGE1_L", 0x38, 16, r, false, "", "captured: axis 1", {}},
     {"AGE1_H", 0x3A, 16, r, false, "", "captured: axis 1", {}},

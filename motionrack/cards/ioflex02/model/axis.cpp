@@ -30,7 +30,8 @@ void count(AxisState& axis, unsigned before, unsigned after, std::int64_t sample
         axis.illegal_at = axis.raw;
         return;
     }
-    int change = sim::QuadratureDecoder(edges_of(axis.mode), static_cast<std::uint8_t>(before)).lines(static_cast<std::uint8_t>(after));
+    int change = sim::QuadratureDecoder(edges_of(axis.mode), static_cast<std::uint8_t>(before))
+                     .lines(static_cast<std::uint8_t>(after));
     if (change == 0) return;
     if (mode::REVERSED.test(axis.mode)) change = -change;
     axis.position += change;

@@ -2,8 +2,8 @@
 //
 //   wire ──► raw ──(sample)──► sampled ──(FILTER + 1 samples)──► taken ──► count, index, Cal
 //
-// Nothing is done for a sample that changes nothing: samples between two changes of wires are worked off when somebody asks, those
-// at which a level becomes a taken one are found, the others skipped.
+// Nothing is done for a sample that changes nothing: samples between two changes of wires are worked off when somebody
+// asks, those at which a level becomes a taken one are found, the others skipped.
 #pragma once
 
 #include <array>
@@ -27,21 +27,21 @@ struct LineState {
 /// What an axis remembers; samples have numbers, sample k is at k * 100 ns since power-up.
 struct AxisState {
     std::array<LineState, line_count> lines{};
-    std::int64_t pending = 0;               ///< the first sample that sees the raw levels
-    std::int64_t done = no_sample;          ///< samples up to this one have been worked off
+    std::int64_t pending = 0;       ///< the first sample that sees the raw levels
+    std::int64_t done = no_sample;  ///< samples up to this one have been worked off
     std::int64_t position = 0;
     std::int64_t raw = 0;
-    std::int64_t edge = no_sample;          ///< sample of the last count
-    std::int64_t index_at = 0;              ///< raw count at the last index
-    std::int64_t illegal_at = 0;            ///< raw count at the last illegal transition
+    std::int64_t edge = no_sample;            ///< sample of the last count
+    std::int64_t index_at = 0;                ///< raw count at the last index
+    std::int64_t illegal_at = 0;              ///< raw count at the last illegal transition
     std::int64_t illegal_sample = no_sample;  ///< the first one since CLEAR_ERRORS
-    std::uint16_t illegal = 0;              ///< stays at FFFFh
+    std::uint16_t illegal = 0;                ///< stays at FFFFh
     std::uint16_t edges_a = 0, edges_b = 0, indexes = 0;
     std::uint16_t mode = 0;
     CalState cal = CalState::calibrated;
-    std::uint8_t begun = 0;                 ///< the first sample has been taken
-    std::uint8_t down = 0;                  ///< the last count was downwards
-    std::uint8_t told = 0;                  ///< the illegal transitions were reported
+    std::uint8_t begun = 0;  ///< the first sample has been taken
+    std::uint8_t down = 0;   ///< the last count was downwards
+    std::uint8_t told = 0;   ///< the illegal transitions were reported
     std::array<std::uint8_t, 2> reserved{};
 };
 static_assert(std::has_unique_object_representations_v<AxisState>, "padding would get into the state's hash");

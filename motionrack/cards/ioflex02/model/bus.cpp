@@ -13,7 +13,9 @@ bool answers(const Card& card, std::uint32_t address) {
 }  // namespace
 
 Bus::Bus(sim::Kernel& kernel, const std::string& name)
-    : kernel_(kernel), id_(kernel.add(*this, sim::Phase::wires, name + ".bus")), interrupt_(kernel.add_wire(name + ".bus.int", 1)) {}
+    : kernel_(kernel),
+      id_(kernel.add(*this, sim::Phase::wires, name + ".bus")),
+      interrupt_(kernel.add_wire(name + ".bus.int", 1)) {}
 
 void Bus::tell_conflict(std::uint32_t address) {
     std::size_t first = cards_.size(), here = 0;
@@ -22,7 +24,8 @@ void Bus::tell_conflict(std::uint32_t address) {
     const std::uint64_t bit = std::uint64_t{1} << std::min<std::size_t>(first, 63);
     if (here < 2 || (state_.told & bit) != 0) return;
     state_.told |= bit;
-    kernel_.report(id_, static_cast<std::uint16_t>(CardCondition::address_conflict), cards_[first]->settings().base_address);
+    kernel_.report(id_, static_cast<std::uint16_t>(CardCondition::address_conflict),
+                   cards_[first]->settings().base_address);
 }
 
 std::uint16_t Bus::read(std::uint32_t address) {

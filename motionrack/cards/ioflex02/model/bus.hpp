@@ -14,7 +14,8 @@ namespace motionrack::ioflex02 {
 
 class Bus final : public sim::Device, public sim::RegisterDevice {
   public:
-    /// Adds the bus and its wire "<name>.bus.int" to the kernel; these cards have no interrupt, so it is always 1 (not active).
+    /// Adds the bus and its wire "<name>.bus.int" to the kernel; these cards have no interrupt, so it is always 1 (not
+    /// active).
     Bus(sim::Kernel& kernel, const std::string& name);
     /// Before the kernel starts; the card has its address in its settings.
     void plug(Card& card) { cards_.push_back(&card); }

@@ -33,7 +33,8 @@ void catch_up(State& state, Instant now, bool access) {
     for (AxisState& axis : state.axes) advance(axis, last);
 }
 
-Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings) : kernel_(kernel), settings_(settings) {
+Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings)
+    : kernel_(kernel), settings_(settings) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     static_assert(std::size(map::pins) == line_pins + input_pins + output_pins);
     id_ = kernel.add(*this, sim::Phase::cards, name);
@@ -111,7 +112,9 @@ bool Card::has_project() const {
 
 std::uint32_t Card::time() const {
     const State now = seen();
-    return now.configuration.array == ArrayState::running ? static_cast<std::uint32_t>(ticks_at(now, kernel_.now()) - now.cleared) & mask_24 : 0;
+    return now.configuration.array == ArrayState::running
+               ? static_cast<std::uint32_t>(ticks_at(now, kernel_.now()) - now.cleared) & mask_24
+               : 0;
 }
 
 void Card::put_out(std::uint16_t levels) {

@@ -1,4 +1,5 @@
-// The virtual IOFLEX02: an array that is fed an image and then is the project "position", exact to the sample (RULES.md).
+// The virtual IOFLEX02: an array that is fed an image and then is the project "position", exact to the sample
+// (RULES.md).
 //
 //   CONTROL, DATA ──► [ array: image ─► project ]            STATUS, CFG_ERROR, SIGNATURE, SERIAL
 //                                │
@@ -6,7 +7,8 @@
 //   1.2 us ──────────────► [ time ] ────────────────────────────────────┴─► STROBE ──► TIME, POS, RAW, AGE, ..
 //   in0 .. in15 ──► IN         OUTL, OUTH ──► out0 .. out15   (out16 .. out31, X7: not driven by this project)
 //
-// Nothing polls and nothing is scheduled: a wire's change is noted with the sample that sees it, and worked off when it is asked for.
+// Nothing polls and nothing is scheduled: a wire's change is noted with the sample that sees it, and worked off when it
+// is asked for.
 #pragma once
 
 #include <array>

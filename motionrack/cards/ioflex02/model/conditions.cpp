@@ -26,20 +26,32 @@ const char* refusal(std::int64_t code) {
 std::string what_happened(const sim::Condition& c) {
     switch (static_cast<CardCondition>(c.code)) {
         case CardCondition::illegal_transition:
-            return fmt::format("lines A and B of axis {} changed at once at {} ns; nothing was counted, so its position may be off. More of "
-                               "them are counted only, until CLEAR_ERRORS", c.a, c.b);
+            return fmt::format(
+                "lines A and B of axis {} changed at once at {} ns; nothing was counted, so its position may be off. "
+                "More of "
+                "them are counted only, until CLEAR_ERRORS",
+                c.a, c.b);
         case CardCondition::image_refused:
-            return fmt::format("the configuration image was refused after {} bytes: {}; the array is empty", c.b, refusal(c.a));
+            return fmt::format("the configuration image was refused after {} bytes: {}; the array is empty", c.b,
+                               refusal(c.a));
         case CardCondition::unknown_project:
-            return fmt::format("the array has taken a project with the ident {:02X}h that this card does not know; only its ident can be read", c.a);
+            return fmt::format(
+                "the array has taken a project with the ident {:02X}h that this card does not know; only its ident can "
+                "be read",
+                c.a);
         case CardCondition::no_project:
-            return fmt::format("the register at {:02X}h was used while no project runs; it reads FFFFh and takes nothing", c.a);
+            return fmt::format(
+                "the register at {:02X}h was used while no project runs; it reads FFFFh and takes nothing", c.a);
         case CardCondition::no_register:
             if (c.b < 0) return fmt::format("a read from {:02X}h, where there is no register, gave FFFFh", c.a);
-            return fmt::format("{:04X}h was written to {:02X}h, where there is no register; nothing was changed", c.b, c.a);
+            return fmt::format("{:04X}h was written to {:02X}h, where there is no register; nothing was changed", c.b,
+                               c.a);
         case CardCondition::address_conflict:
-            return fmt::format("two cards answer at the base address {:04X}h: what is read is both cards' words and-ed, what is written goes "
-                               "to both. Give each card its own address", c.a);
+            return fmt::format(
+                "two cards answer at the base address {:04X}h: what is read is both cards' words and-ed, what is "
+                "written goes "
+                "to both. Give each card its own address",
+                c.a);
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);
 }

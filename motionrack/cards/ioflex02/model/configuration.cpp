@@ -33,7 +33,8 @@ void Card::refuse(CfgError error) {
 
 void Card::take_word(std::uint16_t word) {
     // Of an odd number of bytes the last word's high one is not looked at.
-    for (int i = 0; i < 2 && state_.configuration.array == ArrayState::loading; ++i) take_byte(static_cast<std::uint8_t>(word >> (8 * i)));
+    for (int i = 0; i < 2 && state_.configuration.array == ArrayState::loading; ++i)
+        take_byte(static_cast<std::uint8_t>(word >> (8 * i)));
 }
 
 void Card::take_byte(std::uint8_t byte) {
@@ -43,7 +44,8 @@ void Card::take_byte(std::uint8_t byte) {
         c.header.bytes[at] = byte;
         if (at < image_header - 4) c.crc = crc32_of(c.crc, &byte, 1);
         if (at + 1 == image_magic.size() && !c.header.ours()) return refuse(CfgError::foreign);
-        if (at + 1 == image_header && (c.header.length() < least_payload || c.header.length() > most_payload)) refuse(CfgError::length);
+        if (at + 1 == image_header && (c.header.length() < least_payload || c.header.length() > most_payload))
+            refuse(CfgError::length);
         return;
     }
     const auto payload = static_cast<std::uint32_t>(at - image_header);
@@ -61,7 +63,8 @@ void Card::accept() {
         c.error = CfgError::unknown_project;
         report(CardCondition::unknown_project, c.header.ident());
     }
-    for (std::size_t i = 0; i < axis_count; ++i) c.modes[i] = static_cast<std::uint16_t>(c.payload[2 * i] | c.payload[2 * i + 1] << 8) & mode::all;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        c.modes[i] = static_cast<std::uint16_t>(c.payload[2 * i] | c.payload[2 * i + 1] << 8) & mode::all;
     c.array = ArrayState::starting;
     c.starts_at = kernel_.now() + settings_.configuration_time;
     catch_up(kernel_.now(), false);

@@ -21,7 +21,7 @@ std::uint16_t half(std::uint32_t value, std::uint32_t at, std::uint32_t low) {
 
 }  // namespace
 
-// ---- reading --------------------------------------------------------------------------------------------------------
+// ---- reading
 
 std::uint16_t Card::word(const State& state, std::uint32_t at) const {
     const Configuration& c = state.configuration;
@@ -109,7 +109,7 @@ std::uint16_t Card::read(std::uint32_t at) {
     return word(state_, at);
 }
 
-// ---- writing --------------------------------------------------------------------------------------------------------
+// ---- writing
 
 void Card::write(std::uint32_t at, std::uint16_t value) {
     begin();
@@ -128,7 +128,8 @@ void Card::write_project(std::uint32_t at, std::uint16_t value) {
         case offset("STROBE"):
             return strobe(value);
         case offset("CMD"):
-            for (std::size_t i = 0; i < axis_count; ++i) command_axis(state_.axes[i], static_cast<tIOFlexCmd>(value >> (2 * i) & 3));
+            for (std::size_t i = 0; i < axis_count; ++i)
+                command_axis(state_.axes[i], static_cast<tIOFlexCmd>(value >> (2 * i) & 3));
             return;
         case offset("OUTL"):
             return put_out(static_cast<std::uint16_t>((state_.outputs & 0xFF00) | (value & 0xFF)));
@@ -152,7 +153,8 @@ void Card::strobe(std::uint16_t word) {
         for (std::size_t i = 0; i < axis_count; ++i) {
             const AxisState& axis = state_.axes[i];
             CapturedAxis& out = state_.captured.axes[i];
-            const std::int64_t age = axis.edge == no_sample ? mask_24 : ticks - ticks_at(state_, sample_time * axis.edge);
+            const std::int64_t age =
+                axis.edge == no_sample ? mask_24 : ticks - ticks_at(state_, sample_time * axis.edge);
             out.position = static_cast<std::uint32_t>(axis.position) & mask_24;
             out.raw = static_cast<std::uint32_t>(axis.raw) & mask_24;
             out.age = static_cast<std::uint32_t>(std::min<std::int64_t>(age, mask_24));

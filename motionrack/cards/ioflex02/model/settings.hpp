@@ -8,10 +8,11 @@
 namespace motionrack::ioflex02 {
 
 struct Settings {
-    std::uint32_t base_address = 0x2300;              ///< 0 .. FF00h, a multiple of 100h
-    std::uint16_t serial = 1;                         ///< every card of a bus its own
-    Duration configuration_time = milliseconds(2'000);///< from the image's last byte to the running project, 0 .. 60 s
-    bool loaded = false;                              ///< the project "position" runs from power-up, without an image
+    std::uint32_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h
+    std::uint16_t serial = 1;             ///< every card of a bus its own
+    Duration configuration_time =
+        milliseconds(2'000);  ///< from the image's last byte to the running project, 0 .. 60 s
+    bool loaded = false;      ///< the project "position" runs from power-up, without an image
 };
 
 /// Errors: refused, with the setting, its value and its range.

@@ -41,12 +41,12 @@ struct Captured {
 
 struct State {
     Configuration configuration;
-    Instant origin{};                ///< when the project began: the time's phase
-    std::int64_t cleared = 0;        ///< ticks since origin at the last CLEAR_TIME
+    Instant origin{};          ///< when the project began: the time's phase
+    std::int64_t cleared = 0;  ///< ticks since origin at the last CLEAR_TIME
     std::array<AxisState, axis_count> axes{};
     Captured captured;
     std::uint16_t outputs = 0;
-    std::uint16_t axis = 0;          ///< chosen by AXIS
+    std::uint16_t axis = 0;  ///< chosen by AXIS
     std::uint16_t told_no_project = 0;
     std::uint16_t begun = 0;
 };

@@ -15,8 +15,10 @@ class Run {
   public:
     Run(Feed& feed, Verdict& verdict) : feed_(feed), verdict_(verdict), rig_(settings_from(feed)) {
         rig_.start();
-        for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = rig_.kernel.find_wire("c1." + std::string(map::pins[i].name));
-        for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = rig_.kernel.find_wire("c1." + std::string(map::pins[32 + i].name));
+        for (std::size_t i = 0; i < inputs_.size(); ++i)
+            inputs_[i] = rig_.kernel.find_wire("c1." + std::string(map::pins[i].name));
+        for (std::size_t i = 0; i < outputs_.size(); ++i)
+            outputs_[i] = rig_.kernel.find_wire("c1." + std::string(map::pins[32 + i].name));
     }
 
     void go(std::int64_t accesses) {
@@ -89,9 +91,11 @@ class Run {
         if (feed_.below(4) == 0) content.project = "other";
         content.ident = static_cast<std::uint8_t>(feed_.below(3) ? position_ident : feed_.below(256));
         content.payload.resize(least_payload + feed_.below(40));
-        for (std::uint8_t& byte : content.payload) byte = static_cast<std::uint8_t>(feed_.below(3) ? 0 : feed_.below(256));
+        for (std::uint8_t& byte : content.payload)
+            byte = static_cast<std::uint8_t>(feed_.below(3) ? 0 : feed_.below(256));
         std::vector<std::uint8_t> raw = *raw_image(content);
-        if (feed_.below(3) == 0) raw[feed_.below(static_cast<std::uint32_t>(raw.size()))] ^= static_cast<std::uint8_t>(feed_.below(256));
+        if (feed_.below(3) == 0)
+            raw[feed_.below(static_cast<std::uint32_t>(raw.size()))] ^= static_cast<std::uint8_t>(feed_.below(256));
         if (feed_.below(4) == 0) raw.resize(feed_.below(static_cast<std::uint32_t>(raw.size())));
         return raw;
     }
@@ -123,7 +127,8 @@ class Run {
     // ---- what must hold
     void check(bool holds, const char* what) {
         if (holds || !verdict_.problem.empty()) return;
-        verdict_.problem = fmt::format("{} (access {}, {:.7f} s)", what, verdict_.accesses, to_seconds(rig_.kernel.now()));
+        verdict_.problem =
+            fmt::format("{} (access {}, {:.7f} s)", what, verdict_.accesses, to_seconds(rig_.kernel.now()));
     }
     void look() {
         check(rig_.card.time() <= mask_24, "a time of more than 24 bits");
@@ -141,7 +146,9 @@ class Run {
             last_[axis] = raw;
             verdict_.illegal += rig_.card.illegal(axis) > 0;
             if (known)
-                check((rig_.card.peek(offset("STS")) >> axis & 1) == (rig_.card.calibration(axis) == CalState::calibrated), "a status beside its state");
+                check((rig_.card.peek(offset("STS")) >> axis & 1) ==
+                          (rig_.card.calibration(axis) == CalState::calibrated),
+                      "a status beside its state");
         }
         rebase_ = false;
         int high = 0, low = 0;

@@ -1,5 +1,5 @@
-// Any word to any register, any level at any wire and any image at any time: a stream of numbers becomes accesses, wires, images and passing
-// time on a card, and what must always hold is checked after each.
+// Any word to any register, any level at any wire and any image at any time: a stream of numbers becomes accesses,
+// wires, images and passing time on a card, and what must always hold is checked after each.
 //
 //   numbers stay in range   24 bits of position and time; statuses are those of the state table; X7 stays 0
 //   counts come from edges  the raw count moves at most one for each change of A or B, and not at all without a project

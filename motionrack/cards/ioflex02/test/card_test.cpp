@@ -76,7 +76,8 @@ TEST(Ioflex02Card, AnIllegalTransitionIsToldWithAxisAndInstant) {
     rig.run(microseconds(10));
     const auto told = rig.kernel.conditions();
     ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(describe(told[0], "c1").find("axis 1 changed at once at 10100 ns"), std::string::npos) << describe(told[0], "c1");
+    EXPECT_NE(describe(told[0], "c1").find("axis 1 changed at once at 10100 ns"), std::string::npos)
+        << describe(told[0], "c1");
 }
 
 TEST(Ioflex02Card, ThePositionWrapsAt24Bits) {
@@ -93,7 +94,7 @@ TEST(Ioflex02Card, ThePositionWrapsAt24Bits) {
     EXPECT_EQ(signed24(-1), -1);
 }
 
-// ---- modes ----------------------------------------------------------------------------------------------------------
+// ---- modes
 
 TEST(Ioflex02Card, CountsReversedAndFewerEdgesAsTheModeSays) {
     for (const int edges : {0, 1, 2, 3})
@@ -143,7 +144,7 @@ TEST(Ioflex02Card, AnIndexThatIsActiveLowZeroesAtItsFallingEdge) {
     EXPECT_EQ(position(rig, 0), 0);
 }
 
-// ---- time -----------------------------------------------------------------------------------------------------------
+// ---- time
 
 TEST(Ioflex02Time, CountsTicksOfTwelveHundredNanoseconds) {
     Rig rig;
@@ -218,7 +219,7 @@ TEST(Ioflex02Capture, TellsHowLongAgoTheLastCountWas) {
     EXPECT_EQ(rig.read24(offset("AGE0_L")), 0xFFFFFF);
 }
 
-// ---- inputs, outputs, reset -----------------------------------------------------------------------------------------
+// ---- inputs, outputs, reset
 
 TEST(Ioflex02Card, InputsAreReadAsTheyAreAndOutputsHoldTheirBytes) {
     Rig rig;

@@ -88,7 +88,8 @@ TEST(Ioflex02Image, TheRefusalIsToldInASentence) {
     rig.feed(raw);
     const auto told = rig.kernel.conditions();
     ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(describe(told[0], "c1").find("refused after 44 bytes: its CRC-32 is wrong"), std::string::npos) << describe(told[0], "c1");
+    EXPECT_NE(describe(told[0], "c1").find("refused after 44 bytes: its CRC-32 is wrong"), std::string::npos)
+        << describe(told[0], "c1");
     rig.feed(good());
     EXPECT_EQ(rig.read(error), 0);
     EXPECT_EQ(rig.read(state), starting);
@@ -133,7 +134,7 @@ TEST(Ioflex02Image, ConfiguringAgainEndsWhatRan) {
     EXPECT_EQ(rig.card.position(0), 0);
 }
 
-// ---- compressed -----------------------------------------------------------------------------------------------------
+// ---- compressed
 
 TEST(Ioflex02Image, IsCompressedAndUnpackedAgain) {
     ImageContent content;
@@ -159,7 +160,8 @@ TEST(Ioflex02Image, FilesThatAreCutDamagedForeignOrTooLargeAreRefusedWithASenten
     EXPECT_FALSE(unpacked(std::vector<std::uint8_t>{'P', 'K', 3, 4, 0, 0}));
     const auto bomb = compressed(std::vector<std::uint8_t>(50'000'000));
     ASSERT_FALSE(unpacked(bomb));
-    EXPECT_NE(unpacked(bomb).error().message.find("more than 131108 bytes"), std::string::npos) << unpacked(bomb).error().message;
+    EXPECT_NE(unpacked(bomb).error().message.find("more than 131108 bytes"), std::string::npos)
+        << unpacked(bomb).error().message;
 }
 
 TEST(Ioflex02Image, ContentsOutOfRangeMakeNoImage) {
@@ -178,7 +180,7 @@ RC_GTEST_PROP(Ioflex02Image, AnyBytesAreUnpackedOrRefused, (std::vector<std::uin
     RC_ASSERT(out || !out.error().message.empty());
 }
 
-// ---- the bus --------------------------------------------------------------------------------------------------------
+// ---- the bus
 
 TEST(Ioflex02Bus, NobodyAnswersAtAnotherAddress) {
     Rig rig;

@@ -19,7 +19,8 @@ Settings empty_card() {
 }
 
 struct Bench {
-    explicit Bench(const Settings& settings = empty_card(), FlexSettings flex = {}) : rig(settings), card(rig.port, rig.port, std::move(flex)) {
+    explicit Bench(const Settings& settings = empty_card(), FlexSettings flex = {})
+        : rig(settings), card(rig.port, rig.port, std::move(flex)) {
         rig.start();
     }
     Rig rig;
@@ -36,7 +37,7 @@ struct OnScript {
     Flex2Pos card;
 };
 
-// ---- exact traffic --------------------------------------------------------------------------------------------------
+// ---- exact traffic
 
 TEST(Flex2PosTraffic, InitLooksBeforeItWritesAndFeedsTheImageTwoBytesAtATime) {
     ScriptedPort port;
@@ -67,8 +68,8 @@ TEST(Flex2PosTraffic, TimeAndFourPositionsAreOneStrobeAndTenReads) {
     on.port.words[offset("POS3_H")] = 0x7F;
     std::int32_t time = 0, p0 = 1, p1 = 0, p2 = 1, p3 = 0;
     on.card.ReadTimeClrPosition(time, p0, p1, p2, p3);
-    EXPECT_THAT(on.port.traffic, ElementsAre("W STROBE=3", "R TIME_L", "R TIME_H", "R POS0_L", "R POS0_H", "R POS1_L", "R POS1_H", "R POS2_L",
-                                             "R POS2_H", "R POS3_L", "R POS3_H"));
+    EXPECT_THAT(on.port.traffic, ElementsAre("W STROBE=3", "R TIME_L", "R TIME_H", "R POS0_L", "R POS0_H", "R POS1_L",
+                                             "R POS1_H", "R POS2_L", "R POS2_H", "R POS3_L", "R POS3_H"));
     EXPECT_EQ(time, 0x125678);
     EXPECT_EQ(p0, 0);
     EXPECT_EQ(p1, -2);
@@ -95,7 +96,10 @@ TEST(Flex2PosTraffic, EveryOtherFunctionHasItsRegisters) {
     EXPECT_THAT(traffic([&] { on.card.GetIdent(); }), ElementsAre("R IDENT"));
     EXPECT_THAT(traffic([&] { on.card.WriteCmd(cNop, cRes, cResNm, cResNmSig); }), ElementsAre("W CMD=E4"));
     EXPECT_THAT(traffic([&] { on.card.statuses(); }), ElementsAre("R STS"));
-    EXPECT_THAT(traffic([&] { EXPECT_TRUE(on.card.set_mode(2, {true, 1, true, 9})); }), ElementsAre("W AXIS=2", "W MODE=9D"));
+    EXPECT_THAT(traffic([&] {
+                    EXPECT_TRUE(on.card.set_mode(2, {true, 1, true, 9}));
+                }),
+                ElementsAre("W AXIS=2", "W MODE=9D"));
     EXPECT_THAT(traffic([&] { on.card.clear_errors(); }), ElementsAre("W CONTROL=8"));
 }
 
@@ -117,7 +121,7 @@ TEST(Flex2PosTraffic, WithoutASuccessfulInitNothingIsWrittenAndReadsGiveZero) {
     EXPECT_TRUE(port.traffic.empty());
 }
 
-// ---- Init -----------------------------------------------------------------------------------------------------------
+// ---- Init
 
 TEST(Flex2PosInit, ConfiguresTheVirtualCardAndTakesItsTwoSeconds) {
     Bench b;
@@ -188,7 +192,8 @@ TEST(Flex2PosInit, AnotherProjectOrVersionIsErrProject) {
     ImageContent version, project;
     version.ident = 0x24;
     project.project = "stepper";
-    for (const auto& [content, sentence] : {std::pair{version, "has version 24h of the project, but 25h is needed"}, {project, "another project"}}) {
+    for (const auto& [content, sentence] :
+         {std::pair{version, "has version 24h of the project, but 25h is needed"}, {project, "another project"}}) {
         FlexSettings flex;
         flex.image = compressed(*raw_image(content));
         Bench b(empty_card(), flex);
@@ -222,7 +227,7 @@ TEST(Flex2PosInit, AnotherInitAfterAFailureWorks) {
     EXPECT_EQ(b.card.Result, Flex_Ok) << b.card.why();
 }
 
-// ---- in front of the card -------------------------------------------------------------------------------------------
+// ---- in front of the card
 
 struct Ready : Bench {
     Ready() {
@@ -265,7 +270,8 @@ TEST(Flex2Pos, WaitsForAnIndexForEverIfItMay) {
     Ready r;
     r.card.calibrate({cResNm, cNop, cNop, cNop});
     const Instant begun = r.rig.kernel.now();
-    r.rig.port.on_slice(milliseconds(20), [&] { r.rig.set("z0", r.rig.kernel.now() - begun > milliseconds(100) ? 1 : 0); });
+    r.rig.port.on_slice(milliseconds(20),
+                        [&] { r.rig.set("z0", r.rig.kernel.now() - begun > milliseconds(100) ? 1 : 0); });
     EXPECT_TRUE(r.card.wait_calibrated(0, never));
     EXPECT_GT(r.rig.kernel.now() - begun, milliseconds(100));
 }
@@ -299,12 +305,14 @@ TEST(Flex2Pos, TheTimeIsCarriedOnOverWrapsOfAnyNumberAndOverClearings) {
     Ready r;
     const Instant begin = r.rig.kernel.now();
     const std::int64_t first = r.card.read().ticks;
-    for (const Duration gap : {whole_seconds(5), whole_seconds(19), whole_seconds(21), whole_seconds(400), milliseconds(1)}) {
+    for (const Duration gap :
+         {whole_seconds(5), whole_seconds(19), whole_seconds(21), whole_seconds(400), milliseconds(1)}) {
         r.rig.run(gap);
         if (gap == whole_seconds(19)) r.card.ReadTimeClr();
         std::int32_t t = 0, p = 0;
         if (gap == whole_seconds(400)) r.card.ReadTimeClrPosition(t, p, p, p, p);
-        EXPECT_NEAR(static_cast<double>(r.card.read().ticks - first), to_seconds(r.rig.kernel.now() - begin) / 1.2e-6, 1);
+        EXPECT_NEAR(static_cast<double>(r.card.read().ticks - first), to_seconds(r.rig.kernel.now() - begin) / 1.2e-6,
+                    1);
     }
 }
 

@@ -1,4 +1,5 @@
-// Encoders with faults at the card's lines: what the diagnostics find, which line, and where; and a resolver as the source of the lines.
+// Encoders with faults at the card's lines: what the diagnostics find, which line, and where; and a resolver as the
+// source of the lines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -20,7 +21,11 @@ using testing::HasSubstr;
 template <class Part, class PartSettings>
 struct Machine {
     explicit Machine(const PartSettings& settings, const EncoderCheckSettings& checks = {.counts_per_index = 400})
-        : place(rig.kernel, {}), part(rig.kernel, "enc", place, settings), joints(rig.kernel), card(rig.port, rig.port), check(checks) {
+        : place(rig.kernel, {}),
+          part(rig.kernel, "enc", place, settings),
+          joints(rig.kernel),
+          card(rig.port, rig.port),
+          check(checks) {
         joints.join(part.a(), rig.kernel.find_wire("c1.a2"));
         joints.join(part.b(), rig.kernel.find_wire("c1.b2"));
         joints.join(part.z(), rig.kernel.find_wire("c1.z2"));
@@ -261,7 +266,7 @@ TEST(EncoderCheck, EveryFindingHasASentenceOfItsOwn) {
     }
 }
 
-// ---- machines -------------------------------------------------------------------------------------------------------
+// ---- machines
 
 TEST(Ioflex02Machine, AResolverIsCalibratedAtItsMarkerAndItsSpeedMeasured) {
     Winding m;

@@ -1,4 +1,5 @@
-// Any access at any time, half a million times; what must always hold is in card_fuzz.hpp. And equal inputs give equal histories.
+// Any access at any time, half a million times; what must always hold is in card_fuzz.hpp. And equal inputs give equal
+// histories.
 //
 // MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment choose another and a longer run.
 #include <gtest/gtest.h>
@@ -21,8 +22,8 @@ TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     }
     EXPECT_EQ(verdict.problem, "");
     EXPECT_GE(verdict.accesses, count);
-    std::cout << verdict.seconds << " s, " << verdict.counts << " counts, " << verdict.images << " images taken, " << verdict.refused
-              << " refused" << std::endl;
+    std::cout << verdict.seconds << " s, " << verdict.counts << " counts, " << verdict.images << " images taken, "
+              << verdict.refused << " refused" << std::endl;
     if (count < 500'000) return;
     EXPECT_GT(verdict.counts, 20'000);
     EXPECT_GT(verdict.illegal, 1'000);
@@ -50,7 +51,8 @@ TEST(Ioflex02Fuzz, EqualInputsGiveEqualHistoriesHoweverOftenSomebodyLooks) {
     }
     EXPECT_EQ(one.kernel.state_hash(), two.kernel.state_hash());
     EXPECT_EQ(one.kernel.trace_hash(), two.kernel.trace_hash());
-    for (const sim::Condition& c : one.kernel.conditions()) ASSERT_EQ(describe(c, "c1").find("condition "), std::string::npos);
+    for (const sim::Condition& c : one.kernel.conditions())
+        ASSERT_EQ(describe(c, "c1").find("condition "), std::string::npos);
 }
 
 }  // namespace

@@ -13,11 +13,14 @@ TEST(Ioflex02Map, TheCardHasTheDeclaredRegistersAndNoOthers) {
     for (std::uint32_t at = 0; at < window; ++at)
         for (const bool write : {false, true}) {
             bool declared = false;
-            for (const RegisterInfo& reg : card_map().registers) declared = declared || (reg.offset == at && (reg.access == Access::write) == write);
+            for (const RegisterInfo& reg : card_map().registers)
+                declared = declared || (reg.offset == at && (reg.access == Access::write) == write);
             Rig rig;
             rig.start();
-            if (write) rig.write(at, 0);
-            else rig.read(at);
+            if (write)
+                rig.write(at, 0);
+            else
+                rig.read(at);
             const bool told = !rig.conditions().empty();
             EXPECT_EQ(told, !declared) << at << (write ? " written" : " read");
         }
@@ -50,7 +53,8 @@ TEST(Ioflex02Map, TheStateTableIsTheDeclaredMachine) {
             if (from == to) continue;
             bool steps = false, declared = false;
             for (int event = 0; event < 6; ++event)
-                steps = steps || calibration_step(static_cast<CalState>(from), static_cast<CalEvent>(event)).next == static_cast<CalState>(to);
+                steps = steps || calibration_step(static_cast<CalState>(from), static_cast<CalEvent>(event)).next ==
+                                     static_cast<CalState>(to);
             for (const TransitionInfo& t : machine.transitions)
                 declared = declared || (state_index(machine, t.from) == from && state_index(machine, t.to) == to);
             EXPECT_EQ(steps, declared) << from << " to " << to;

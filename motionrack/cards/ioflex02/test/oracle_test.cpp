@@ -178,7 +178,9 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
             kernel.run_until(kernel.now() + microseconds(5));
             kernel.restore(saved);
         }
-        if (op.kind == Op::wire) wire(std::string{"abz"[op.b % 3]}.replace(0, op.b == 3, op.b == 3 ? "cal" : "") + std::to_string(op.a), op.c);
+        if (op.kind == Op::wire)
+            wire(std::string{"abz"[op.b % 3]}.replace(0, op.b == 3, op.b == 3 ? "cal" : "") + std::to_string(op.a),
+                 op.c);
         if (op.kind == Op::input) wire("in" + std::to_string(op.a), op.b);
         if (op.kind == Op::write) write(op.a, op.b);
         if (op.kind == Op::read) out.words.push_back(read(op.a));
@@ -197,7 +199,8 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
     std::size_t ops = 0, words = 0, notes = 0;
     for (std::uint64_t number = 0; number < programs; ++number) {
         const Program program = Maker(seed + number).make();
-        Outcome twin = on_twin(program), card = on_card(program, with_snapshot ? number % program.ops.size() : program.ops.size());
+        Outcome twin = on_twin(program),
+                card = on_card(program, with_snapshot ? number % program.ops.size() : program.ops.size());
         ASSERT_EQ(twin.words, card.words) << "program " << number << " of seed " << seed;
         // An illegal transition is told when it is worked off, so only the order may differ.
         std::sort(twin.notes.begin(), twin.notes.end());
@@ -207,7 +210,8 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
         words += twin.words.size();
         notes += twin.notes.size();
     }
-    std::cout << ops << " accesses and wire changes, " << words << " words read, " << notes << " conditions" << std::endl;
+    std::cout << ops << " accesses and wire changes, " << words << " words read, " << notes << " conditions"
+              << std::endl;
 }
 
 TEST(Ioflex02Oracle, RandomProgramsLookTheSameOnTheCardAndOnItsTwin) {

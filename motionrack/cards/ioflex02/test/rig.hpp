@@ -30,7 +30,10 @@ inline Settings loaded_settings() {
 
 struct Rig {
     explicit Rig(const Settings& settings = loaded_settings(), Duration access = Duration{0})
-        : card(kernel, "c1", settings), bus(kernel, "c1"), port(kernel, bus, bus.id(), bus.interrupt_wire(), access), base(settings.base_address) {
+        : card(kernel, "c1", settings),
+          bus(kernel, "c1"),
+          port(kernel, bus, bus.id(), bus.interrupt_wire(), access),
+          base(settings.base_address) {
         bus.plug(card);
     }
     void start() {
@@ -67,7 +70,8 @@ struct Rig {
     void capture(int more = 0) { write(offset("STROBE"), 1 | more); }
     void feed(const std::vector<std::uint8_t>& raw, bool end = true) {
         write(offset("CONTROL"), field("CONTROL", "CONFIGURE").mask);
-        for (std::size_t i = 0; i < raw.size(); i += 2) write(offset("DATA"), raw[i] | (i + 1 < raw.size() ? raw[i + 1] << 8 : 0));
+        for (std::size_t i = 0; i < raw.size(); i += 2)
+            write(offset("DATA"), raw[i] | (i + 1 < raw.size() ? raw[i + 1] << 8 : 0));
         if (end) write(offset("CONTROL"), field("CONTROL", "END").mask);
     }
     std::vector<CardCondition> conditions() {

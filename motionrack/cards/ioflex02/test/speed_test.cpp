@@ -48,7 +48,8 @@ struct Turning {
 
 void expect_within(const SpeedEstimate& estimate, double speed) {
     if (!estimate.known) return;
-    EXPECT_LE(std::abs(estimate.counts_s - speed), estimate.error) << speed << " counts/s, estimate " << estimate.counts_s;
+    EXPECT_LE(std::abs(estimate.counts_s - speed), estimate.error)
+        << speed << " counts/s, estimate " << estimate.counts_s;
 }
 
 TEST(SpeedMeter, MeasuresATenthOfACountASecondToAMillionth) {
@@ -149,7 +150,8 @@ RC_GTEST_PROP(SpeedMeter, TheStatedErrorIsNeverExceededAtAnySpeedAndReadingPatte
         const double edges = std::pow(10.0, *rc::gen::inRange(-10, 15) / 10.0);  // between two readings
         t.run(std::min(from_seconds(edges / std::abs(speed)), whole_seconds(60)));
         const Speed s = t.measure();
-        for (const SpeedEstimate* e : {&s.difference, &s.edges}) RC_ASSERT(!e->known || std::abs(e->counts_s - speed) <= e->error);
+        for (const SpeedEstimate* e : {&s.difference, &s.edges})
+            RC_ASSERT(!e->known || std::abs(e->counts_s - speed) <= e->error);
     }
 }
 
@@ -173,15 +175,18 @@ RC_GTEST_PROP(SpeedMeter, ItHoldsForAnyMotionAsTheMeanOfItsStretch, ()) {
     const auto tick = [](double t) { return static_cast<std::int64_t>(std::floor(t / 1.2e-6)); };
     const int legs = *rc::gen::inRange(1, 15);
     for (int i = 0; i < legs; ++i) {
-        const double duration = *rc::gen::inRange(10, 20'000) * 1e-6, to = place + *rc::gen::inRange(-3000, 3001) / 1000.0;
-        for (auto n = static_cast<std::int64_t>(std::floor(std::min(place, to))) + 1; static_cast<double>(n) <= std::max(place, to); ++n) {
+        const double duration = *rc::gen::inRange(10, 20'000) * 1e-6,
+                     to = place + *rc::gen::inRange(-3000, 3001) / 1000.0;
+        for (auto n = static_cast<std::int64_t>(std::floor(std::min(place, to))) + 1;
+             static_cast<double>(n) <= std::max(place, to); ++n) {
             const double when = seconds + duration * (static_cast<double>(n) - place) / (to - place);
             edges.push_back({when, to > place ? n : n - 1, to < place});
         }
         seconds += duration;
         place = to;
         path.push_back({seconds, place});
-        std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.seconds < b.seconds; });
+        std::stable_sort(edges.begin(), edges.end(),
+                         [](const Edge& a, const Edge& b) { return a.seconds < b.seconds; });
         AxisReading r;
         r.raw = static_cast<std::int64_t>(std::floor(place));
         r.age = edges.empty() ? oldest_age : tick(seconds) - tick(edges.back().seconds);
@@ -189,7 +194,9 @@ RC_GTEST_PROP(SpeedMeter, ItHoldsForAnyMotionAsTheMeanOfItsStretch, ()) {
         if (!edges.empty()) RC_ASSERT(r.raw == edges.back().count);
         const Speed s = meter.update(r, tick(seconds));
         // The stretch's ends are known to a tick; the mean over the true one is what the bound is for.
-        const auto holds = [](const SpeedEstimate& e, double true_mean) { return std::abs(e.counts_s - true_mean) <= e.error * (1 + 1e-9) + 1e-6; };
+        const auto holds = [](const SpeedEstimate& e, double true_mean) {
+            return std::abs(e.counts_s - true_mean) <= e.error * (1 + 1e-9) + 1e-6;
+        };
         if (s.difference.known) {
             const double begin = path[path.size() - 2].first, true_mean = (place - at(begin)) / (seconds - begin);
             RC_ASSERT(holds(s.difference, true_mean));

@@ -25,7 +25,8 @@ unsigned number(const std::vector<int>& bytes, std::size_t at) {
 
 }  // namespace
 
-Twin::Twin(bool loaded, int ident, int serial, std::int64_t configuration_halves) : serial_(serial), configuration_(configuration_halves) {
+Twin::Twin(bool loaded, int ident, int serial, std::int64_t configuration_halves)
+    : serial_(serial), configuration_(configuration_halves) {
     if (!loaded) return;
     phase_ = running;
     known_ = true;
@@ -86,7 +87,8 @@ void Twin::sample(Axis& axis, int axis_number) {
         }
         before[line] = axis.taken[line];
         bool steady = true;
-        for (int i = 0; i <= filter; ++i) steady = steady && axis.history[line][static_cast<std::size_t>(i)] == axis.wire[line];
+        for (int i = 0; i <= filter; ++i)
+            steady = steady && axis.history[line][static_cast<std::size_t>(i)] == axis.wire[line];
         if (steady) axis.taken[line] = axis.wire[line];
     }
     const bool a = before[0] != axis.taken[0], b = before[1] != axis.taken[1];
@@ -126,7 +128,7 @@ void Twin::sample(Axis& axis, int axis_number) {
     if (before[3] == 0 && axis.taken[3] == 1 && axis.state == 2) axis.state = 1;
 }
 
-// ---- registers ------------------------------------------------------------------------------------------------------
+// ---- registers
 
 void Twin::refuse(int code) {
     phase_ = failed;
@@ -189,7 +191,12 @@ void Twin::write(int at, int value) {
             byte(value & 255);
             byte(value >> 8);
             return;
-        case 0x10: case 0x12: case 0x14: case 0x16: case 0x18: case 0x62:
+        case 0x10:
+        case 0x12:
+        case 0x14:
+        case 0x16:
+        case 0x18:
+        case 0x62:
             break;
         default:
             return note(5, at, value);
@@ -227,7 +234,9 @@ int Twin::status() const {
 
 int Twin::captured(int at) const {
     const int half = at / 2 % 2;  // which register of a pair, where pairs begin at multiples of 4
-    const auto part = [](std::int64_t value, int which) { return static_cast<int>(which ? value >> 16 & 255 : value & 65535); };
+    const auto part = [](std::int64_t value, int which) {
+        return static_cast<int>(which ? value >> 16 & 255 : value & 65535);
+    };
     if (at < 0x14) return part(latched_time_, half);
     if (at < 0x24) return part(latched_[(at - 0x14) / 4].position, (at - 0x14) / 2 % 2);
     if (at < 0x34) return part(latched_[(at - 0x24) / 4].raw, (at - 0x24) / 2 % 2);

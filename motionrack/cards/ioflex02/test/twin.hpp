@@ -1,6 +1,8 @@
-// The card as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven model.
+// The card as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven
+// model.
 //
-// Time goes in halves of a sample (50 ns); every second of them is a sample, at which every line of every axis is looked at.
+// Time goes in halves of a sample (50 ns); every second of them is a sample, at which every line of every axis is
+// looked at.
 #pragma once
 
 #include <array>

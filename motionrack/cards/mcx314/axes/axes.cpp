@@ -1,12 +1,12 @@
-// Playing segments: starting chains, queueing behind the running segment, rewriting speed at joints, standing still exactly.
-#include <motionrack/cards/mcx314/axes/axes.hpp>
-#include <motionrack/cards/mcx314/axes/set_up.hpp>
+// Playing segments: starting chains, queueing behind the running segment, rewriting speed at joints, standing still
+// exactly.
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-
 #include <limits>
+#include <motionrack/cards/mcx314/axes/axes.hpp>
+#include <motionrack/cards/mcx314/axes/set_up.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -36,10 +36,12 @@ Result<void> Axes::set_up(const control::Point& position) {
     return {};
 }
 
-/// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of every axis jumps by
-/// the difference, which its start speed must allow. The first chord of an arc points a little beside the arc.
+/// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of
+/// every axis jumps by the difference, which its start speed must allow. The first chord of an arc points a little
+/// beside the arc.
 double Axes::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
-    // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one drive only.
+    // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one
+    // drive only.
     const int steered = drawing_of(map_, before).companion;
     if (steered != drawing_of(map_, after).companion) return 0;
     // And before it turns round: its drive ends, and a new one begins.
@@ -59,13 +61,14 @@ double Axes::joint_speed(const control::Geometry& before, const control::Geometr
     return speed;
 }
 
-/// The speed changes at whole pulses, and the host writes it a little after the joint; of an arc that is drawn with chords, at each of
-/// them. Along such an arc a basic pulse is another length of path from chord to chord, so that part of the chip's acceleration goes into
-/// keeping the path's speed.
+/// The speed changes at whole pulses, and the host writes it a little after the joint; of an arc that is drawn with
+/// chords, at each of them. Along such an arc a basic pulse is another length of path from chord to chord, so that part
+/// of the chip's acceleration goes into keeping the path's speed.
 double Axes::spent_length(const control::Geometry& path) const {
     constexpr double pulses = 2, of_chords = 0.06;
     const Drawing drawing = drawing_of(map_, path);
-    const double in = basic_pulses_along(map_, drawing, path.tangent_in), out = basic_pulses_along(map_, drawing, path.tangent_out);
+    const double in = basic_pulses_along(map_, drawing, path.tangent_in),
+                 out = basic_pulses_along(map_, drawing, path.tangent_out);
     double spent = pulses / std::min(in, out);
     if (turn_of_first_chord(map_, path) > 0) {
         const double middle = basic_pulses_along(map_, drawing, control::tangent_at(path, path.length / 2));
@@ -141,7 +144,7 @@ Result<void> Axes::play_pause(const Segment& segment) {
     return {};
 }
 
-// ---- chains -------------------------------------------------------------------------------------------------------------------
+// ---- chains
 
 Result<void> Axes::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
@@ -164,13 +167,18 @@ Result<void> Axes::start_chain(const Segment& segment) {
     return command(segment);
 }
 
-/// Puts the segment behind the running one. If the host came too late, the chip stands at the joint and it starts from there.
+/// Puts the segment behind the running one. If the host came too late, the chip stands at the joint and it starts from
+/// there.
 Result<void> Axes::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
     if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
-    notes_.push_back({segment.line, fmt::format("line {}: the next piece came too late and the axes stopped at the joint for a moment; "
-                                                "lower the feed or bus_access_ns", segment.line), 0});
+    notes_.push_back(
+        {segment.line,
+         fmt::format("line {}: the next piece came too late and the axes stopped at the joint for a moment; "
+                     "lower the feed or bus_access_ns",
+                     segment.line),
+         0});
     return command(segment);
 }
 
@@ -182,7 +190,8 @@ Result<void> Axes::command(const Segment& segment) {
         for (std::size_t i = 0; i < segment.axis_count; ++i) ends[i] = {segment.axes[i], segment.finish[i], 0};
         return driver_.Line(ends.data(), segment.axis_count);
     }
-    return driver_.Arc({{segment.axes[0], segment.finish[0], segment.centre[0]}, {segment.axes[1], segment.finish[1], segment.centre[1]}},
+    return driver_.Arc({{segment.axes[0], segment.finish[0], segment.centre[0]},
+                        {segment.axes[1], segment.finish[1], segment.centre[1]}},
                        segment.kind == SegmentKind::arc_cw);
 }
 
@@ -220,9 +229,9 @@ Result<void> Axes::write_acceleration(std::int32_t acceleration) {
     return {};
 }
 
-/// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the speed is written down,
-/// segments go on being queued, and the command comes when it has fallen. One look at it; the S-curve's stop fits into its line, and pieces
-/// of a ride go on until the ride has slowed down.
+/// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the
+/// speed is written down, segments go on being queued, and the command comes when it has fallen. One look at it; the
+/// S-curve's stop fits into its line, and pieces of a ride go on until the ride has slowed down.
 Result<void> Axes::brake() {
     if (even_) {
         driver_.interrupt().pass(brake_look);
@@ -275,7 +284,7 @@ Result<void> Axes::wait_for_standstill() {
     return {};
 }
 
-// ---- stops ----------------------------------------------------------------------------------------------------------------------
+// ---- stops
 
 void Axes::stop(bool immediate) {
     if (immediate)
@@ -298,12 +307,15 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] < 0) continue;
         const std::string cause = driver_.axis_status(map_.channel[i]).why_stopped();
-        if (!cause.empty()) why += fmt::format("{}axis {}: {}", why.empty() ? "" : "; ", control::axis_letters[i], cause);
+        if (!cause.empty())
+            why += fmt::format("{}axis {}: {}", why.empty() ? "" : "; ", control::axis_letters[i], cause);
     }
     if (why.empty()) why = "the chip's counters are not where the path ends";
     chain_running_ = false;
-    return fail(Trouble::machine, fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
-                                              "clear the cause, move back and start again.", current_line_, why, control::place_text(commanded_position(), map_.limits)),
+    return fail(Trouble::machine,
+                fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
+                            "clear the cause, move back and start again.",
+                            current_line_, why, control::place_text(commanded_position(), map_.limits)),
                 {current_line_, 1});
 }
 
@@ -315,7 +327,7 @@ tl::unexpected<Error> Axes::stopped_by_user() {
     return control::stopped_on_request(current_line_, commanded_position(), map_.limits);
 }
 
-// ---- looking --------------------------------------------------------------------------------------------------------------------
+// ---- looking
 
 control::Point Axes::commanded_position() {
     control::Point out = {};

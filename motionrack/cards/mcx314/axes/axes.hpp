@@ -1,10 +1,12 @@
-// The chip's axes as the controller sees them: follows planned moves by continuous interpolation, rewriting the speed at each joint.
+// The chip's axes as the controller sees them: follows planned moves by continuous interpolation, rewriting the speed
+// at each joint.
 //
 //   chip  |== segment 1 ==|== segment 2 ==|== segment 3 ==|
 //   host   ^start 1, queue 2 ^INT: V of 2, queue 3 ^INT: V of 3, queue 4
 //
-// A fourth axis that moves with three others runs on its own generator: at each joint the host reads its counter and gives it the speed that
-// brings it to its place by the segment's end. Its last pulse is counted by the chip, so its end is exact.
+// A fourth axis that moves with three others runs on its own generator: at each joint the host reads its counter and
+// gives it the speed that brings it to its place by the segment's end. Its last pulse is counted by the chip, so its
+// end is exact.
 #pragma once
 
 #include <motionrack/cards/mcx314/axes/segmenter.hpp>
@@ -16,21 +18,23 @@ namespace motionrack::mcx314 {
 
 class Axes final : public control::PathAxes, private control::DriveRule {
   public:
-    /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are whole numbers.
+    /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are
+    /// whole numbers.
     static constexpr double kept_back = 0.03;
 
     /// `access`: the time of one register access. The driver must outlive this.
     Axes(Driver& driver, const AxisMap& map, Duration access);
 
-    /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software limits at the
-    /// travel, encoders x4, positions as given (mm, degrees).
+    /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software
+    /// limits at the travel, encoders x4, positions as given (mm, degrees).
     Result<void> set_up(const control::Point& position);
 
     Result<void> begin() override;
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
     const control::DriveRule* drive_rule() const override { return this; }
-    /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is none.
+    /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is
+    /// none.
     void set_probe(unsigned channels) { probe_channels_ = channels; }
     Result<control::ProbeOutcome> probe(const control::PlannedMove& move, bool release) override;
     void stop(bool immediate) override;
@@ -86,17 +90,17 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     std::optional<Segmenter> segmenter_;
     std::vector<control::BlockStart> starts_;
     std::vector<control::PathNote> notes_;
-    Pulses4 expected_ = {};          ///< where the counters are when everything given so far is done
+    Pulses4 expected_ = {};  ///< where the counters are when everything given so far is done
     std::int32_t last_block_ = -2;
     std::int32_t current_line_ = 0;
     std::int32_t written_speed_ = 0;
     std::int32_t written_acceleration_ = 0;
     std::int32_t braking_acceleration_ = 1;  ///< of the running segment
     int generator_ = 0;
-    std::int32_t rest_speed_ = 1;    ///< of the running segment
-    bool s_curve_ = false;           ///< of the running chain
-    bool even_ = false;              ///< of the running chain
-    bool braking_ = false;           ///< on a wish to stop
+    std::int32_t rest_speed_ = 1;  ///< of the running segment
+    bool s_curve_ = false;         ///< of the running chain
+    bool even_ = false;            ///< of the running chain
+    bool braking_ = false;         ///< on a wish to stop
     bool chain_running_ = false;
     std::int64_t segments_ = 0;
     unsigned probe_channels_ = 0;
@@ -104,7 +108,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed
     // The companion's present drive.
     int companion_ = -1;
-    std::int32_t companion_start_speed_ = 1;   ///< SV, A and the greatest V that it drives with
+    std::int32_t companion_start_speed_ = 1;  ///< SV, A and the greatest V that it drives with
     std::int32_t companion_acceleration_ = 1;
     std::int32_t companion_top_speed_ = 1;
     bool companion_negative_ = false;

@@ -45,7 +45,8 @@ constexpr double sure = 1.02;
 /// Of the longest axis.
 double basic_pulses(const Segment& segment) {
     std::int64_t pulses = 0;
-    for (std::size_t i = 0; i < segment.axis_count; ++i) pulses = std::max<std::int64_t>(pulses, std::llabs(segment.finish[i]));
+    for (std::size_t i = 0; i < segment.axis_count; ++i)
+        pulses = std::max<std::int64_t>(pulses, std::llabs(segment.finish[i]));
     return static_cast<double>(pulses);
 }
 
@@ -54,7 +55,8 @@ double basic_pulses(const Segment& segment) {
 /// About how long the segment takes: from the present speed to its own, then on.
 double Axes::segment_seconds(const Segment& segment) {
     const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
-    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
+    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed,
+                 slope = rules::rate_unit * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
     if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
     const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
@@ -74,7 +76,8 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
-    const double mean = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment) * range_ / rules::clock_hz;
+    const double mean =
+        std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment) * range_ / rules::clock_hz;
     const std::int32_t v = companion_speed(mean);
     if (!driving) return drive_companion(at, goal, v);
     // Once it brakes it goes on to the end that it had; what is left is driven from there.
@@ -90,14 +93,16 @@ std::int32_t Axes::companion_speed(double v) const {
     return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(companion_top_speed_)));
 }
 
-/// Its speed changes as evenly as theirs: to what the plan has at the segment's end, and by as much more as it lacks pulses. The ride slows
-/// down for its rests, so the chip need not. One that is too fast for its place stands a little beyond it, and comes back when all stand.
+/// Its speed changes as evenly as theirs: to what the plan has at the segment's end, and by as much more as it lacks
+/// pulses. The ride slows down for its rests, so the chip need not. One that is too fast for its place stands a little
+/// beyond it, and comes back when all stand.
 Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
     const unsigned axis = 1u << companion_;
     if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(companion_, direction);
-    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * companion_acceleration_, start = companion_start_speed_;
+    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * companion_acceleration_,
+                 start = companion_start_speed_;
     const double from = driving ? driver_.ReadCV(companion_) : start;
     const auto left = static_cast<double>(direction * (companion_target_ - at));
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
@@ -109,10 +114,13 @@ Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64
     const std::int32_t v = companion_speed(wished);
     double slope = std::fabs(v - from) / seconds;
     if (v < from && from > end)
-        slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way)) : most;  // one that is ahead is there before its time
-    MOTIONRACK_CHECK(driver_.SetA(axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, most) / rules::rate_unit))));
+        slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way))
+                        : most;  // one that is ahead is there before its time
+    MOTIONRACK_CHECK(driver_.SetA(
+        axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, most) / rules::rate_unit))));
     const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
-    const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead, static_cast<std::int64_t>(std::ceil(falls_in)));
+    const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead,
+                                                        static_cast<std::int64_t>(std::ceil(falls_in)));
     if (!driving) return drive_companion(at, goal, v, false);
     MOTIONRACK_CHECK(driver_.SetV(axis, v));
     companion_brakes_at_ = std::llabs(goal - companion_from_);
@@ -150,7 +158,8 @@ Result<void> Axes::finish_companion() {
     if (driver_.status().error(1u << companion_)) return {};
     const std::int64_t target = expected_[static_cast<std::size_t>(companion_)];
     const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
-    const double half = 0.5 * static_cast<double>(std::llabs(target - at)) * range_ / rules::clock_hz;  // V units * seconds
+    const double half =
+        0.5 * static_cast<double>(std::llabs(target - at)) * range_ / rules::clock_hz;  // V units * seconds
     MOTIONRACK_CHECK(driver_.SetA(1u << companion_, companion_acceleration_));
     return drive_companion(at, target, companion_speed(std::sqrt(start * start + 2 * slope * half)));
 }

@@ -21,7 +21,8 @@ Pulses4 Segmenter::way_of(const Work& work, const Pulses4& from) {
     return way;
 }
 
-/// Where the path turns round it is slow, but less slow than planned by half a pulse: it stands there, or the speed would jump twice.
+/// Where the path turns round it is slow, but less slow than planned by half a pulse: it stands there, or the speed
+/// would jump twice.
 void Segmenter::look_at_next(Work& work, const Work& next) const {
     const Pulses4 way = way_of(next, work.to);
     work.most_at_end = most_on(way, false).speed;
@@ -31,8 +32,8 @@ void Segmenter::look_at_next(Work& work, const Work& next) const {
     work.turns_back = work.move.even && along < 0;
 }
 
-/// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the basic pulses for a mm
-/// change from piece to piece too.
+/// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the
+/// basic pulses for a mm change from piece to piece too.
 void Segmenter::make_even(const Work& work, Speeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
     const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
@@ -43,9 +44,11 @@ void Segmenter::make_even(const Work& work, Speeds& speeds) {
     const double length = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;  // V units * seconds
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
     const std::int32_t most = most_on(way, false).acceleration;
-    speeds.acceleration = std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), most_units)), 1, most);
+    speeds.acceleration =
+        std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), most_units)), 1, most);
     const double changed = 2 * length * rules::rate_unit * speeds.acceleration;
-    reached_ = changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));
+    reached_ =
+        changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));
 }
 
 }  // namespace motionrack::mcx314

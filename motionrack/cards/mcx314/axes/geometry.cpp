@@ -1,8 +1,7 @@
 // Rounding to pulses, and the search for the whole centre with which the chip's arc ends where it should.
-#include <motionrack/cards/mcx314/axes/geometry.hpp>
-
 #include <cmath>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/axes/geometry.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -20,7 +19,8 @@ Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8
     bool rotary = false, beside_plane = false;
     double scale = 0, least = 1e300;
     for (std::size_t i = 0; i < worst.size(); ++i) {
-        const bool moves = axes != 0 ? (axes >> i & 1) != 0 : worst[i] * path.length * map.limits[i].pulses_per_unit >= 0.5;
+        const bool moves =
+            axes != 0 ? (axes >> i & 1) != 0 : worst[i] * path.length * map.limits[i].pulses_per_unit >= 0.5;
         if (map.channel[i] < 0 || !moves) continue;
         ++moving;
         last = map.channel[i];
@@ -48,13 +48,17 @@ double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const cont
 
 namespace {
 
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
+double length(double x, double y) {
+    return std::sqrt(x * x + y * y);
+}
 
-/// From its start, the centre that an arc should have. One that starts beside the true circle, because the arc before it ended there, comes
-/// back to it by its end: its centre is the point nearest to the true one that is as far from both.
+/// From its start, the centre that an arc should have. One that starts beside the true circle, because the arc before
+/// it ended there, comes back to it by its end: its centre is the point nearest to the true one that is as far from
+/// both.
 std::array<double, 2> wanted_centre(const ArcRequest& wanted, double end_x, double end_y) {
     constexpr double rounding = 0.75;
-    const double x = wanted.centre[0] - static_cast<double>(wanted.start[0]), y = wanted.centre[1] - static_cast<double>(wanted.start[1]);
+    const double x = wanted.centre[0] - static_cast<double>(wanted.start[0]),
+                 y = wanted.centre[1] - static_cast<double>(wanted.start[1]);
     const double chord = length(end_x, end_y);
     if (std::fabs(length(x, y) - wanted.radius) < rounding || chord < 1) return {x, y};
     const double across = (-(x - end_x / 2) * end_y + (y - end_y / 2) * end_x) / (chord * chord);
@@ -65,7 +69,8 @@ std::array<double, 2> wanted_centre(const ArcRequest& wanted, double end_x, doub
 
 std::optional<ChipArc> fit_arc(const ArcRequest& wanted) {
     const std::array<std::int64_t, 2> finish = {wanted.end[0] - wanted.start[0], wanted.end[1] - wanted.start[1]};
-    const std::array<double, 2> ideal = wanted_centre(wanted, static_cast<double>(finish[0]), static_cast<double>(finish[1]));
+    const std::array<double, 2> ideal =
+        wanted_centre(wanted, static_cast<double>(finish[0]), static_cast<double>(finish[1]));
     const double radius = length(ideal[0], ideal[1]);
     std::optional<ChipArc> best;
     bool best_exact = false;

@@ -17,7 +17,8 @@ namespace motionrack::mcx314 {
 inline constexpr double both_axes_extra = 0.41421356237309503;
 
 /// As doubles.
-inline constexpr double most_units = static_cast<double>(rules::most_units), speed_carry = static_cast<double>(rules::speed_carry);
+inline constexpr double most_units = static_cast<double>(rules::most_units),
+                        speed_carry = static_cast<double>(rules::speed_carry);
 
 /// The nearest whole pulse, or count, to a place.
 inline std::int64_t nearest_pulse(double place, double pulses_per_unit) {
@@ -34,8 +35,9 @@ struct AxisMap {
     Pulses4 pulses(const control::Point& position) const;
 };
 
-/// Basic pulses of the chip for one mm (degree) along `tangent` of a path, of which the axes in `path` move: the long axis gives them, with
-/// constant vector speed a pulse of two axes counts 1.414. `companion`: a fourth moving axis that is not interpolated, -1: none.
+/// Basic pulses of the chip for one mm (degree) along `tangent` of a path, of which the axes in `path` move: the long
+/// axis gives them, with constant vector speed a pulse of two axes counts 1.414. `companion`: a fourth moving axis that
+/// is not interpolated, -1: none.
 struct Drawing {
     bool constant_vector = false;
     int companion = -1;  ///< channel
@@ -44,7 +46,8 @@ struct Drawing {
 Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes = 0);
 double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent);
 
-/// Radians between an arc's tangent at its ends and the first or last of the chords that it is drawn with, at most; 0: not with chords.
+/// Radians between an arc's tangent at its ends and the first or last of the chords that it is drawn with, at most; 0:
+/// not with chords.
 double turn_of_first_chord(const AxisMap& map, const control::Geometry& path);
 
 /// An arc of less than a turn, wanted from the chip: absolute pulses of two axes with the same length of a pulse.
@@ -63,11 +66,13 @@ struct ChipArc {
     std::array<std::int32_t, 2> finish = {};  ///< what to write
     std::array<std::int32_t, 2> end = {};     ///< where the chip really ends
     std::int64_t basic_pulses = 0;
-    double deviation_pulses = 0;  ///< greatest distance of its circle from the true one, without the chip's own half pulse
+    double deviation_pulses =
+        0;  ///< greatest distance of its circle from the true one, without the chip's own half pulse
 };
 
-/// Of the whole centres near the true one the one whose arc ends exactly at `end` with the least deviation; if none does, the
-/// one with the least deviation. Nothing if none of them gives an arc of about that length (an arc of a few pulses).
+/// Of the whole centres near the true one the one whose arc ends exactly at `end` with the least deviation; if none
+/// does, the one with the least deviation. Nothing if none of them gives an arc of about that length (an arc of a few
+/// pulses).
 std::optional<ChipArc> fit_arc(const ArcRequest& wanted);
 
 }  // namespace motionrack::mcx314

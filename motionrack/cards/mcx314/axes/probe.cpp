@@ -54,16 +54,21 @@ Result<void> Axes::check_probe(bool release) {
     unsigned used = 0;
     for (const int channel : map_.channel)
         if (channel >= 0) used |= 1u << channel;
-    if (probe_channels_ == 0) return fail(Trouble::refused, "There is no probe at the inputs IN3 of this card. Nothing was moved.");
+    if (probe_channels_ == 0)
+        return fail(Trouble::refused, "There is no probe at the inputs IN3 of this card. Nothing was moved.");
     if ((used & ~probe_channels_) != 0) {
-        return fail(Trouble::refused, "The probe is not at the input IN3 of each channel that moves an axis, so not all places could be caught. "
-                                      "Nothing was moved; wire them in the rack file.");
+        return fail(
+            Trouble::refused,
+            "The probe is not at the input IN3 of each channel that moves an axis, so not all places could be caught. "
+            "Nothing was moved; wire them in the rack file.");
     }
     for (int c = 0; c < channel_count; ++c) {
         if ((used >> c & 1) == 0 || driver_.inputs(c).in[probe_input] == release) continue;
-        return fail(Trouble::machine, release ? "The probe does not touch before the move that should lead it away. Nothing was moved."
-                                              : "The probe touches already before the move that should find the contact. Nothing was moved; "
-                                                "lead it away first (G38.4).");
+        return fail(Trouble::machine,
+                    release
+                        ? "The probe does not touch before the move that should lead it away. Nothing was moved."
+                        : "The probe touches already before the move that should find the contact. Nothing was moved; "
+                          "lead it away first (G38.4).");
     }
     return {};
 }
@@ -71,7 +76,8 @@ Result<void> Axes::check_probe(bool release) {
 /// Every axis at the probe saves its own LP; before, each saves it once by command, so that a change tells of the edge.
 Result<void> Axes::arm_probe(bool release) {
     const auto save = field("SM7", "LPSAV").mask;
-    MOTIONRACK_CHECK(driver_.SetStopInput(probe_channels_, probe_input, release ? StopInput::at_low : StopInput::at_high));
+    MOTIONRACK_CHECK(
+        driver_.SetStopInput(probe_channels_, probe_input, release ? StopInput::at_low : StopInput::at_high));
     MOTIONRACK_CHECK(driver_.SetSynchronous(probe_channels_, field("SM6", "CMD").mask, save));
     MOTIONRACK_CHECK(driver_.Synchronous(probe_channels_));
     for (int c = 0; c < channel_count; ++c)
@@ -87,7 +93,8 @@ Result<void> Axes::disarm_probe() {
 
 bool Axes::probe_hit() {
     for (int c = 0; c < channel_count; ++c)
-        if ((probe_channels_ >> c & 1) != 0 && driver_.ReadBR(c) != saved_before_[static_cast<std::size_t>(c)]) return true;
+        if ((probe_channels_ >> c & 1) != 0 && driver_.ReadBR(c) != saved_before_[static_cast<std::size_t>(c)])
+            return true;
     return false;
 }
 

@@ -1,20 +1,20 @@
 // How each planned move is drawn by the chip, and the speeds of its pieces.
-#include <motionrack/cards/mcx314/axes/segmenter.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/axes/segmenter.hpp>
 #include <motionrack/cards/mcx314/driver/parameters.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
 
-// The planner keeps a little of each axis' acceleration back (Axes::kept_back); this much of it is given to the chip, so that
-// its whole-number steps are never slower than the plan.
+// The planner keeps a little of each axis' acceleration back (Axes::kept_back); this much of it is given to the chip,
+// so that its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_speed = 8;
@@ -27,11 +27,16 @@ std::int32_t Segmenter::best_range(const AxisMap& map) {
     for (std::size_t i = 0; i < map.channel.size(); ++i)
         if (map.channel[i] >= 0) fastest = std::max(fastest, map.limits[i].max_speed * map.limits[i].pulses_per_unit);
     const double range = rules::clock_hz * most_units / (fastest * 1.4143);
-    return static_cast<std::int32_t>(std::clamp(std::floor(range), static_cast<double>(param::R.least), static_cast<double>(param::R.greatest)));
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(range), static_cast<double>(param::R.least), static_cast<double>(param::R.greatest)));
 }
 
 Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access)
-    : map_(map), range_(range), pulses_per_v_(rules::clock_hz / range), latency_seconds_(accesses_to_speed * to_seconds(access)), at_(start) {}
+    : map_(map),
+      range_(range),
+      pulses_per_v_(rules::clock_hz / range),
+      latency_seconds_(accesses_to_speed * to_seconds(access)),
+      at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {
     Work work = classify(move);
@@ -46,7 +51,7 @@ void Segmenter::finish() {
     waiting_.reset();
 }
 
-// ---- what a move is -----------------------------------------------------------------------------------------------------------
+// ---- what a move is
 
 Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
     Work work;
@@ -62,7 +67,8 @@ Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
     work.companion = drawing.companion;
     // From piece to piece of a ride a basic pulse must stay what it is: pulses of the longest axis.
     work.constant_vector = drawing.constant_vector && !move.even;
-    if (work.path.shape == control::PathShape::arc) work.shape = drawing.constant_vector ? Shape::chip_arc : Shape::chords;
+    if (work.path.shape == control::PathShape::arc)
+        work.shape = drawing.constant_vector ? Shape::chip_arc : Shape::chords;
     work.units_in = units_along(work, work.path.tangent_in);
     work.units_out = units_along(work, work.path.tangent_out);
     if (work.shape == Shape::chip_arc)  // with constant vector speed the path is never faster than this
@@ -79,10 +85,12 @@ std::int32_t Segmenter::speed_units(double units, double speed) const {
 }
 
 std::int32_t Segmenter::acceleration_units(double units, double acceleration) const {
-    return static_cast<std::int32_t>(std::clamp(std::floor(units * acceleration * acceleration_reserve / rules::rate_unit), 1.0, most_units));
+    return static_cast<std::int32_t>(
+        std::clamp(std::floor(units * acceleration * acceleration_reserve / rules::rate_unit), 1.0, most_units));
 }
 
-/// The speed to start and stop with: half of what each axis may jump, because a stop and a start the other way may follow at once.
+/// The speed to start and stop with: half of what each axis may jump, because a stop and a start the other way may
+/// follow at once.
 double Segmenter::start_speed(const control::Point& tangent) const {
     double speed = 1e9;
     for (std::size_t i = 0; i < tangent.size(); ++i)
@@ -95,17 +103,18 @@ Pulses4 Segmenter::pulses_at(const Work& work, double s) const {
     return s >= work.path.length ? work.to : map_.pulses(control::position_at(work.path, s));
 }
 
-/// How long before its end a move must begin to fall from `top` to `exit` (V units), with the pulses that the chip's whole steps, the
-/// host's register accesses and the rounding to pulses may take.
+/// How long before its end a move must begin to fall from `top` to `exit` (V units), with the pulses that the chip's
+/// whole steps, the host's register accesses and the rounding to pulses may take.
 double Segmenter::fall_length(double units, const Speeds& speeds) const {
     if (speeds.top <= speeds.exit) return 0;
     const double top = speeds.top, exit = speeds.exit;
     const double ticks_per_step = speed_carry / speeds.acceleration;
-    const double phase = ticks_per_step * (top * (top + 1) - exit * (exit + 1)) / 2 + ticks_per_step * top + latency_seconds_ * rules::clock_hz * top;
+    const double phase = ticks_per_step * (top * (top + 1) - exit * (exit + 1)) / 2 + ticks_per_step * top +
+                         latency_seconds_ * rules::clock_hz * top;
     return (phase / range_ + 2) / (units * pulses_per_v_);
 }
 
-// ---- moves to pieces ------------------------------------------------------------------------------------------------------------
+// ---- moves to pieces
 
 void Segmenter::emit(const Work& work, std::optional<double> next_units) {
     if (work.shape == Shape::pause) return emit_pause(work);
@@ -125,8 +134,12 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
             if (speeds.fall_from > 0) emit_arcs(work, 0, speeds.fall_from, speeds.top, speeds.acceleration);
             emit_arcs(work, speeds.fall_from, work.path.length, speeds.exit, speeds.acceleration);
             break;
-        case Shape::chords: emit_chords(work, speeds); break;
-        default: emit_straight(work, speeds); break;
+        case Shape::chords:
+            emit_chords(work, speeds);
+            break;
+        default:
+            emit_straight(work, speeds);
+            break;
     }
     if (rests) {
         add_rest(work, speeds);
@@ -170,7 +183,8 @@ bool Segmenter::emit_s_curve(const Work& work) {
     const double initial = std::floor(units * start_speed(work.path.tangent_in));
     const double k = std::ceil(rules::jerk_unit / (units * work.move.jerk));
     if (k > static_cast<double>(param::K.greatest) || initial < 1) return false;
-    // The top speed for which two S-ramps with the acceleration limit (or without reaching it) take at most the move's length.
+    // The top speed for which two S-ramps with the acceleration limit (or without reaching it) take at most the move's
+    // length.
     const double a = units * work.move.accel, j = rules::jerk_unit / std::max(1.0, k), v0 = initial;
     auto ramp_length = [&](double v) {  // in V units * seconds
         const double dv = v - v0;
@@ -182,12 +196,14 @@ bool Segmenter::emit_s_curve(const Work& work) {
     double low = v0 + 1, high = std::min(most_units, units * work.move.cruise);
     if (high <= low || 2 * ramp_length(low) + spare > whole) return false;
     if (2 * ramp_length(high) + spare > whole)
-        for (int i = 0; i < 40; ++i) (2 * ramp_length((low + high) / 2) + spare > whole ? high : low) = (low + high) / 2;
+        for (int i = 0; i < 40; ++i)
+            (2 * ramp_length((low + high) / 2) + spare > whole ? high : low) = (low + high) / 2;
     else
         low = high;
     for (std::size_t c = 0; c < at_.size(); ++c)
         if (work.to[c] - at_[c] > longest_line || at_[c] - work.to[c] > longest_line) return false;
-    // The chip's S-ramps are not quite symmetric: what falling takes more than rising goes into AO, or it would end too fast.
+    // The chip's S-ramps are not quite symmetric: what falling takes more than rising goes into AO, or it would end too
+    // fast.
     const auto v = static_cast<std::int32_t>(low), sv = static_cast<std::int32_t>(initial);
     const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / rules::rate_unit), 1.0, most_units));
     const auto jerk = static_cast<std::int32_t>(std::max(1.0, k));
@@ -234,8 +250,12 @@ bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::i
     const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
     const double length = (to - from) * scale;
     if (length < 6) return false;
-    const auto arc = fit_arc({{at_[ia], at_[ib]}, {end[ia], end[ib]}, {centre_a * scale, centre_b * scale}, work.path.radius * scale,
-                              length, clockwise});
+    const auto arc = fit_arc({{at_[ia], at_[ib]},
+                              {end[ia], end[ib]},
+                              {centre_a * scale, centre_b * scale},
+                              work.path.radius * scale,
+                              length,
+                              clockwise});
     if (!arc) return false;
     Segment segment;
     segment.kind = clockwise ? SegmentKind::arc_cw : SegmentKind::arc_ccw;
@@ -265,11 +285,15 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
         longest = std::max(longest, delta < 0 ? -delta : delta);
     }
     if (count == 0) return;  // less than half a pulse; a companion's pulses stay for the next piece
-    // A pulse or two that an arc left beside its end wait for a piece with room, at the latest for the standstill. Beside two axes
-    // with constant vector speed is no room: with a third axis a basic pulse would be another length of path.
+    // A pulse or two that an arc left beside its end wait for a piece with room, at the latest for the standstill.
+    // Beside two axes with constant vector speed is no room: with a third axis a basic pulse would be another length of
+    // path.
     if (count > (work.constant_vector ? 2 : 3)) {
         int least = 0;
-        auto size = [&](int i) { return std::llabs(to[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])] - at_[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])]); };
+        auto size = [&](int i) {
+            return std::llabs(to[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])] -
+                              at_[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])]);
+        };
         for (int i = 1; i < count; ++i)
             if (size(i) < size(least)) least = i;
         Pulses4 without = to;
@@ -290,14 +314,16 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     }
     if (chain_open_)
         for (int i = 1; i < count; ++i)
-            if (moving[static_cast<std::size_t>(i)] == generator_) std::swap(moving[0], moving[static_cast<std::size_t>(i)]);
+            if (moving[static_cast<std::size_t>(i)] == generator_)
+                std::swap(moving[0], moving[static_cast<std::size_t>(i)]);
     Segment segment;
     segment.kind = SegmentKind::line;
     segment.axis_count = static_cast<std::uint8_t>(count);
     segment.constant_vector = work.constant_vector && count == 2;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         segment.axes[i] = static_cast<std::uint8_t>(moving[i]);
-        segment.finish[i] = static_cast<std::int32_t>(to[static_cast<std::size_t>(moving[i])] - at_[static_cast<std::size_t>(moving[i])]);
+        segment.finish[i] = static_cast<std::int32_t>(to[static_cast<std::size_t>(moving[i])] -
+                                                      at_[static_cast<std::size_t>(moving[i])]);
     }
     segment.moves = segment.finish;
     segment.speed = v;
@@ -312,7 +338,8 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     append(segment, work, to);
 }
 
-/// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its share.
+/// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its
+/// share.
 Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) const {
     double basic = 0, second = 0;
     for (const std::int64_t pulses : way) {
@@ -326,7 +353,9 @@ Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) con
         if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
         const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
         const double units = map_.limits[i].pulses_per_unit * basic / own / pulses_per_v_;
-        auto at_most = [](double value) { return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, most_units)); };
+        auto at_most = [](double value) {
+            return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, most_units));
+        };
         most.speed = std::min(most.speed, at_most(map_.limits[i].max_speed * units));
         most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));
     }
@@ -351,7 +380,8 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
         segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
         for (std::size_t i = 0; i < map_.channel.size(); ++i)
             if (map_.channel[i] == work.companion)
-                segment.companion_speed = work.move.exit * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
+                segment.companion_speed =
+                    work.move.exit * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
     }
     at_ = to;
     ready_.push_back(segment);
@@ -360,7 +390,8 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
 std::int64_t Segmenter::companion_pulses_ahead(int channel, int direction) const {
     std::int64_t sum = 0;
     for (const Segment& segment : ready_) {
-        if (segment.starts_chain || segment.companion_channel != channel || segment.companion_pulses * direction < 0) return sum;
+        if (segment.starts_chain || segment.companion_channel != channel || segment.companion_pulses * direction < 0)
+            return sum;
         sum += segment.companion_pulses;
         if (segment.ends_chain) return sum;
     }

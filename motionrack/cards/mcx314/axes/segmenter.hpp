@@ -1,12 +1,13 @@
-// Planned moves become chip segments: the chip draws lines of two and three axes and arcs of two; the rest is split here.
+// Planned moves become chip segments: the chip draws lines of two and three axes and arcs of two; the rest is split
+// here.
 //
 //   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V, which its generator
 //                   /      \           drives towards from the piece's first pulse on:
 //                  /        \              [ rise, cruise ][ fall ]
 //                 /          \___      chords of arcs that the chip cannot draw get their V one by one
 //
-// At the joint of two moves the generator's V goes on, but a pulse of the long axis means another path speed on each side; the joint's V
-// is the lesser of both, so no limit is passed.
+// At the joint of two moves the generator's V goes on, but a pulse of the long axis means another path speed on each
+// side; the joint's V is the lesser of both, so no limit is passed.
 #pragma once
 
 #include <deque>
@@ -23,7 +24,8 @@ namespace motionrack::mcx314 {
 
 class Segmenter {
   public:
-    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: where the machine stands, in pulses. `access`: time of a register access.
+    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: where the machine stands, in pulses. `access`: time
+    /// of a register access.
     Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access);
 
     /// Takes the next planned move; its segments come out once the move after it is known.
@@ -35,8 +37,8 @@ class Segmenter {
     const Segment& operator[](std::size_t i) const { return ready_[i]; }
     void pop() { ready_.pop_front(); }
 
-    /// Pulses that this channel's companion has before it in the present chain, as far as they are known and go on in one direction:
-    /// 1 or -1.
+    /// Pulses that this channel's companion has before it in the present chain, as far as they are known and go on in
+    /// one direction: 1 or -1.
     std::int64_t companion_pulses_ahead(int channel, int direction) const;
 
     /// The number of the next planned move, from 0.
@@ -57,13 +59,13 @@ class Segmenter {
         control::Geometry path;
         Shape shape = Shape::line;
         bool constant_vector = false;
-        double units_in = 0;          ///< V units for 1 mm/s (deg/s) at its start
-        double units_out = 0;         ///< and at its end; the same unless it is made of chords
+        double units_in = 0;   ///< V units for 1 mm/s (deg/s) at its start
+        double units_out = 0;  ///< and at its end; the same unless it is made of chords
         std::int32_t block = 0;
         std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
         Pulses4 to = {};
         std::int32_t most_at_end = rules::most_units;  ///< V with which the piece after it may begin
-        bool turns_back = false;           ///< the piece after it goes back
+        bool turns_back = false;                       ///< the piece after it goes back
     };
     /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
     struct Speeds {

@@ -9,7 +9,8 @@ namespace motionrack::mcx314 {
 /// WR2: both software limits in force.
 inline constexpr unsigned software_limits = field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask;
 
-/// The whole chip, once: reset, pulse and direction, limit switches that act Low and slow down, nothing kept for the end of drives.
+/// The whole chip, once: reset, pulse and direction, limit switches that act Low and slow down, nothing kept for the
+/// end of drives.
 Result<void> prepare_chip(Driver& driver);
 
 /// The ends of the travel to COMP+ and COMP-, where the software limits are; they are not in force yet.

@@ -1,24 +1,27 @@
 // Orders in mm and seconds to the function library's; what may be trusted.
-#include <motionrack/cards/mcx314/axes/geometry.hpp>
-#include <motionrack/cards/mcx314/axes/set_up.hpp>
-#include <motionrack/cards/mcx314/axes/single_axis.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <motionrack/cards/mcx314/axes/geometry.hpp>
+#include <motionrack/cards/mcx314/axes/set_up.hpp>
+#include <motionrack/cards/mcx314/axes/single_axis.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-constexpr double most_pulses = static_cast<double>(param::pulses.greatest), most_place = static_cast<double>(param::LP.greatest);
+constexpr double most_pulses = static_cast<double>(param::pulses.greatest),
+                 most_place = static_cast<double>(param::LP.greatest);
 
 }  // namespace
 
 SingleAxis::SingleAxis(Driver& driver, const SingleAxisSettings& settings)
-    : driver_(driver), settings_(settings),
-      real_(driver, settings.channel, {settings.limits.pulses_per_unit}, {settings.counts_per_unit}), home_(driver, settings.channel),
+    : driver_(driver),
+      settings_(settings),
+      real_(driver, settings.channel, {settings.limits.pulses_per_unit}, {settings.counts_per_unit}),
+      home_(driver, settings.channel),
       manual_(driver, settings.channel) {}
 
 Result<void> SingleAxis::prepare(Driver& driver) {
@@ -39,7 +42,7 @@ Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool tr
     return {};
 }
 
-// ---- what is refused -------------------------------------------------------------------------------------------------
+// ---- what is refused
 
 tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& why) const {
     return fail(Trouble::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
@@ -47,7 +50,8 @@ tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& wh
 
 Result<void> SingleAxis::check_speed(const char* what, double speed) const {
     if (std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_speed) return {};
-    return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit, settings_.limits.max_speed));
+    return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit,
+                                    settings_.limits.max_speed));
 }
 
 Result<void> SingleAxis::check_free(const char* what) {
@@ -61,10 +65,11 @@ Result<void> SingleAxis::check_free(const char* what) {
 Result<void> SingleAxis::check_into_limit(const char* what, bool negative) {
     const AxisStatus status = driver_.axis_status(settings_.channel);
     if (!(negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2)) return {};
-    return refuse(what, fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+", negative ? "+" : "-"));
+    return refuse(what, fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+",
+                                    negative ? "+" : "-"));
 }
 
-// ---- moves -----------------------------------------------------------------------------------------------------------
+// ---- moves
 
 RealDrive SingleAxis::drive_at(double speed, bool with_jerk) const {
     const control::AxisLimits& limits = settings_.limits;
@@ -89,7 +94,8 @@ Result<void> SingleAxis::move_to(double position, double speed) {
     if (!trusted_) return refuse("Move", "its position is not trusted; home it, or say where it is with set_position");
     MOTIONRACK_CHECK(check_speed("Move", speed));
     if (!(position >= limits.min_position && position <= limits.max_position))
-        return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit, limits.min_position, limits.max_position));
+        return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit,
+                                          limits.min_position, limits.max_position));
     MOTIONRACK_CHECK(check_free("Move"));
     const double distance = position - real_.position();
     MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
@@ -100,7 +106,9 @@ Result<void> SingleAxis::move_by(double distance, double speed) {
     if (trusted_) return move_to(real_.position() + distance, speed);
     MOTIONRACK_CHECK(check_speed("Move", speed));
     const double most = most_pulses / settings_.limits.pulses_per_unit;
-    if (!(std::fabs(distance) <= most)) return refuse("Move", fmt::format("the distance is {} {}, but may be up to {:.0f}", distance, settings_.unit, most));
+    if (!(std::fabs(distance) <= most))
+        return refuse("Move",
+                      fmt::format("the distance is {} {}, but may be up to {:.0f}", distance, settings_.unit, most));
     MOTIONRACK_CHECK(check_free("Move"));
     MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
     return begin_move(distance, speed);
@@ -123,7 +131,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
     return manual_.jog(speed < 0 ? -v : v, now);
 }
 
-// ---- homing ----------------------------------------------------------------------------------------------------------
+// ---- homing
 
 Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) const {
     const control::AxisLimits& limits = settings_.limits;
@@ -138,10 +146,14 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
     MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, most_way));
     MOTIONRACK_CHECK(outside("the slow speed", order.slow_speed, 1e-9, std::min(order.speed, limits.start_speed)));
-    const bool index = order.type == control::HomeType::index_after_switch || order.type == control::HomeType::twice_and_index;
-    if (index && !(settings_.counts_per_unit > 0)) return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
+    const bool index =
+        order.type == control::HomeType::index_after_switch || order.type == control::HomeType::twice_and_index;
+    if (index && !(settings_.counts_per_unit > 0))
+        return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
-    const auto pulses = [&](double way) { return static_cast<std::int64_t>(std::min(most_pulses, std::floor(way * limits.pulses_per_unit + 0.5))); };
+    const auto pulses = [&](double way) {
+        return static_cast<std::int64_t>(std::min(most_pulses, std::floor(way * limits.pulses_per_unit + 0.5)));
+    };
     const double unit = rules::clock_hz / static_cast<double>(setting.R) / limits.pulses_per_unit;
     HomeSettings out;
     out.type = static_cast<int>(order.type);
@@ -155,7 +167,8 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     out.v = setting.speed.value;
     out.a = setting.acceleration.value;
     out.slow_v = std::clamp<std::int64_t>(static_cast<std::int64_t>(order.slow_speed / unit), 1, out.sv);
-    out.travel = std::max<std::int64_t>(1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
+    out.travel = std::max<std::int64_t>(
+        1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
     out.turn = settings_.pulses_per_turn;
     out.clearance = std::min(out.travel, pulses(order.clearance));
     out.settle = from_seconds(order.settle_s);
@@ -182,7 +195,9 @@ control::HomeOutcome SingleAxis::home_outcome() const {
     const HomeSettings& settings = home_.settings();
     const double unit = 1 / settings_.limits.pulses_per_unit;
     // Where it failed there is no home to count from: then by the counter as it was.
-    const auto place = [&](std::int32_t lp) { return static_cast<double>(report.homed ? report.relative(lp) : lp) * unit; };
+    const auto place = [&](std::int32_t lp) {
+        return static_cast<double>(report.homed ? report.relative(lp) : lp) * unit;
+    };
     const auto since = [&](Instant at) { return to_seconds(at - report.from); };
     control::HomeOutcome out;
     out.type = static_cast<control::HomeType>(report.type);
@@ -191,14 +206,20 @@ control::HomeOutcome SingleAxis::home_outcome() const {
     out.sentence = report.sentence;
     for (const HomeEdge& edge : report.edges) {
         const bool index = edge.input != report.input;
-        out.edges.push_back({index ? "index" : edge.active ? "switch on" : "switch off", std::string(edge.state), place(edge.lp),
-                             static_cast<double>(edge.within) * unit, edge.speed_hz * unit, since(edge.at)});
+        out.edges.push_back({index         ? "index"
+                             : edge.active ? "switch on"
+                                           : "switch off",
+                             std::string(edge.state), place(edge.lp), static_cast<double>(edge.within) * unit,
+                             edge.speed_hz * unit, since(edge.at)});
     }
     for (const HomeStay& stay : report.stays)
-        out.stays.push_back({std::string(stay.state), since(stay.from), to_seconds(stay.took), place(stay.from_lp), place(stay.to_lp)});
+        out.stays.push_back(
+            {std::string(stay.state), since(stay.from), to_seconds(stay.took), place(stay.from_lp), place(stay.to_lp)});
     out.notes = report.notes;
     out.bounces = report.bounces;
-    out.position = report.homed ? static_cast<double>(settings.home_position) * unit : report.stays.empty() ? 0 : place(report.stays.back().to_lp);
+    out.position = report.homed           ? static_cast<double>(settings.home_position) * unit
+                   : report.stays.empty() ? 0
+                                          : place(report.stays.back().to_lp);
     out.moved_by = report.homed ? static_cast<double>(settings.home_position - report.zero_lp) * unit : 0;
     if (const auto way = report.switch_to_index()) out.switch_to_index = static_cast<double>(*way) * unit;
     out.from = report.from;
@@ -206,7 +227,7 @@ control::HomeOutcome SingleAxis::home_outcome() const {
     return out;
 }
 
-// ---- position, stops -------------------------------------------------------------------------------------------------
+// ---- position, stops
 
 /// Software limits are in force exactly while the counter can be believed.
 void SingleAxis::trust(bool on) {
@@ -218,7 +239,8 @@ void SingleAxis::trust(bool on) {
 Result<void> SingleAxis::set_position(double position) {
     const double most = most_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
     if (!(std::fabs(position) <= most))
-        return refuse("Position", fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
+        return refuse("Position",
+                      fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
     MOTIONRACK_CHECK(real_.set_position(position));
     if (settings_.counts_per_unit > 0)
@@ -235,7 +257,8 @@ void SingleAxis::stop() {
 }
 
 void SingleAxis::stop_now() {
-    const double speed = driver_.ReadCV(settings_.channel) * driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
+    const double speed =
+        driver_.ReadCV(settings_.channel) * driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
     driver_.QuickStop(mask());
     home_.stop();
     manual_.stop();
@@ -243,7 +266,7 @@ void SingleAxis::stop_now() {
     stopping_ = driver_.moving(mask());
 }
 
-// ---- carrying on -----------------------------------------------------------------------------------------------------
+// ---- carrying on
 
 /// A drive of ours has ended: was it by something that stops motors dead?
 void SingleAxis::note_end() {
@@ -279,18 +302,25 @@ Result<void> SingleAxis::wait(Duration timeout) {
             stop();
         }
         if (host.now() >= end)
-            return fail(Trouble::machine, fmt::format("Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
-                                                      settings_.name, to_seconds(timeout), position(), settings_.unit));
+            return fail(
+                Trouble::machine,
+                fmt::format(
+                    "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
+                    settings_.name, to_seconds(timeout), position(), settings_.unit));
         const Instant before = host.now();
         if (host.wait(look_every)) driver_.read_interrupts(settings_.channel);
         if (host.now() == before) host.pass(look_every);
     }
     if (homing && !home_.homed()) return home_.report().result();
-    if (asked) return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.", settings_.name, position(), settings_.unit));
+    if (asked)
+        return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
+                                                  settings_.name, position(), settings_.unit));
     const AxisStatus status = driver_.axis_status(settings_.channel);
     if (!homing && !status.why_stopped().empty())
-        return fail(Trouble::machine, fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit,
-                                                  status.why_stopped(), trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
+        return fail(Trouble::machine,
+                    fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit,
+                                status.why_stopped(),
+                                trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
     return {};
 }
 
@@ -298,14 +328,18 @@ control::AxisState SingleAxis::state() {
     using control::AxisState;
     if (home_.running()) return AxisState::homing;
     switch (manual_.state()) {
-        case ManualState::jogging: return AxisState::jogging;
+        case ManualState::jogging:
+            return AxisState::jogging;
         case ManualState::turning:
-        case ManualState::stopping: return AxisState::stopping;
-        default: break;
+        case ManualState::stopping:
+            return AxisState::stopping;
+        default:
+            break;
     }
     if (driver_.moving(mask())) return stopping_ ? AxisState::stopping : AxisState::moving;
     const AxisStatus status = driver_.axis_status(settings_.channel);
-    return field("RR2", "EMG").test(status.rr2) || field("RR2", "ALARM").test(status.rr2) ? AxisState::error : AxisState::standstill;
+    return field("RR2", "EMG").test(status.rr2) || field("RR2", "ALARM").test(status.rr2) ? AxisState::error
+                                                                                          : AxisState::standstill;
 }
 
 }  // namespace motionrack::mcx314

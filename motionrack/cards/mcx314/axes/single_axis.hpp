@@ -13,12 +13,12 @@
 namespace motionrack::mcx314 {
 
 struct SingleAxisSettings {
-    std::string name = "X";           ///< for sentences
+    std::string name = "X";  ///< for sentences
     std::string unit = "mm";
-    int channel = 0;                  ///< 0 X .. 3 U
+    int channel = 0;  ///< 0 X .. 3 U
     control::AxisLimits limits;
-    double counts_per_unit = 0;       ///< encoder; 0: none
-    std::int64_t pulses_per_turn = 0; ///< of the motor, for the index; 0: not known
+    double counts_per_unit = 0;         ///< encoder; 0: none
+    std::int64_t pulses_per_turn = 0;   ///< of the motor, for the index; 0: not known
     Duration hold = milliseconds(250);  ///< of a jog that is not renewed
 };
 
@@ -72,7 +72,7 @@ class SingleAxis final : public control::Axis {
     Home home_;
     Manual manual_;
     bool trusted_ = false;
-    bool moving_ = false;    ///< a move of ours, until its end was looked at
+    bool moving_ = false;  ///< a move of ours, until its end was looked at
     bool stopping_ = false;
 };
 

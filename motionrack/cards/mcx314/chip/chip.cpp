@@ -53,7 +53,7 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
     }
 }
 
-// ---- building -------------------------------------------------------------------------------------------------------
+// ---- building
 
 Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& options)
     : kernel_(kernel),
@@ -100,7 +100,7 @@ int Chip::Output::listen(sim::MotionListener& listener) {
     return listeners.add(listener);
 }
 
-// ---- time -----------------------------------------------------------------------------------------------------------
+// ---- time
 
 void Chip::advance_to(std::int64_t to) {
     work_to(to);
@@ -232,7 +232,7 @@ void Chip::update_interrupt() {
     if (active) kernel_.break_run();
 }
 
-// ---- motions --------------------------------------------------------------------------------------------------------
+// ---- motions
 
 void Chip::law_changed_of(int generator) {
     changed_ |= state_.axis[generator].gen.drive == Drive::path ? state_.path.command.mask() : 1u << generator;

@@ -27,12 +27,12 @@ namespace motionrack::mcx314 {
 
 /// What the chip reports as conditions.
 enum ChipCondition : std::uint16_t {
-    drive_ignored = 1,   ///< a: command, b: axis that is driving
-    path_ignored = 2,    ///< a: command; queue full, axis busy or named twice
-    unknown_command = 3,   ///< a: command, b: 1 if the MCX314As has it
-    pattern_full = 4,      ///< 38h with three words stacked
-    pattern_ran_out = 5,   ///< a: basic pulses made; the bit pattern ended without its end code
-    step_ignored = 6       ///< 3Ah without a segment that waits for it
+    drive_ignored = 1,    ///< a: command, b: axis that is driving
+    path_ignored = 2,     ///< a: command; queue full, axis busy or named twice
+    unknown_command = 3,  ///< a: command, b: 1 if the MCX314As has it
+    pattern_full = 4,     ///< 38h with three words stacked
+    pattern_ran_out = 5,  ///< a: basic pulses made; the bit pattern ended without its end code
+    step_ignored = 6      ///< 3Ah without a segment that waits for it
 };
 
 /// The sentence of a condition that a chip reported.
@@ -46,7 +46,8 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
-    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high one; WR0 is carried out by its low byte.
+    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high one; WR0 is carried out
+    /// by its low byte.
     std::uint8_t read_byte(std::uint32_t port);
     void write_byte(std::uint32_t port, std::uint8_t value);
 
@@ -353,11 +354,11 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     sim::WireId emgn_{};
     sim::WireId expls_n_{};
     sim::WireId int_n_{};
-    unsigned listened_ = 0;    // axes of which somebody listens to motion or edges
-    bool stale_ = false;       // the next interesting tick must be looked for again
-    unsigned moved_last_ = 0;  // axes that stepped in the basic pulse at hand
+    unsigned listened_ = 0;                 // axes of which somebody listens to motion or edges
+    bool stale_ = false;                    // the next interesting tick must be looked for again
+    unsigned moved_last_ = 0;               // axes that stepped in the basic pulse at hand
     std::array<int, axes_of_chip> went_{};  // which way each of them did
-    unsigned changed_ = 0;     // axes whose law of motion changed in the present event
+    unsigned changed_ = 0;                  // axes whose law of motion changed in the present event
 };
 
 }  // namespace motionrack::mcx314

@@ -4,7 +4,7 @@
 
 namespace motionrack::mcx314 {
 
-// ---- commands -------------------------------------------------------------------------------------------------------
+// ---- commands
 
 bool Chip::has_extended_command(int code) {
     for (const CommandInfo& command : map::commands)
@@ -84,7 +84,7 @@ void Chip::set_ring_end(int a, std::int32_t value) {
     set_encoder_position(a, position);
 }
 
-// ---- drives ---------------------------------------------------------------------------------------------------------
+// ---- drives
 
 /// A drive begins: nothing holds its speed down yet.
 void Chip::prepare_drive(int a) {
@@ -152,7 +152,7 @@ void Chip::avoid_triangle(int a) {
     set_drive_speed(a);
 }
 
-// ---- deviation counter clear ----------------------------------------------------------------------------------------
+// ---- deviation counter clear
 
 void Chip::ask_clear(int a) {
     Extension& ext = state_.extension[a];

@@ -7,12 +7,12 @@
 namespace motionrack::mcx314 {
 
 struct HomeSearch {
-    std::int32_t hmst = 0;      ///< 0: none
-    bool found = false;         ///< what the step waits for came
-    bool seen = false;          ///< HMST 12: IN1 was active
-    bool cancelled = false;     ///< a stop command came
-    bool cleared = false;       ///< the clear pulse at the end of step 3 was asked for
-    bool error = false;         ///< RR2 HOME
+    std::int32_t hmst = 0;   ///< 0: none
+    bool found = false;      ///< what the step waits for came
+    bool seen = false;       ///< HMST 12: IN1 was active
+    bool cancelled = false;  ///< a stop command came
+    bool cleared = false;    ///< the clear pulse at the end of step 3 was asked for
+    bool error = false;      ///< RR2 HOME
     std::array<std::uint8_t, 7> reserved{};
 };
 
@@ -25,12 +25,12 @@ struct ChipFilter {
 struct Extension {
     std::uint16_t em6 = 0, em7 = 0, sm6 = 0, sm7 = 0;
     std::uint16_t hv = 0;
-    std::uint16_t v = 0;         ///< V as written, of any chip; Axis::speed is what the drive goes to
-    std::uint16_t cap = 0;       ///< most speed of a drive without triangle; 0: none
-    std::uint16_t filtered = 0;  ///< pins behind a filter, bit Pin
-    std::uint16_t wires = 0;     ///< levels of their wires
-    std::uint16_t sampled = 0;   ///< levels at the last sample
-    std::uint32_t buffer = 0;    ///< BR
+    std::uint16_t v = 0;                   ///< V as written, of any chip; Axis::speed is what the drive goes to
+    std::uint16_t cap = 0;                 ///< most speed of a drive without triangle; 0: none
+    std::uint16_t filtered = 0;            ///< pins behind a filter, bit Pin
+    std::uint16_t wires = 0;               ///< levels of their wires
+    std::uint16_t sampled = 0;             ///< levels at the last sample
+    std::uint32_t buffer = 0;              ///< BR
     std::int64_t clear_until = 0;          ///< the tick at which the clear pulse is over
     std::array<std::int64_t, 10> since{};  ///< filtered pins: first sample at which the wire differed, -1: does not
     HomeSearch home;

@@ -1,5 +1,5 @@
-// Wires that ask for something: nEXPP and nEXPM for drives, EXPLSN for single steps (RULES.md, "Single steps" and "Drives by
-// nEXPP and nEXPM").
+// Wires that ask for something: nEXPP and nEXPM for drives, EXPLSN for single steps (RULES.md, "Single steps" and
+// "Drives by nEXPP and nEXPM").
 //
 //   nEXPP  ~~~~~~\____________/~~~~~~     f, f + 1: the first two ticks that see it Low; g: the first that sees it High
 //                 f f+1        g
@@ -96,7 +96,7 @@ void Chip::sample_wheel(int a) {
     start_drive(a, drive_code(Drive::fixed, high ? 1 : -1));
 }
 
-// ---- single steps ---------------------------------------------------------------------------------------------------
+// ---- single steps
 
 /// Whether the basic pulses of generator `a` come one a request.
 bool Chip::by_steps(int a) const {

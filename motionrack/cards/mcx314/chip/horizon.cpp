@@ -7,7 +7,7 @@
 
 namespace motionrack::mcx314 {
 
-// ---- the next interesting tick --------------------------------------------------------------------------------------
+// ---- the next interesting tick
 
 /// The next tick at which generator `a` does more than add up, and whether that is a step of its speed only.
 void Chip::find_next_tick(int a) {
@@ -167,7 +167,7 @@ std::int64_t Chip::pulses_until_steps(int a, int i, std::int64_t steps) const {
     return high;
 }
 
-// ---- phase and pulses -----------------------------------------------------------------------------------------------
+// ---- phase and pulses
 
 /// How many of the next `pulses` basic pulses step two axes (paths of two axes).
 std::int64_t Chip::extra_steps(std::int64_t pulses) const {
@@ -235,7 +235,7 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
     return steps;
 }
 
-// ---- many plain ticks at once ---------------------------------------------------------------------------------------
+// ---- many plain ticks at once
 
 /// Nothing happens up to tick `to`.
 void Chip::skip_to(std::int64_t to) {

@@ -20,9 +20,9 @@ consteval int place(std::string_view machine_name, std::string_view name) {
 }
 
 /// The states of the home search in the order of map::home_drives.
-constexpr int home_places[] = {place("home search", "near"),  place("home search", "home"),
+constexpr int home_places[] = {place("home search", "near"),   place("home search", "home"),
                                place("home search", "escape"), place("home search", "again"),
-                               place("home search", "index"), place("home search", "offset")};
+                               place("home search", "index"),  place("home search", "offset")};
 static_assert(std::size(home_places) == std::size(map::home_drives));
 
 }  // namespace

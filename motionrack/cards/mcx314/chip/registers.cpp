@@ -45,7 +45,7 @@ void Chip::reset() {
     update_outputs();
 }
 
-// ---- writing --------------------------------------------------------------------------------------------------------
+// ---- writing
 
 void Chip::write(std::uint32_t offset, std::uint16_t value) {
     write_bits(offset, value, 0xFFFF);
@@ -236,7 +236,7 @@ void Chip::data_read(int code, int a) {
     state_.rr7 = static_cast<std::uint16_t>(value >> 16);
 }
 
-// ---- drive commands -------------------------------------------------------------------------------------------------
+// ---- drive commands
 
 bool Chip::driving(int a) const {
     return state_.axis[a].gen.drive != Drive::idle || ((state_.chain | state_.homing) >> a & 1u) != 0;

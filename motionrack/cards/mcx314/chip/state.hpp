@@ -75,9 +75,7 @@ struct Pattern {
     bool interrupt = false;
 
     /// The step of AX(i+1) at `at`: -1, 0 or +1.
-    int step(int i, int at) const {
-        return (running[2 * i] >> at & 1) - (running[2 * i + 1] >> at & 1);
-    }
+    int step(int i, int at) const { return (running[2 * i] >> at & 1) - (running[2 * i + 1] >> at & 1); }
     /// Whether one of the first `axes` axes has the end code at `at`.
     bool ends(int axes, int at) const {
         unsigned both = 0;
@@ -147,9 +145,9 @@ struct PulseMark {
 struct Axis {
     std::uint32_t range = 0, pulses = 0, decel_point = 0, centre = 0;
     std::uint16_t jerk = 0, accel = 0, decel = 0, start_speed = 0, offset = 8;
-    std::uint16_t speed = 0;       ///< V, or what stands for it (set_drive_speed)
-    std::uint16_t decel_jerk = 0;  ///< K, of the MCX314As L
-    std::uint16_t comparisons = 0; ///< those that interrupts and actions hear of, as bits of RR3
+    std::uint16_t speed = 0;        ///< V, or what stands for it (set_drive_speed)
+    std::uint16_t decel_jerk = 0;   ///< K, of the MCX314As L
+    std::uint16_t comparisons = 0;  ///< those that interrupts and actions hear of, as bits of RR3
     std::uint16_t wr1 = 0, wr2 = 0, wr3 = 0;
     std::uint16_t causes = 0, finished = 0, flags = 0, compared = 0;
     std::uint16_t levels = 0x3FF;  ///< input pins as last heard, bit Pin
@@ -161,10 +159,10 @@ struct Axis {
     bool hold = false;
     bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
     std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
-    std::uint8_t external = 0;                       ///< nEXPP (1) or nEXPM (2) drives until it is High
-    std::array<std::uint8_t, 2> external_low{2, 2};  ///< ticks, up to 2, since nEXPP, nEXPM were seen High
-    bool drive_wanted = false;                       ///< somebody follows xdrive
-    bool ring = false;                               ///< LP and EP count 0 .. COMP+ (MCX314As)
+    std::uint8_t external = 0;                           ///< nEXPP (1) or nEXPM (2) drives until it is High
+    std::array<std::uint8_t, 2> external_low{2, 2};      ///< ticks, up to 2, since nEXPP, nEXPM were seen High
+    bool drive_wanted = false;                           ///< somebody follows xdrive
+    bool ring = false;                                   ///< LP and EP count 0 .. COMP+ (MCX314As)
     std::array<std::uint8_t, 7> reserved{};
     std::int64_t shown = 0;  ///< `made` when the pulse wires were set last
     PulseMark mark;

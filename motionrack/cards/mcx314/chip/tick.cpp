@@ -63,7 +63,7 @@ void Chip::work(int a) {
     if (!speed_step(a) && step_made) end_step(a);
 }
 
-// ---- step 1 ---------------------------------------------------------------------------------------------------------
+// ---- step 1
 
 /// Axes that generator `a` steps in the present segment.
 std::uint32_t Chip::moved_by(int a) const {
@@ -156,7 +156,7 @@ void Chip::end(int a) {
     state_.axis[a].gen.ramp = 0;
 }
 
-// ---- step 2 ---------------------------------------------------------------------------------------------------------
+// ---- step 2
 
 /// A pulse of the generator; true if the drive ended with it.
 bool Chip::pulse(int a) {
@@ -302,7 +302,7 @@ void Chip::begin_segment(const PathCommand& command) {
         if (const int d = path_direction(i); d != 0) state_.axis[command.axis[i]].direction = d;
 }
 
-// ---- when the final deceleration begins -----------------------------------------------------------------------------
+// ---- when the final deceleration begins
 
 void Chip::check_final(int a) {
     const Axis& axis = state_.axis[a];
@@ -313,9 +313,9 @@ void Chip::check_final(int a) {
         now = gen.manual ? gen.n >= axis.decel_point
                          : std::int64_t{axis.pulses} - gen.n <= final_pulses(axis) + axis.offset;
     } else if (gen.drive == Drive::path && state_.decel_enabled && !state_.queued) {
-        now = gen.manual ? gen.n >= axis.decel_point
-                         : state_.path.command.line() &&
-                               state_.path.longest - gen.n <= final_pulses(axis) + axis.offset;
+        now = gen.manual
+                  ? gen.n >= axis.decel_point
+                  : state_.path.command.line() && state_.path.longest - gen.n <= final_pulses(axis) + axis.offset;
     }
     if (!now) return;
     gen.final = true;

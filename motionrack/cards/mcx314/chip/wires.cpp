@@ -6,7 +6,7 @@
 
 namespace motionrack::mcx314 {
 
-// ---- inputs ---------------------------------------------------------------------------------------------------------
+// ---- inputs
 
 /// Inputs that are not enabled are not wanted, so that a wire that is made on demand (an index) costs nothing.
 void Chip::set_wants(int a) {
@@ -29,7 +29,7 @@ void Chip::set_wants(int a) {
     for (int i = 0; i < 2; ++i) kernel_.want(encoder_wires_[a][i], id_, true);
 }
 
-// ---- outputs --------------------------------------------------------------------------------------------------------
+// ---- outputs
 
 void Chip::update_outputs() {
     for (int a = 0; a < axes_of_chip; ++a)
@@ -47,12 +47,9 @@ PulseMark Chip::mark_at(int a, std::int64_t to) const {
     const std::int64_t pulses = pulses_of(gen, phase_in(generator, ticks));
     if (pulses == 0) return axis.mark;
     const PulseMoment last = last_pulse(generator, pulses, ticks);
-    PulseMark mark{last.tick,
-                   last.acc,
-                   static_cast<std::int32_t>(last.speed),
-                   static_cast<std::int32_t>(gen.range_now),
-                   axis.direction,
-                   0};
+    PulseMark mark{
+        last.tick,      last.acc, static_cast<std::int32_t>(last.speed), static_cast<std::int32_t>(gen.range_now),
+        axis.direction, 0};
     if (!on_path) return mark;
     const auto after = path_steps(pulses), before = path_steps(pulses - 1);
     int stepped = 0;

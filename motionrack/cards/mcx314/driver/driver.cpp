@@ -23,7 +23,7 @@ std::string axes_text(unsigned axes) {
     return out;
 }
 
-// ---- traffic --------------------------------------------------------------------------------------------------------
+// ---- traffic
 
 void Driver::command(unsigned axes, unsigned code) {
     port_.write(reg::WR0, static_cast<std::uint16_t>((axes & xyzu) << 8 | code));
@@ -71,7 +71,7 @@ const Driver::Kept& Driver::kept(int axis) const {
     return kept_[static_cast<std::size_t>(axis)];
 }
 
-// ---- checks ---------------------------------------------------------------------------------------------------------
+// ---- checks
 
 Result<void> Driver::check_axes(unsigned axes, const char* who) {
     if (axes >= 1 && axes <= xyzu) return {};
@@ -83,8 +83,9 @@ Result<void> Driver::check_axes(unsigned axes, const char* who) {
 
 Result<void> Driver::check_channel(int axis, const char* who) {
     if (axis >= 0 && axis < 4) return {};
-    return fail(Trouble::refused,
-                fmt::format("{}: the axis is {}, but it is one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
+    return fail(
+        Trouble::refused,
+        fmt::format("{}: the axis is {}, but it is one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
 }
 
 Result<void> Driver::check(unsigned axes, const Parameter& parameter, std::int64_t value) {
@@ -134,7 +135,7 @@ Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Fi
     return {};
 }
 
-// ---- initial --------------------------------------------------------------------------------------------------------
+// ---- initial
 
 void Driver::RESET() {
     port_.write(reg::WR0, reset_word);
@@ -212,7 +213,7 @@ double Driver::multiple(int axis) const {
     return range == 0 ? 0 : static_cast<double>(rules::sclk_hz) / static_cast<double>(range);
 }
 
-// ---- speeds and ramps -----------------------------------------------------------------------------------------------
+// ---- speeds and ramps
 
 Result<void> Driver::SetSV(unsigned axes, std::int64_t value) {
     return write(axes, param::SV, value);
@@ -271,7 +272,7 @@ void Driver::SetSCurve(unsigned axes, bool on) {
     set_mode(axes, 3, field("WR3", "SACC"), on);
 }
 
-// ---- positions ------------------------------------------------------------------------------------------------------
+// ---- positions
 
 Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
     MOTIONRACK_CHECK(write(axes, param::LP, value));

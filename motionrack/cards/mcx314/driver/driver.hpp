@@ -21,7 +21,7 @@ class Driver {
   public:
     Driver(RegisterPort& port, Interrupt& interrupt) : port_(port), interrupt_(interrupt) {}
 
-    // ---- initial --------------------------------------------------------------------------------------------------
+    // ---- initial
     /// Software reset of the chip; waits its 875 ns.
     void RESET();
     /// RESET, then every mode register, AO, LP and EP written 0, whatever the chip's own defaults are.
@@ -41,7 +41,7 @@ class Driver {
     /// R as it is, 16,000 .. 13,856,407: axes two and three of constant vector speed take more than 8,000,000.
     Result<void> WriteRange(unsigned axes, std::int64_t range);
 
-    // ---- speeds and ramps -----------------------------------------------------------------------------------------
+    // ---- speeds and ramps
     Result<void> SetSV(unsigned axes, std::int64_t value);  ///< initial speed, 1 .. 8,000
     Result<void> SetV(unsigned axes, std::int64_t value);   ///< drive speed, 1 .. 8,000; also while driving
     Result<void> SetA(unsigned axes, std::int64_t value);   ///< acceleration, 1 .. 8,000 (125 * M pulses/s2)
@@ -64,7 +64,7 @@ class Driver {
     /// S-curve or T-curve for the next drives (WR3 SACC).
     void SetSCurve(unsigned axes, bool on);
 
-    // ---- drives ---------------------------------------------------------------------------------------------------
+    // ---- drives
     // Refused while one of the axes drives, or before its multiple is set.
     /// Fixed drive with T-curve; the sign of `pulses` is the direction.
     Result<void> TCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t pulses);
@@ -84,7 +84,7 @@ class Driver {
     void SlowStop(unsigned axes);
     void QuickStop(unsigned axes);
 
-    // ---- while driving (flight.cpp) -------------------------------------------------------------------------------
+    // ---- while driving (flight.cpp)
     /// Stops the axes of the mask, with everything that is interpolated with them. An empty mask is refused, never
     /// "all".
     Result<void> stop(unsigned axes, StopKind kind);
@@ -97,7 +97,7 @@ class Driver {
     /// at the present speed); in an S ramp; once it decelerates to its end. A refusal says how far the axis is.
     Result<void> change_pulses(int axis, std::int64_t pulses, Duration margin = milliseconds(1));
 
-    // ---- interpolation (interpolation.cpp) ------------------------------------------------------------------------
+    // ---- interpolation (interpolation.cpp)
     Result<void> SetCP(unsigned axes, std::int64_t centre);  ///< centre of arcs, relative to the start
     Result<void> SetC(unsigned axes, std::int64_t centre) { return SetCP(axes, centre); }
     Result<void> SetFP(unsigned axes, std::int64_t finish);  ///< finish point of lines and arcs, relative to the start
@@ -139,7 +139,7 @@ class Driver {
     /// Interrupt at each joint of continuous interpolation, and when the pattern stack wants data.
     void EnableInterpolationInterrupts(bool joints, bool patterns);
 
-    // ---- continuous interpolation (chain.cpp) ---------------------------------------------------------------------
+    // ---- continuous interpolation (chain.cpp)
     // ContStart, then ContLine and ContArc as often as wanted, then ContEnd. The last segment given is kept back until
     // the next call, because only the last one decelerates. Each waits until the chip takes it, at most `timeout`.
     Result<void> ContStart(const CONTDATA& data);
@@ -151,7 +151,7 @@ class Driver {
     /// Gives the last segment and waits for the end.
     Result<ContOutcome> ContEnd(Duration timeout = whole_seconds(60));
 
-    // ---- bit patterns and steps (patterns.cpp) --------------------------------------------------------------------
+    // ---- bit patterns and steps (patterns.cpp)
     // BP2D or BP3D, up to three BPStack, BPStart, more BPStack while it runs, BPEnd. The last word holds the end code.
     Result<void> BP2D(const BPDATA& data, unsigned axes);
     Result<void> BP3D(const BPDATA& data, unsigned axes);
@@ -165,7 +165,7 @@ class Driver {
     /// One basic pulse of an interpolation whose steps come by command (3Ah).
     Result<void> Step();
 
-    // ---- limits and signals (signals.cpp) -------------------------------------------------------------------------
+    // ---- limits and signals (signals.cpp)
     Result<void> HLMTP(int n, unsigned axes);             ///< + limit switch acts at: 0 Low, 1 High
     Result<void> HLMTM(int n, unsigned axes);             ///< - limit switch acts at: 0 Low, 1 High
     Result<void> HLMTSig(int n, unsigned axes);           ///< limit switches stop: 0 at once, 1 decelerating
@@ -204,7 +204,7 @@ class Driver {
     std::uint16_t mode2(int axis) const { return kept(axis).mode[1]; }
     std::uint16_t mode3(int axis) const { return kept(axis).mode[2]; }
 
-    // ---- positions and status -------------------------------------------------------------------------------------
+    // ---- positions and status
     Result<void> LPS(unsigned axes, std::int64_t value);       ///< sets the logical position, 32 bit
     Result<void> EPS(unsigned axes, std::int64_t value);       ///< sets the real (encoder) position
     Result<void> SetCompP(unsigned axes, std::int64_t value);  ///< COMP+, 32 bit

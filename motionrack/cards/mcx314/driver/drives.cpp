@@ -153,7 +153,7 @@ Result<void> Driver::DriveFixed(unsigned axes) {
     return {};
 }
 
-// ---- bare commands --------------------------------------------------------------------------------------------------
+// ---- bare commands
 
 void Driver::Drive(unsigned axes, bool negative) {
     note_direction(axes, negative);

@@ -18,7 +18,7 @@ constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2"
 
 }  // namespace
 
-// ---- looking -------------------------------------------------------------------------------------------------------
+// ---- looking
 
 Home::Look Home::look() {
     Look out;
@@ -41,7 +41,8 @@ void Home::note_switch(const Look& look, Instant now) {
     if (look.switch_on == switch_on_) return;
     switch_on_ = look.switch_on;
     steady_since_ = now;
-    const bool waited_for = state_->does == HomeDoes::wait_end && (state_->until == HomeUntil::on || state_->until == HomeUntil::off) &&
+    const bool waited_for = state_->does == HomeDoes::wait_end &&
+                            (state_->until == HomeUntil::on || state_->until == HomeUntil::off) &&
                             switch_on_ == (state_->until == HomeUntil::on);
     if (waited_for && !edge_in_state_)
         edge_in_state_ = true;
@@ -49,21 +50,29 @@ void Home::note_switch(const Look& look, Instant now) {
         ++report_.bounces;
 }
 
-/// The chip slows down at the first contact, whatever the contacts do at the instant of a look: that tells where the edge was.
+/// The chip slows down at the first contact, whatever the contacts do at the instant of a look: that tells where the
+/// edge was.
 void Home::note_braking(const Look& look, Instant now) {
     if (braking_ || state_->until != HomeUntil::on || !(look.switch_on || look.status.decelerating())) return;
     braking_ = edge_here(look, now);
 }
 
 HomeEdge Home::edge_here(const Look& look, Instant now) {
-    // At constant speed the chip stops at the edge itself; else it was after the last look, or within that look's own accesses.
+    // At constant speed the chip stops at the edge itself; else it was after the last look, or within that look's own
+    // accesses.
     const bool exact = state_->pace != HomePace::fast;
     const bool index = state_->until == HomeUntil::index;
-    return {state_->name, index ? settings_.index_input : settings_.input, index || state_->until == HomeUntil::on, look.lp, driver_.ReadEPS(axis_),
-            exact ? 0 : rules::magnitude(way_between(last_lp_, look.lp)) + 1, hertz(exact ? speed() : std::max(look.cv, last_cv_)), now};
+    return {state_->name,
+            index ? settings_.index_input : settings_.input,
+            index || state_->until == HomeUntil::on,
+            look.lp,
+            driver_.ReadEPS(axis_),
+            exact ? 0 : rules::magnitude(way_between(last_lp_, look.lp)) + 1,
+            hertz(exact ? speed() : std::max(look.cv, last_cv_)),
+            now};
 }
 
-// ---- beginning -----------------------------------------------------------------------------------------------------
+// ---- beginning
 
 Result<void> Home::start(const HomeSettings& settings, Instant now) {
     const HomeSettings before = std::exchange(settings_, settings);
@@ -99,7 +108,7 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
     return {};
 }
 
-// ---- the machine ---------------------------------------------------------------------------------------------------
+// ---- the machine
 
 void Home::step(Instant now) {
     if (!running_) return;
@@ -158,8 +167,10 @@ void Home::run(const Look& look, Instant now) {
             else
                 leave_by(HomeCause::off, look, now);
             return;
-        case HomeDoes::drive: return drive(look, now);
-        case HomeDoes::wait_end: return wait_end(look, now);
+        case HomeDoes::drive:
+            return drive(look, now);
+        case HomeDoes::wait_end:
+            return wait_end(look, now);
         case HomeDoes::settle:
             steady_since_ = now;
             deadline_ = now + settings_.timeout;
@@ -171,12 +182,14 @@ void Home::run(const Look& look, Instant now) {
             else if (now >= deadline_)
                 fail(HomeFault::time, look, now);
             return;
-        case HomeDoes::zero: return zero(look, now);
+        case HomeDoes::zero:
+            return zero(look, now);
         case HomeDoes::wait_stop:
             if (look.driving && now >= deadline_) driver_.QuickStop(mask());
             if (!look.driving || now >= deadline_) leave_by(HomeCause::done, look, now);
             return;
-        case HomeDoes::end: return;
+        case HomeDoes::end:
+            return;
     }
 }
 
@@ -191,7 +204,9 @@ std::uint16_t Home::stop_inputs() const {
 }
 
 std::int64_t Home::speed() const {
-    return state_->pace == HomePace::fast ? settings_.v : state_->pace == HomePace::back ? settings_.back_v : settings_.slow_v;
+    return state_->pace == HomePace::fast   ? settings_.v
+           : state_->pace == HomePace::back ? settings_.back_v
+                                            : settings_.slow_v;
 }
 
 void Home::drive(const Look& look, Instant now) {
@@ -263,8 +278,11 @@ void Home::drive_reached(const Look& look, Instant now) {
         again_ = true;
         return;
     }
-    if (state_->pace == HomePace::fast && !at_speed_ && settings_.v > settings_.sv && (settings_.type == 1 || settings_.type == 3))
-        report_.notes.push_back("the switch came before V was reached, with no way for a longer run-up: a start from farther away may end elsewhere");
+    if (state_->pace == HomePace::fast && !at_speed_ && settings_.v > settings_.sv &&
+        (settings_.type == 1 || settings_.type == 3))
+        report_.notes.push_back(
+            "the switch came before V was reached, with no way for a longer run-up: a start from farther away may end "
+            "elsewhere");
     leave_by(HomeCause::done, look, now);
 }
 
@@ -281,7 +299,7 @@ void Home::zero(const Look& look, Instant now) {
     leave_by(HomeCause::done, look, now);
 }
 
-// ---- ending --------------------------------------------------------------------------------------------------------
+// ---- ending
 
 void Home::stop() {
     if (!running_ || stop_asked_) return;
@@ -309,10 +327,12 @@ void Home::finish(const Look& look, Instant now) {
     report_.sentence = why_failed(look);
 }
 
-// ---- arithmetic ----------------------------------------------------------------------------------------------------
+// ---- arithmetic
 
 /// Pulses of the present drive so far.
-std::int64_t Home::distance(const Look& look) const { return rules::magnitude(way_between(report_.stays.back().from_lp, look.lp)); }
+std::int64_t Home::distance(const Look& look) const {
+    return rules::magnitude(way_between(report_.stays.back().from_lp, look.lp));
+}
 
 /// Pulses from SV to V and a hundredth of a second at V, so that a look falls into it.
 std::int64_t Home::run_up() const {
@@ -330,6 +350,8 @@ Duration Home::drive_time(std::int64_t pulses, std::int64_t v) const {
     return seconds > to_seconds(settings_.timeout) ? settings_.timeout : from_seconds(seconds);
 }
 
-double Home::hertz(std::int64_t v) const { return static_cast<double>(v) * driver_.multiple(axis_); }
+double Home::hertz(std::int64_t v) const {
+    return static_cast<double>(v) * driver_.multiple(axis_);
+}
 
 }  // namespace motionrack::mcx314

@@ -1,9 +1,10 @@
-// Homing one axis: carries out a table of START and WAIT states (home_table.hpp) over the register port, without blocking.
+// Homing one axis: carries out a table of START and WAIT states (home_table.hpp) over the register port, without
+// blocking.
 //
 //   start(now) ──► step(now), step(now), .. every few ms or when the chip interrupts ──► homed() or failed, report()
 //
-// Every drive is a fixed one of at most `travel` pulses, and stops are the chip's own (WR1): where the axis stops does not
-// depend on how often step() is called, and if the host dies the axis stops by itself.
+// Every drive is a fixed one of at most `travel` pulses, and stops are the chip's own (WR1): where the axis stops does
+// not depend on how often step() is called, and if the host dies the axis stops by itself.
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -14,43 +15,44 @@ namespace motionrack::mcx314 {
 
 /// Speeds are in V units (8,000,000 / range pulses a second), distances in pulses.
 struct HomeSettings {
-    int type = 2;                  ///< 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index
-    bool negative = true;          ///< direction in which the switch is searched
-    int input = 0;                 ///< the home switch: IN0 .. IN3
-    bool active_high = false;      ///< its level
-    int index_input = 2;           ///< the encoder's index: IN0 .. IN3, types 3 and 4
-    bool index_high = true;        ///< its level
-    std::int64_t range = 0;        ///< R, 16,000 .. 8,000,000; 0: as it was written before
-    std::int64_t sv = 100;         ///< 1 .. 8,000
-    std::int64_t v = 1000;         ///< speed of the search, 1 .. 8,000
-    std::int64_t a = 100;          ///< acceleration and deceleration, 1 .. 8,000
-    std::int64_t back_v = 0;       ///< speed off the switch, 1 .. sv; 0: sv
-    std::int64_t slow_v = 0;       ///< second approach and index, 1 .. sv; 0: half of sv
-    std::int64_t travel = param::pulses.greatest;   ///< longest way of a search, 1 .. 268,435,455
-    std::int64_t turn = 0;               ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
-    std::int64_t clearance = 50;         ///< driven on after the switch is released, 0 .. travel
-    Duration settle = milliseconds(5);   ///< how long contacts must be at rest, 0 .. 10 s
+    int type =
+        2;  ///< 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index
+    bool negative = true;                          ///< direction in which the switch is searched
+    int input = 0;                                 ///< the home switch: IN0 .. IN3
+    bool active_high = false;                      ///< its level
+    int index_input = 2;                           ///< the encoder's index: IN0 .. IN3, types 3 and 4
+    bool index_high = true;                        ///< its level
+    std::int64_t range = 0;                        ///< R, 16,000 .. 8,000,000; 0: as it was written before
+    std::int64_t sv = 100;                         ///< 1 .. 8,000
+    std::int64_t v = 1000;                         ///< speed of the search, 1 .. 8,000
+    std::int64_t a = 100;                          ///< acceleration and deceleration, 1 .. 8,000
+    std::int64_t back_v = 0;                       ///< speed off the switch, 1 .. sv; 0: sv
+    std::int64_t slow_v = 0;                       ///< second approach and index, 1 .. sv; 0: half of sv
+    std::int64_t travel = param::pulses.greatest;  ///< longest way of a search, 1 .. 268,435,455
+    std::int64_t turn = 0;        ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
+    std::int64_t clearance = 50;  ///< driven on after the switch is released, 0 .. travel
+    Duration settle = milliseconds(5);      ///< how long contacts must be at rest, 0 .. 10 s
     Duration timeout = whole_seconds(600);  ///< of one state, > 0; less where the way and the speed tell
-    bool turn_at_limit = true;           ///< at the limit switch, search the other way
-    std::int64_t home_position = 0;      ///< LP at home, 32 bit
-    std::int64_t home_counts = 0;        ///< EP at home, 32 bit
+    bool turn_at_limit = true;              ///< at the limit switch, search the other way
+    std::int64_t home_position = 0;         ///< LP at home, 32 bit
+    std::int64_t home_counts = 0;           ///< EP at home, 32 bit
     // For sentences.
-    std::string name = {};               ///< of the axis; "": X, Y, Z, U
+    std::string name = {};  ///< of the axis; "": X, Y, Z, U
     std::string unit = "pulses";
-    double pulses_per_unit = 1;          ///< not 0
+    double pulses_per_unit = 1;  ///< not 0
 };
 
-/// Settings as the source's HomeType functions take them: WR1Reg is WR1 with the home input and its level, and IN2 and its
-/// level for the index. Errors: refused, no input enabled.
+/// Settings as the source's HomeType functions take them: WR1Reg is WR1 with the home input and its level, and IN2 and
+/// its level for the index. Errors: refused, no input enabled.
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A);
 
 class Home {
   public:
     Home(Driver& driver, int axis) : driver_(driver), axis_(axis) {}
 
-    /// Begins. Refused (nothing moves, the position stays as trusted as it was): settings out of range, the axis drives,
-    /// alarm, emergency stop, both limits active. From here on the position is not trusted, and the software limits are off
-    /// until it is.
+    /// Begins. Refused (nothing moves, the position stays as trusted as it was): settings out of range, the axis
+    /// drives, alarm, emergency stop, both limits active. From here on the position is not trusted, and the software
+    /// limits are off until it is.
     Result<void> start(const HomeSettings& settings, Instant now);
     /// One look; never waits. `now` must not go back.
     void step(Instant now);
@@ -114,18 +116,18 @@ class Home {
     HomeReport report_;
     bool running_ = false;
     bool stop_asked_ = false;
-    bool switch_on_ = false;     ///< as last seen, or as the chip's stop tells
-    bool edge_in_state_ = false; ///< the change that the state waits for was seen; the rest is bounce
+    bool switch_on_ = false;           ///< as last seen, or as the chip's stop tells
+    bool edge_in_state_ = false;       ///< the change that the state waits for was seen; the rest is bounce
     std::optional<HomeEdge> braking_;  ///< the first look at which a search was found to slow down
-    bool at_speed_ = false;      ///< V was reached in this drive
-    bool turned_ = false;        ///< at a limit
-    bool again_ = false;         ///< with a run-up
+    bool at_speed_ = false;            ///< V was reached in this drive
+    bool turned_ = false;              ///< at a limit
+    bool again_ = false;               ///< with a run-up
     Instant steady_since_{};
     Instant deadline_ = never;
     std::int32_t last_lp_ = 0;
     std::int32_t last_cv_ = 0;
-    std::int64_t planned_ = 0;   ///< pulses of the present drive
-    std::string_view failed_in_; ///< state
+    std::int64_t planned_ = 0;       ///< pulses of the present drive
+    std::string_view failed_in_;     ///< state
     std::int64_t failed_after_ = 0;  ///< pulses of its drive
     std::uint16_t mode_before_[3] = {};
 };

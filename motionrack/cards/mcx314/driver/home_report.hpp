@@ -27,13 +27,14 @@ enum class HomeFault : std::uint8_t {
 
 /// The home input or the index changed.
 struct HomeEdge {
-    std::string_view state;   ///< in which it was seen
-    int input = 0;            ///< IN0..IN3
-    bool active = false;      ///< what it became
+    std::string_view state;  ///< in which it was seen
+    int input = 0;           ///< IN0..IN3
+    bool active = false;     ///< what it became
     std::int32_t lp = 0;
     std::int32_t ep = 0;
-    std::int64_t within = 0;  ///< the edge was at `lp` or up to so many pulses before; 0: the chip stopped on it at once
-    double speed_hz = 0;      ///< of the drive when it was seen
+    std::int64_t within =
+        0;                ///< the edge was at `lp` or up to so many pulses before; 0: the chip stopped on it at once
+    double speed_hz = 0;  ///< of the drive when it was seen
     Instant at{};
 };
 
@@ -52,8 +53,8 @@ struct HomeReport {
     bool negative = false;  ///< direction of the search
     int input = 0;
     HomeFault fault = HomeFault::none;
-    bool homed = false;     ///< the position is trusted
-    std::string sentence;   ///< how it ended
+    bool homed = false;    ///< the position is trusted
+    std::string sentence;  ///< how it ended
     std::vector<HomeEdge> edges;
     std::vector<HomeStay> stays;
     std::vector<std::string> notes;
@@ -62,9 +63,9 @@ struct HomeReport {
     std::int64_t switch_within = 0;         ///< as HomeEdge::within
     double switch_speed_hz = 0;
     std::optional<std::int32_t> index_lp;
-    std::int32_t zero_lp = 0;               ///< LP, before it was written, where home is
+    std::int32_t zero_lp = 0;  ///< LP, before it was written, where home is
     std::int32_t zero_ep = 0;
-    std::int64_t home_position = 0;         ///< what LP was given there
+    std::int64_t home_position = 0;  ///< what LP was given there
     Instant from{};
     Duration took{};
 

@@ -1,6 +1,7 @@
 // Loops around Home that let the port's time pass.
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <motionrack/cards/mcx314/driver/home_series.hpp>
 
 namespace motionrack::mcx314 {
@@ -16,10 +17,13 @@ std::int64_t spread_of(const std::vector<std::int64_t>& values) {
     return *greatest - *least;
 }
 
-Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axes, unsigned wr1, std::int64_t sv, std::int64_t v, std::int64_t a) {
+Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axes, unsigned wr1, std::int64_t sv,
+                                          std::int64_t v, std::int64_t a) {
     if (axes == 0 || axes > xyzu)
-        return fail(Trouble::refused, fmt::format("HomeType{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8 and sums of these. "
-                                                  "Nothing was moved.", type, axes));
+        return fail(Trouble::refused,
+                    fmt::format("HomeType{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8 and sums of these. "
+                                "Nothing was moved.",
+                                type, axes));
     MOTIONRACK_TRY(const HomeSettings settings, home_settings(type, wr1, sv, v, a));
     std::vector<Home> homes;
     for (const int i : channels_of(axes)) homes.emplace_back(driver, i);
@@ -79,12 +83,15 @@ Result<HomeReport> home(Driver& driver, int axis, const HomeSettings& settings, 
     return one.report();
 }
 
-Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& settings, int repeats, std::span<const std::int64_t> away,
-                               Duration timeout) {
+Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& settings, int repeats,
+                               std::span<const std::int64_t> away, Duration timeout) {
     MOTIONRACK_CHECK(Driver::check_channel(axis, "repeat_home"));
     const unsigned mask = 1u << axis;
-    const bool fine = repeats >= 1 && !away.empty() && std::all_of(away.begin(), away.end(), [](std::int64_t p) { return p > 0; });
-    if (!fine) return fail(Trouble::refused, "repeat_home: it takes at least one repeat and ways off from home above 0. Nothing was moved.");
+    const bool fine =
+        repeats >= 1 && !away.empty() && std::all_of(away.begin(), away.end(), [](std::int64_t p) { return p > 0; });
+    if (!fine)
+        return fail(Trouble::refused,
+                    "repeat_home: it takes at least one repeat and ways off from home above 0. Nothing was moved.");
     MOTIONRACK_TRY(const HomeReport first, home(driver, axis, settings, timeout));
     HomeSpread out;
     out.pulses.push_back(0);
@@ -105,16 +112,20 @@ Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& set
     return out;
 }
 
-Result<std::vector<HomeReport>> HomeType1(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
+Result<std::vector<HomeReport>> HomeType1(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,
+                                          std::int64_t V, std::int64_t A) {
     return home_axes(driver, 1, axes, WR1Reg, SV, V, A);
 }
-Result<std::vector<HomeReport>> HomeType2(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
+Result<std::vector<HomeReport>> HomeType2(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,
+                                          std::int64_t V, std::int64_t A) {
     return home_axes(driver, 2, axes, WR1Reg, SV, V, A);
 }
-Result<std::vector<HomeReport>> HomeType3(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
+Result<std::vector<HomeReport>> HomeType3(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,
+                                          std::int64_t V, std::int64_t A) {
     return home_axes(driver, 3, axes, WR1Reg, SV, V, A);
 }
-Result<std::vector<HomeReport>> HomeType4(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
+Result<std::vector<HomeReport>> HomeType4(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,
+                                          std::int64_t V, std::int64_t A) {
     return home_axes(driver, 4, axes, WR1Reg, SV, V, A);
 }
 

@@ -1,4 +1,5 @@
-// The four tables of homing. A failure (see HomeFault) leads from every state to STOPPING_WAIT, and from there to FAILED.
+// The four tables of homing. A failure (see HomeFault) leads from every state to STOPPING_WAIT, and from there to
+// FAILED.
 #include <motionrack/cards/mcx314/driver/home_table.hpp>
 
 namespace motionrack::mcx314 {
@@ -8,9 +9,10 @@ namespace {
 using enum HomeCause;
 using Exits = std::array<HomeExit, 3>;
 
-// ---- states that the types share -----------------------------------------------------------------------------------
+// ---- states that the types share
 
-constexpr HomeState drive(std::string_view name, std::string_view meaning, std::string_view next, HomeWay way, HomePace pace, HomeUntil until) {
+constexpr HomeState drive(std::string_view name, std::string_view meaning, std::string_view next, HomeWay way,
+                          HomePace pace, HomeUntil until) {
     return {name, meaning, HomeDoes::drive, {{{done, next}}}, way, pace, until};
 }
 constexpr HomeState wait(std::string_view name, std::string_view meaning, const HomeState& of, Exits exits) {
@@ -20,73 +22,154 @@ constexpr HomeState wait_steady(std::string_view name, std::string_view meaning,
     return {name, meaning, HomeDoes::wait_steady, exits};
 }
 
-constexpr HomeState check = {"CHECK_START", "looks where the axis stands", HomeDoes::look,
+constexpr HomeState check = {"CHECK_START",
+                             "looks where the axis stands",
+                             HomeDoes::look,
                              {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
-constexpr HomeState search_start = drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT", HomeWay::towards, HomePace::fast, HomeUntil::on);
+constexpr HomeState search_start =
+    drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT", HomeWay::towards, HomePace::fast, HomeUntil::on);
 constexpr HomeState search_wait(Exits exits) {
     return wait("SEARCH_WAIT", "the input slows the drive to SV and ends it", search_start, exits);
 }
-constexpr HomeState rest_start = {"REST_START", "stands, past the switch's edge or at a limit", HomeDoes::settle, {{{done, "REST_WAIT"}}}};
-constexpr HomeState rest_wait = wait_steady("REST_WAIT", "contacts come to rest", {{{on, "BACK_START"}, {off, "RETURN_START"}}});
+constexpr HomeState rest_start = {
+    "REST_START", "stands, past the switch's edge or at a limit", HomeDoes::settle, {{{done, "REST_WAIT"}}}};
+constexpr HomeState rest_wait =
+    wait_steady("REST_WAIT", "contacts come to rest", {{{on, "BACK_START"}, {off, "RETURN_START"}}});
 constexpr HomeState return_start =
-    drive("RETURN_START", "away from the limit, or back over a short switch, to the switch", "RETURN_WAIT", HomeWay::away, HomePace::back, HomeUntil::on);
-constexpr HomeState return_wait = wait("RETURN_WAIT", "the input ends the drive", return_start, {{{done, "BACK_START"}}});
-constexpr HomeState back_start = drive("BACK_START", "away, off the switch, at constant speed", "BACK_WAIT", HomeWay::away, HomePace::back, HomeUntil::off);
-constexpr HomeState back_wait = wait("BACK_WAIT", "the input's release ends the drive", back_start, {{{done, "CLEAR_START"}}});
-constexpr HomeState clear_start =
-    drive("CLEAR_START", "on, by the clearance, so that contacts stay open", "CLEAR_WAIT", HomeWay::away, HomePace::fast, HomeUntil::distance);
+    drive("RETURN_START", "away from the limit, or back over a short switch, to the switch", "RETURN_WAIT",
+          HomeWay::away, HomePace::back, HomeUntil::on);
+constexpr HomeState return_wait =
+    wait("RETURN_WAIT", "the input ends the drive", return_start, {{{done, "BACK_START"}}});
+constexpr HomeState back_start = drive("BACK_START", "away, off the switch, at constant speed", "BACK_WAIT",
+                                       HomeWay::away, HomePace::back, HomeUntil::off);
+constexpr HomeState back_wait =
+    wait("BACK_WAIT", "the input's release ends the drive", back_start, {{{done, "CLEAR_START"}}});
+constexpr HomeState clear_start = drive("CLEAR_START", "on, by the clearance, so that contacts stay open", "CLEAR_WAIT",
+                                        HomeWay::away, HomePace::fast, HomeUntil::distance);
 constexpr HomeState clear_wait =
     wait("CLEAR_WAIT", "the pulses end the drive", clear_start, {{{done, "SETTLE_START"}, {limit, "SETTLE_START"}}});
-constexpr HomeState settle_start = {"SETTLE_START", "stands, beside the switch", HomeDoes::settle, {{{done, "SETTLE_WAIT"}}}};
+constexpr HomeState settle_start = {
+    "SETTLE_START", "stands, beside the switch", HomeDoes::settle, {{{done, "SETTLE_WAIT"}}}};
 constexpr HomeState settle_wait(std::string_view next) {
     return wait_steady("SETTLE_WAIT", "contacts come to rest", {{{off, next}, {on, "BACK_START"}}});
 }
-constexpr HomeState slow_start = drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT", HomeWay::towards, HomePace::slow, HomeUntil::on);
+constexpr HomeState slow_start =
+    drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT", HomeWay::towards, HomePace::slow, HomeUntil::on);
 constexpr HomeState slow_wait(std::string_view next) {
     return wait("SLOW_WAIT", "the input ends the drive at once", slow_start, {{{done, next}}});
 }
-constexpr HomeState index_start =
-    drive("INDEX_START", "on towards the encoder's index, slowly", "INDEX_WAIT", HomeWay::towards, HomePace::slow, HomeUntil::index);
-constexpr HomeState index_wait = wait("INDEX_WAIT", "the index ends the drive at once", index_start, {{{done, "ZERO_START"}}});
-constexpr HomeState zero_start = {"ZERO_START", "LP and EP are given the home position", HomeDoes::zero, {{{done, "HOMED"}}}};
-constexpr HomeState stopping_wait = {"STOPPING_WAIT", "decelerates after a failure or stop()", HomeDoes::wait_stop, {{{done, "FAILED"}}}};
+constexpr HomeState index_start = drive("INDEX_START", "on towards the encoder's index, slowly", "INDEX_WAIT",
+                                        HomeWay::towards, HomePace::slow, HomeUntil::index);
+constexpr HomeState index_wait =
+    wait("INDEX_WAIT", "the index ends the drive at once", index_start, {{{done, "ZERO_START"}}});
+constexpr HomeState zero_start = {
+    "ZERO_START", "LP and EP are given the home position", HomeDoes::zero, {{{done, "HOMED"}}}};
+constexpr HomeState stopping_wait = {
+    "STOPPING_WAIT", "decelerates after a failure or stop()", HomeDoes::wait_stop, {{{done, "FAILED"}}}};
 constexpr HomeState homed = {"HOMED", "stands at home, the position is trusted", HomeDoes::end};
 constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", HomeDoes::end};
 
-// ---- the types -----------------------------------------------------------------------------------------------------
+// ---- the types
 
-constexpr std::array type1 = {
-    check, search_start, search_wait({{{done, "ZERO_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
-    rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
-    settle_start, settle_wait("SEARCH_START"), zero_start, stopping_wait, homed, failed};
-constexpr std::array type2 = {
-    check, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
-    rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
-    settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("ZERO_START"), zero_start, stopping_wait, homed, failed};
-constexpr std::array type3 = {
-    check, search_start, search_wait({{{done, "INDEX_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
-    rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
-    settle_start, settle_wait("SEARCH_START"), index_start, index_wait, zero_start, stopping_wait, homed, failed};
-constexpr std::array type4 = {
-    check, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
-    rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
-    settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("INDEX_START"), index_start, index_wait, zero_start, stopping_wait,
-    homed, failed};
+constexpr std::array type1 = {check,
+                              search_start,
+                              search_wait({{{done, "ZERO_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
+                              rest_start,
+                              rest_wait,
+                              return_start,
+                              return_wait,
+                              back_start,
+                              back_wait,
+                              clear_start,
+                              clear_wait,
+                              settle_start,
+                              settle_wait("SEARCH_START"),
+                              zero_start,
+                              stopping_wait,
+                              homed,
+                              failed};
+constexpr std::array type2 = {check,
+                              search_start,
+                              search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
+                              rest_start,
+                              rest_wait,
+                              return_start,
+                              return_wait,
+                              back_start,
+                              back_wait,
+                              clear_start,
+                              clear_wait,
+                              settle_start,
+                              settle_wait("SLOW_START"),
+                              slow_start,
+                              slow_wait("ZERO_START"),
+                              zero_start,
+                              stopping_wait,
+                              homed,
+                              failed};
+constexpr std::array type3 = {check,
+                              search_start,
+                              search_wait({{{done, "INDEX_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
+                              rest_start,
+                              rest_wait,
+                              return_start,
+                              return_wait,
+                              back_start,
+                              back_wait,
+                              clear_start,
+                              clear_wait,
+                              settle_start,
+                              settle_wait("SEARCH_START"),
+                              index_start,
+                              index_wait,
+                              zero_start,
+                              stopping_wait,
+                              homed,
+                              failed};
+constexpr std::array type4 = {check,
+                              search_start,
+                              search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
+                              rest_start,
+                              rest_wait,
+                              return_start,
+                              return_wait,
+                              back_start,
+                              back_wait,
+                              clear_start,
+                              clear_wait,
+                              settle_start,
+                              settle_wait("SLOW_START"),
+                              slow_start,
+                              slow_wait("INDEX_START"),
+                              index_start,
+                              index_wait,
+                              zero_start,
+                              stopping_wait,
+                              homed,
+                              failed};
 
-// ---- the same as declared state machines ---------------------------------------------------------------------------
+// ---- the same as declared state machines
 
 constexpr std::string_view when(const HomeState& state, HomeCause cause) {
     switch (cause) {
-        case done: break;
-        case on: return "the home input is active";
-        case off: return "the home input is not active";
-        case limit: return "the limit switch in the way is active";
-        case early: return "the switch came before V was reached (once)";
+        case done:
+            break;
+        case on:
+            return "the home input is active";
+        case off:
+            return "the home input is not active";
+        case limit:
+            return "the limit switch in the way is active";
+        case early:
+            return "the switch came before V was reached (once)";
     }
     switch (state.does) {
-        case HomeDoes::wait_end: return state.until == HomeUntil::distance ? "the pulses are out" : "the input ended the drive";
-        case HomeDoes::wait_stop: return "the axis stands";
-        default: return "at once";
+        case HomeDoes::wait_end:
+            return state.until == HomeUntil::distance ? "the pulses are out" : "the input ended the drive";
+        case HomeDoes::wait_stop:
+            return "the axis stands";
+        default:
+            return "at once";
     }
 }
 
@@ -103,7 +186,8 @@ struct Declared {
     }
     static constexpr auto states = [] {
         std::array<StateInfo, count> out{};
-        for (std::size_t i = 0; i < count; ++i) out[i] = {table[i].name, table[i].meaning, table[i].does == HomeDoes::end};
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = {table[i].name, table[i].meaning, table[i].does == HomeDoes::end};
         return out;
     }();
     static constexpr auto transitions = [] {
@@ -121,8 +205,12 @@ struct Declared {
 
 constexpr std::array<HomeTable, 4> tables = {{
     {type1, {"HomeType1", "decelerating stop at the switch", Declared<type1>::states, Declared<type1>::transitions}},
-    {type2, {"HomeType2", "stop, back at constant speed, slowly to the switch", Declared<type2>::states, Declared<type2>::transitions}},
-    {type3, {"HomeType3", "slow to SV at the switch, stop at the index", Declared<type3>::states, Declared<type3>::transitions}},
+    {type2,
+     {"HomeType2", "stop, back at constant speed, slowly to the switch", Declared<type2>::states,
+      Declared<type2>::transitions}},
+    {type3,
+     {"HomeType3", "slow to SV at the switch, stop at the index", Declared<type3>::states,
+      Declared<type3>::transitions}},
     {type4, {"HomeType4", "type 2, then slowly to the index", Declared<type4>::states, Declared<type4>::transitions}},
 }};
 static_assert(declared<machine_flaw(tables[0].machine)>());
@@ -132,6 +220,8 @@ static_assert(declared<machine_flaw(tables[3].machine)>());
 
 }  // namespace
 
-const HomeTable& home_table(int type) { return tables[static_cast<std::size_t>(type - 1)]; }
+const HomeTable& home_table(int type) {
+    return tables[static_cast<std::size_t>(type - 1)];
+}
 
 }  // namespace motionrack::mcx314

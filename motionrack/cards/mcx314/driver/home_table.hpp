@@ -23,9 +23,9 @@ enum class HomeDoes : std::uint8_t {
     wait_stop,    ///< until the axis stands after a failure
     end
 };
-enum class HomeWay : std::uint8_t { towards, away };                    ///< the switch, as the direction of the search has it
-enum class HomePace : std::uint8_t { fast, back, slow };                ///< fast has ramps; back and slow are constant speeds
-enum class HomeUntil : std::uint8_t { distance, on, off, index };       ///< distance: the clearance, no stop input
+enum class HomeWay : std::uint8_t { towards, away };      ///< the switch, as the direction of the search has it
+enum class HomePace : std::uint8_t { fast, back, slow };  ///< fast has ramps; back and slow are constant speeds
+enum class HomeUntil : std::uint8_t { distance, on, off, index };  ///< distance: the clearance, no stop input
 
 /// What leads from a state to the next one.
 enum class HomeCause : std::uint8_t {

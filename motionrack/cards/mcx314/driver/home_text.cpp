@@ -1,6 +1,7 @@
 // Homing in words: what is refused, and a sentence for every way it can end.
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <motionrack/cards/mcx314/driver/home.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
@@ -23,7 +24,7 @@ struct Bound {
 
 }  // namespace
 
-// ---- the report ----------------------------------------------------------------------------------------------------
+// ---- the report
 
 std::int64_t HomeReport::relative(std::int32_t lp) const {
     return way_between(zero_lp, lp) + home_position;
@@ -40,7 +41,7 @@ Result<void> HomeReport::result() const {
     return motionrack::fail(fault == HomeFault::stopped ? Trouble::stopped : Trouble::machine, sentence);
 }
 
-// ---- what is refused -----------------------------------------------------------------------------------------------
+// ---- what is refused
 
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
     HomeSettings out;
@@ -52,9 +53,11 @@ Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, s
     for (int i = 3; i >= 0; --i)
         if (i != out.index_input && (WR1Reg >> 2 * i & 2) != 0) out.input = i;
     if (out.input < 0)
-        return motionrack::fail(Trouble::refused, fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of IN0, IN1 and IN3 as home switch "
-                                                  "(bits 1, 3, 7). Nothing was moved; enable one, with its level in the bit below.",
-                                                  type, WR1Reg));
+        return motionrack::fail(
+            Trouble::refused,
+            fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of IN0, IN1 and IN3 as home switch "
+                        "(bits 1, 3, 7). Nothing was moved; enable one, with its level in the bit below.",
+                        type, WR1Reg));
     out.active_high = (WR1Reg >> 2 * out.input & 1) != 0;
     out.index_high = (WR1Reg >> 2 * out.index_input & 1) != 0;
     return out;
@@ -65,7 +68,8 @@ Result<void> Home::check_ready() {
     const HomeSettings& s = settings_;
     const std::string name = s.name.empty() ? std::string(1, "XYZU"[axis_]) : s.name;
     const auto refuse = [&](std::string why) {
-        return motionrack::fail(Trouble::refused, fmt::format("Axis {} was not homed: {}. Nothing was moved.", name, why));
+        return motionrack::fail(Trouble::refused,
+                                fmt::format("Axis {} was not homed: {}. Nothing was moved.", name, why));
     };
     const Bound bounds[] = {
         {"the type", s.type, 1, 4},
@@ -87,20 +91,25 @@ Result<void> Home::check_ready() {
     };
     for (const Bound& bound : bounds)
         if (bound.value < bound.least || bound.value > bound.greatest)
-            return refuse(fmt::format("{} is {}, but may be {} to {}", bound.name, grouped(bound.value), grouped(bound.least), grouped(bound.greatest)));
-    if (s.type >= 3 && s.input == s.index_input) return refuse(fmt::format("home switch and index are both IN{}", s.input));
-    if (!(s.pulses_per_unit != 0) || !std::isfinite(s.pulses_per_unit)) return refuse("the pulses per unit must be a number other than 0");
+            return refuse(fmt::format("{} is {}, but may be {} to {}", bound.name, grouped(bound.value),
+                                      grouped(bound.least), grouped(bound.greatest)));
+    if (s.type >= 3 && s.input == s.index_input)
+        return refuse(fmt::format("home switch and index are both IN{}", s.input));
+    if (!(s.pulses_per_unit != 0) || !std::isfinite(s.pulses_per_unit))
+        return refuse("the pulses per unit must be a number other than 0");
     if (running_) return refuse("it is being homed already; stop that first");
     if (driver_.status().driving(mask())) return refuse("it moves; stop it and wait until it stands");
     const AxisStatus status = driver_.axis_status(axis_);
     if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
     if (field("RR2", "HLMTP").test(status.rr2) && field("RR2", "HLMTM").test(status.rr2))
-        return refuse("both limit switches are active, so it can move neither way; look for a broken wire or a wrong level (WR2 HLMTP, HLMTM)");
+        return refuse(
+            "both limit switches are active, so it can move neither way; look for a broken wire or a wrong level (WR2 "
+            "HLMTP, HLMTM)");
     return {};
 }
 
-// ---- sentences -----------------------------------------------------------------------------------------------------
+// ---- sentences
 
 /// A way: "1,200 pulses" or "3.7500 mm".
 std::string Home::text(std::int64_t pulses) const {
@@ -123,17 +132,23 @@ std::string Home::why_failed(const Look& look) const {
     const bool found = report_.switch_lp.has_value();
     if (report_.homed)
         return settings_.unit == "pulses"
-                   ? fmt::format("Axis {} is homed: its counter read {} where it is {} since.", axis, grouped(report_.zero_lp), grouped(settings_.home_position))
-                   : fmt::format("Axis {} is homed: its counter read {:.4f} where it is {:.4f} {} since.", axis, report_.zero_lp / settings_.pulses_per_unit,
-                                 static_cast<double>(settings_.home_position) / settings_.pulses_per_unit, settings_.unit);
-    const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input, settings_.index_high ? "High" : "Low");
+                   ? fmt::format("Axis {} is homed: its counter read {} where it is {} since.", axis,
+                                 grouped(report_.zero_lp), grouped(settings_.home_position))
+                   : fmt::format("Axis {} is homed: its counter read {:.4f} where it is {:.4f} {} since.", axis,
+                                 report_.zero_lp / settings_.pulses_per_unit,
+                                 static_cast<double>(settings_.home_position) / settings_.pulses_per_unit,
+                                 settings_.unit);
+    const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input,
+                                          settings_.index_high ? "High" : "Low");
     const bool at_limit = limit_in_way(look, HomeWay::towards) || limit_in_way(look, HomeWay::away);
     const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
     std::string what, next;
     switch (report_.fault) {
-        case HomeFault::none: break;
+        case HomeFault::none:
+            break;
         case HomeFault::not_found:
-            what = fmt::format("{} was not {} within {} in {} direction{}", switch_text(), found ? "found again" : "found", how_far,
+            what = fmt::format("{} was not {} within {} in {} direction{}", switch_text(),
+                               found ? "found again" : "found", how_far,
                                settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+",
                                turned_ && !found ? ", nor in the other direction up to the limit switch" : "");
             next = "Look at its wire and level (RR4, RR5), or search in the other direction or farther";
@@ -150,22 +165,29 @@ std::string Home::why_failed(const Look& look) const {
             what = fmt::format("{} is active where the switch acts, so another start might find another turn", index);
             next = "Shift the switch by half a motor turn, or look whether the index is stuck";
             break;
-        case HomeFault::alarm: what = "the drive's alarm became active", next = "Clear the cause in the drive"; break;
-        case HomeFault::emergency: what = "the emergency stop became active", next = "Clear the cause and release it"; break;
+        case HomeFault::alarm:
+            what = "the drive's alarm became active", next = "Clear the cause in the drive";
+            break;
+        case HomeFault::emergency:
+            what = "the emergency stop became active", next = "Clear the cause and release it";
+            break;
         case HomeFault::time:
             what = fmt::format("{} lasted {:.3f} s, longer than it may; it had made {}", failed_in_,
                                to_seconds(report_.stays[report_.stays.size() - 3].took), text(failed_after_));
             next = "Look whether nINPOS is enabled but never active, or the home input never rests";
             break;
         case HomeFault::foreign_stop:
-            what = fmt::format("the drive of {} ended after {} for no reason of its own", failed_in_, text(failed_after_));
+            what =
+                fmt::format("the drive of {} ended after {} for no reason of its own", failed_in_, text(failed_after_));
             next = "Let no one else command the axis meanwhile";
             break;
-        case HomeFault::stopped: what = "it was stopped on request", next = ""; break;
+        case HomeFault::stopped:
+            what = "it was stopped on request", next = "";
+            break;
     }
     return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not trusted. {} again.", axis, what,
-                       look.driving ? "still moves after a stop command, at" : "was stopped and stands at", place(look.lp),
-                       next.empty() ? "Home it" : fmt::format("{}, then home", next));
+                       look.driving ? "still moves after a stop command, at" : "was stopped and stands at",
+                       place(look.lp), next.empty() ? "Home it" : fmt::format("{}, then home", next));
 }
 
 }  // namespace motionrack::mcx314

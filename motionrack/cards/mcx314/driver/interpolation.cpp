@@ -27,7 +27,7 @@ bool is_zero(const FourAxes& values, unsigned axes) {
 
 }  // namespace
 
-// ---- the bare registers ---------------------------------------------------------------------------------------------
+// ---- the bare registers
 
 void Driver::write_path_mode(std::uint16_t word) {
     const PlainRegisters plain(*this);
@@ -81,7 +81,7 @@ void Driver::EnableInterpolationInterrupts(bool joints, bool patterns) {
     write_path_mode(field("WR5", "BPINT").set(field("WR5", "CIINT").set(path_mode_, joints), patterns));
 }
 
-// ---- points and settings --------------------------------------------------------------------------------------------
+// ---- points and settings
 
 Result<void> Driver::SetFP(unsigned axes, std::int64_t finish) {
     MOTIONRACK_CHECK(write(axes, param::finish, finish));
@@ -111,7 +111,7 @@ Result<void> Driver::SetVectorSpeed(int axes_count) {
     return {};
 }
 
-// ---- checks ---------------------------------------------------------------------------------------------------------
+// ---- checks
 
 Result<void> Driver::check_count(const char* who, unsigned axes, int count) {
     MOTIONRACK_CHECK(check_axes(axes, who));
@@ -179,7 +179,7 @@ std::int64_t Driver::basic_pulses(const Piece& piece) {
     return most;
 }
 
-// ---- starting -------------------------------------------------------------------------------------------------------
+// ---- starting
 
 /// R of the axes that constant vector speed uses, WR5, points and the command of one piece.
 void Driver::put_piece(const Piece& piece) {

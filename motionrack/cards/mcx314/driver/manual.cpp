@@ -1,6 +1,7 @@
 // Jog, step, manual home: a small machine around single drive commands.
-#include <array>
 #include <fmt/format.h>
+
+#include <array>
 #include <motionrack/cards/mcx314/driver/manual.hpp>
 
 namespace motionrack::mcx314 {
@@ -36,7 +37,9 @@ static_assert(declared<machine_flaw(machine)>());
 
 }  // namespace
 
-const MachineInfo& manual_machine() { return machine; }
+const MachineInfo& manual_machine() {
+    return machine;
+}
 
 Result<void> Manual::set(const ManualSettings& settings) {
     MOTIONRACK_CHECK(Driver::check_channel(axis_, "Manual operation"));
@@ -52,10 +55,13 @@ Result<void> Manual::set(const ManualSettings& settings) {
     };
     for (const Bound& bound : bounds)
         if (bound.value < bound.least || bound.value > bound.greatest)
-            return fail(Trouble::refused, fmt::format("Manual operation of {}: {} is {}, but may be {} to {}. Nothing was changed.", name(), bound.name,
-                                                      bound.value, bound.least, bound.greatest));
+            return fail(Trouble::refused,
+                        fmt::format("Manual operation of {}: {} is {}, but may be {} to {}. Nothing was changed.",
+                                    name(), bound.name, bound.value, bound.least, bound.greatest));
     if (state_ != ManualState::standing)
-        return fail(Trouble::refused, fmt::format("Manual operation of {}: it is {}. Nothing was changed; stop it first.", name(), state_name()));
+        return fail(
+            Trouble::refused,
+            fmt::format("Manual operation of {}: it is {}. Nothing was changed; stop it first.", name(), state_name()));
     settings_ = settings;
     return {};
 }
@@ -67,16 +73,20 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     };
     if (v == 0 || v > settings_.most_v || v < -settings_.most_v)
         return refuse(fmt::format("the speed is {}, but may be 1 to {} in either direction", v, settings_.most_v));
-    if (state_ == ManualState::stepping || state_ == ManualState::homing) return refuse(fmt::format("it is {}; stop that first", state_name()));
-    if (state_ == ManualState::standing && driver_.moving(mask())) return refuse("it moves already, by another command; stop that first");
+    if (state_ == ManualState::stepping || state_ == ManualState::homing)
+        return refuse(fmt::format("it is {}; stop that first", state_name()));
+    if (state_ == ManualState::standing && driver_.moving(mask()))
+        return refuse("it moves already, by another command; stop that first");
     const AxisStatus status = driver_.axis_status(axis_);
     if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
     const bool negative = v < 0;
     if ((negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2))
-        return refuse(fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+", negative ? "+" : "-"));
+        return refuse(fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+",
+                                  negative ? "+" : "-"));
     if ((negative ? field("RR2", "SLMTM") : field("RR2", "SLMTP")).test(status.rr2))
-        return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+", negative ? "+" : "-"));
+        return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+",
+                                  negative ? "+" : "-"));
     return {};
 }
 
@@ -113,9 +123,14 @@ Result<void> Manual::jog(std::int64_t v, Instant now) {
 Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
     MOTIONRACK_CHECK(Driver::check_channel(axis_, "Step"));
     if (state_ != ManualState::standing)
-        return fail(Trouble::refused, fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
-    if (pulses == 0) return fail(Trouble::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));
-    if (v < 0) return fail(Trouble::refused, fmt::format("Step of {}: the speed is {}, but the sign belongs to the pulses. Nothing was moved.", name(), v));
+        return fail(Trouble::refused,
+                    fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
+    if (pulses == 0)
+        return fail(Trouble::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));
+    if (v < 0)
+        return fail(Trouble::refused,
+                    fmt::format("Step of {}: the speed is {}, but the sign belongs to the pulses. Nothing was moved.",
+                                name(), v));
     MOTIONRACK_CHECK(check_ready("Step", pulses < 0 ? -v : v));
     why_.clear();
     MOTIONRACK_CHECK(driver_.TCurve_F(mask(), settings_.sv, v, settings_.a, pulses));
@@ -126,7 +141,8 @@ Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
 Result<void> Manual::home(const HomeSettings& settings, Instant now) {
     if (state_ != ManualState::homing) {
         if (state_ != ManualState::standing)
-            return fail(Trouble::refused, fmt::format("Manual home of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
+            return fail(Trouble::refused, fmt::format("Manual home of {}: it is {}. Nothing was moved; stop it first.",
+                                                      name(), state_name()));
         MOTIONRACK_CHECK(home_.start(settings, now));
         why_.clear();
         state_ = ManualState::homing;

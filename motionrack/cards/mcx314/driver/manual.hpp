@@ -12,10 +12,10 @@ namespace motionrack::mcx314 {
 
 /// Speeds in V units, acceleration in A units, at the R that is written.
 struct ManualSettings {
-    std::int64_t sv = 50;      ///< initial speed, 1 .. 8,000
-    std::int64_t a = 100;      ///< acceleration and deceleration, 1 .. 8,000
-    std::int64_t most_v = 8'000;           ///< greatest speed that jog() takes, 1 .. 8,000
-    Duration hold = milliseconds(250);     ///< how long a jog or a manual home goes on without being renewed, 1 ms .. 10 s
+    std::int64_t sv = 50;               ///< initial speed, 1 .. 8,000
+    std::int64_t a = 100;               ///< acceleration and deceleration, 1 .. 8,000
+    std::int64_t most_v = 8'000;        ///< greatest speed that jog() takes, 1 .. 8,000
+    Duration hold = milliseconds(250);  ///< how long a jog or a manual home goes on without being renewed, 1 ms .. 10 s
 };
 
 enum class ManualState : std::uint8_t { standing, jogging, turning, stepping, homing, stopping };
@@ -31,8 +31,9 @@ class Manual {
     Result<void> set(const ManualSettings& settings);
     const ManualSettings& settings() const { return settings_; }
 
-    /// Jogs at `v`, the sign is the direction; 0 lets go. Starts, renews, changes the speed on the fly, or turns round by way of a stop.
-    /// Refused: above most_v, into an active limit, with alarm or emergency stop active, while stepping or homing.
+    /// Jogs at `v`, the sign is the direction; 0 lets go. Starts, renews, changes the speed on the fly, or turns round
+    /// by way of a stop. Refused: above most_v, into an active limit, with alarm or emergency stop active, while
+    /// stepping or homing.
     Result<void> jog(std::int64_t v, Instant now);
     /// One step of `pulses` (signed, not 0) at `v`. Refused unless standing, and as jog().
     Result<void> step_jog(std::int64_t pulses, std::int64_t v);

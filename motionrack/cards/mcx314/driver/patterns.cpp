@@ -127,7 +127,7 @@ void Driver::close_pattern() {
     pattern_ = {};
 }
 
-// ---- steps ----------------------------------------------------------------------------------------------------------
+// ---- steps
 
 Result<void> Driver::SetStep(StepBy by) {
     MOTIONRACK_CHECK(check_no_path("SetStep", status()));

@@ -72,7 +72,7 @@ Result<void> Driver::SetExternalDrive(unsigned axes, ExternalDrive mode) {
     return {};
 }
 
-// ---- synchronous actions of the MCX314As ----------------------------------------------------------------------------
+// ---- synchronous actions of the MCX314As
 
 Result<void> Driver::SetSynchronous(unsigned axes, std::uint16_t conditions, std::uint16_t actions) {
     MOTIONRACK_CHECK(check_axes(axes, "SetSynchronous"));
@@ -90,7 +90,7 @@ std::int32_t Driver::ReadBR(int axis) {
     return static_cast<std::int32_t>(read_data(axis, cmd::READ_BR));
 }
 
-// ---- outputs and inputs ---------------------------------------------------------------------------------------------
+// ---- outputs and inputs
 
 void Driver::write_outputs(std::uint16_t word) {
     const PlainRegisters plain(*this);
@@ -133,7 +133,7 @@ InputLevels Driver::inputs(int axis) {
     return levels;
 }
 
-// ---- interrupts -----------------------------------------------------------------------------------------------------
+// ---- interrupts
 
 Result<void> Driver::EnableInterrupt(unsigned axes, std::uint16_t causes) {
     return change_interrupts("EnableInterrupt", axes, causes, true);

@@ -47,7 +47,7 @@ std::string Driver::error_text(unsigned axes) {
     return out;
 }
 
-// ---- waiting --------------------------------------------------------------------------------------------------------
+// ---- waiting
 
 /// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest;
 /// time passes also where the line is active for somebody else.
@@ -88,7 +88,7 @@ Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
     return fail(Trouble::machine, why);
 }
 
-// ---- speeds ---------------------------------------------------------------------------------------------------------
+// ---- speeds
 
 /// Part of the basic pulses that step each axis of a piece, signed, at the place where the axes are.
 std::array<double, 4> Driver::shares(const Piece& piece) {
@@ -102,8 +102,7 @@ std::array<double, 4> Driver::shares(const Piece& piece) {
     // On a circle the axes' speeds are as the other's distance from the centre; the axis nearer to it steps every time.
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
     auto from_centre = [&](std::size_t i) {
-        const std::int64_t moved =
-            way_between(static_cast<std::int32_t>(piece.from[i]), ReadLPS(static_cast<int>(i)));
+        const std::int64_t moved = way_between(static_cast<std::int32_t>(piece.from[i]), ReadLPS(static_cast<int>(i)));
         return static_cast<double>(moved - piece.centre[i]);
     };
     const double x = from_centre(h), y = from_centre(v);
@@ -120,10 +119,10 @@ Result<std::array<double, 4>> Driver::axis_speeds() {
     if (path != 0) {
         const Piece& piece = main.can_queue() ? pieces_[1] : pieces_[0];
         if (piece.axes == 0)
-            return fail(
-                Trouble::refused,
-                "axis_speeds: the shares of the axes are not known: a bit pattern runs, the interpolation was started by "
-                "bare commands, or LPS moved a counter since. Nothing was read.");
+            return fail(Trouble::refused,
+                        "axis_speeds: the shares of the axes are not known: a bit pattern runs, the interpolation was "
+                        "started by "
+                        "bare commands, or LPS moved a counter since. Nothing was read.");
         const int generator = chain_.running ? chain_.generator : channels_of(piece.axes).channel[0];
         const std::int64_t basic = ReadCV(generator);
         const std::array<double, 4> share = shares(piece);

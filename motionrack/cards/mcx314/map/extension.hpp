@@ -94,7 +94,7 @@ constexpr const HomeDrive& home_drive(int hmst) {
     return home_drives[0];
 }
 
-// ---- state machines -------------------------------------------------------------------------------------------------
+// ---- state machines
 
 inline constexpr StateInfo home_states[] = {
     {"idle", "HMST 0: no home search"},

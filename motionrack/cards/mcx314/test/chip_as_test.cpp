@@ -1,5 +1,5 @@
-// The MCX314As from outside: input filters, rings, inverted counters and pulses, triangle prevention, jerk and automatic
-// deceleration of asymmetric ramps, the deviation counter clear pulse.
+// The MCX314As from outside: input filters, rings, inverted counters and pulses, triangle prevention, jerk and
+// automatic deceleration of asymmetric ramps, the deviation counter clear pulse.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/map.hpp>
@@ -10,12 +10,14 @@ namespace {
 
 struct As : Bench {
     As() : Bench(Variant::mcx314as) {}
-    void extension(unsigned axes, unsigned em6, unsigned em7 = 0) { data(axes, cmd::EM, std::int64_t{em7} << 16 | em6); }
+    void extension(unsigned axes, unsigned em6, unsigned em7 = 0) {
+        data(axes, cmd::EM, std::int64_t{em7} << 16 | em6);
+    }
 };
 
 constexpr unsigned filter_of_in2 = field("EM6", "FE1").mask, ring = field("EM6", "VRING").mask;
 
-// ---- the variant ----------------------------------------------------------------------------------------------------
+// ---- the variant
 
 TEST(ChipAs, TheOriginalRefusesItsCommandsAndSaysWhichChipHasThem) {
     Bench b;
@@ -30,7 +32,7 @@ TEST(ChipAs, TheOriginalRefusesItsCommandsAndSaysWhichChipHasThem) {
     EXPECT_EQ(b.read(0), 0u);
 }
 
-// ---- input filters --------------------------------------------------------------------------------------------------
+// ---- input filters
 
 TEST(ChipAs, AFilterDelaysByTheTablesValueAndRemovesWhatIsShorter) {
     for (unsigned fl = 0; fl < 8; ++fl) {
@@ -122,7 +124,7 @@ TEST(ChipAs, AHandWheelDrivesAtEachOfItsCycles) {
     }
 }
 
-// ---- counters -------------------------------------------------------------------------------------------------------
+// ---- counters
 
 TEST(ChipAs, InARingTheCountersGoFromTheGreatestValueToZeroAndBack) {
     As b;
@@ -227,7 +229,7 @@ TEST(ChipAs, Input2ClearsTheEncoderCounterEachTimeItBecomesActive) {
     EXPECT_EQ(b.ep(X), 0);
 }
 
-// ---- pulses and ramps -----------------------------------------------------------------------------------------------
+// ---- pulses and ramps
 
 TEST(ChipAs, ThePulseOutputsCanBeExchanged) {
     As b;
@@ -345,10 +347,11 @@ TEST(ChipAs, TheFallingSCurveHasAJerkOfItsOwn) {
     };
     const double original = falling_time(Variant::mcx314, 0);
     EXPECT_NEAR(falling_time(Variant::mcx314as, 100) / original, 1, 0.001);
-    EXPECT_NEAR(falling_time(Variant::mcx314as, 400) / original, 2, 0.01) << "a quarter of the jerk takes twice the time";
+    EXPECT_NEAR(falling_time(Variant::mcx314as, 400) / original, 2, 0.01)
+        << "a quarter of the jerk takes twice the time";
 }
 
-// ---- the pin nDRIVE -------------------------------------------------------------------------------------------------
+// ---- the pin nDRIVE
 
 TEST(ChipAs, NDriveShowsADriveUnlessItGivesTheClearPulse) {
     for (const bool followed : {false, true}) {

@@ -125,9 +125,9 @@ class Run {
     }
     std::uint32_t plausible_axes() { return feed_.below(4) == 0 ? feed_.below(16) : 1u << feed_.below(4); }
     std::uint32_t plausible_code() {
-        static constexpr std::uint32_t codes[] = {0x0F, 0x10, 0x12, 0x20, 0x20, 0x20, 0x21, 0x21, 0x22, 0x23, 0x24,
-                                                  0x25, 0x26, 0x27, 0x30, 0x30, 0x31, 0x32, 0x33, 0x34, 0x35, 0x36,
-                                                  0x37, 0x38, 0x39, 0x3A, 0x3A, 0x3B, 0x3C, 0x3D};
+        static constexpr std::uint32_t codes[] = {0x0F, 0x10, 0x12, 0x20, 0x20, 0x20, 0x21, 0x21, 0x22, 0x23,
+                                                  0x24, 0x25, 0x26, 0x27, 0x30, 0x30, 0x31, 0x32, 0x33, 0x34,
+                                                  0x35, 0x36, 0x37, 0x38, 0x39, 0x3A, 0x3A, 0x3B, 0x3C, 0x3D};
         const std::uint32_t n = feed_.below(31);
         return n < 30 ? codes[n] : feed_.word() & 0xFF;
     }
@@ -155,7 +155,8 @@ class Run {
     }
     // What only the MCX314As has; actions are rare, since they excuse every drive.
     void extension() {
-        static constexpr std::uint32_t codes[] = {0x62, 0x62, 0x62, 0x63, 0x65, 0x14, 0x61, 0x61, 0x0E, 0x60, 0x60, 0x60};
+        static constexpr std::uint32_t codes[] = {0x62, 0x62, 0x62, 0x63, 0x65, 0x14,
+                                                  0x61, 0x61, 0x0E, 0x60, 0x60, 0x60};
         const std::uint32_t code = codes[feed_.below(12)], axes = plausible_axes();
         if (feed_.below(40) == 0) return data_of(axes, 0x64, feed_.word() << 16 | (feed_.word() & 0xE3FF));
         if (code != 0x60) return data_of(axes, code, 1 + feed_.word() % 8'000);
@@ -220,15 +221,16 @@ class Run {
             if (effect.writes_lp >> a & 1u) base_[a] = static_cast<std::uint32_t>(chip_.lp(a)) - count_of(a);
         for (int a = 0; a < axis_count; ++a)
             if (effect.fixed_direction != 0 && (effect.axes & ~drove & driving() & ~shadow_.external) >> a & 1u)
-                fixed_[a] = {true, ((shadow_.software_limits | shadow_.unknown) >> a & 1u) != 0, false, chip_.pulses(a).count(kernel_.now()),
-                             effect.fixed_direction};
+                fixed_[a] = {true, ((shadow_.software_limits | shadow_.unknown) >> a & 1u) != 0, false,
+                             chip_.pulses(a).count(kernel_.now()), effect.fixed_direction};
         check();
     }
     /// What the access about to be made changes for the fixed drives that run.
     void foresee(const Effect& effect, unsigned drove) {
         for (int a = 0; a < axis_count; ++a) {
             Fixed& fixed = fixed_[a];
-            if ((effect.stops | shadow_.software_limits | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u) fixed.excused = true;
+            if ((effect.stops | shadow_.software_limits | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u)
+                fixed.excused = true;
             if (effect.writes_p >> a & 1u) fixed.rewritten = true;
             // A drive may be over and wait for its position: what follows may belong to it or not.
             const bool may_follow = (shadow_.in_position & drove & (effect.begins ? 15u : effect.writes_p)) >> a & 1u;
@@ -242,8 +244,9 @@ class Run {
 
     void require(bool holds, const std::string& what, int axis = -1) {
         if (holds || !verdict_.problem.empty()) return;
-        verdict_.problem = fmt::format("{}{}; access {}, tick {}", what, axis < 0 ? "" : fmt::format(" ({})", "XYZU"[axis]),
-                                       verdict_.accesses, kernel_.now() / nanoseconds(125));
+        verdict_.problem =
+            fmt::format("{}{}; access {}, tick {}", what, axis < 0 ? "" : fmt::format(" ({})", "XYZU"[axis]),
+                        verdict_.accesses, kernel_.now() / nanoseconds(125));
     }
 
     void check() {
@@ -255,7 +258,8 @@ class Run {
             verdict_.mix(count_of(a));
             if ((shadow_.recounted | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u)
                 base_[a] = static_cast<std::uint32_t>(chip_.lp(a)) - count_of(a);
-            require(static_cast<std::uint32_t>(chip_.lp(a)) == base_[a] + count_of(a), "LP and the pulses do not add up", a);
+            require(static_cast<std::uint32_t>(chip_.lp(a)) == base_[a] + count_of(a),
+                    "LP and the pulses do not add up", a);
             if (fixed_[a].on && !(status >> a & 1u)) end_fixed(a);
         }
         for (int a = 0; a < 2; ++a) {
@@ -272,7 +276,8 @@ class Run {
         if (made == wanted || (fixed.rewritten && made > wanted)) return void(++verdict_.exact_drives);
         command(1u << a, 0x0F);
         if ((chip_.peek(2) & 0xFF00u) != 0) return;
-        require(false, fmt::format("a fixed drive ended after {} pulses, not P = {}, with no stop latched", made, wanted), a);
+        require(false,
+                fmt::format("a fixed drive ended after {} pulses, not P = {}, with no stop latched", made, wanted), a);
     }
     // The future is the same whether the status registers are read or not.
     void look_twice() {

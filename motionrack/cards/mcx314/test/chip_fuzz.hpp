@@ -1,5 +1,5 @@
-// Any access at any time: a stream of numbers becomes register accesses, wires and passing time on a chip, and what must
-// always hold is checked after each.
+// Any access at any time: a stream of numbers becomes register accesses, wires and passing time on a chip, and what
+// must always hold is checked after each.
 //
 //   counts add up      LP = what was written to it + pulses since; edges = counts
 //   every state ends   after 27h with all inputs released nothing drives any more, and nothing waits for 25h

@@ -20,9 +20,9 @@ class Shadow {
   public:
     explicit Shadow(bool extended = false) : extended_(extended) {}
 
-    std::array<std::int64_t, 4> pulses{};               ///< P
+    std::array<std::int64_t, 4> pulses{};                         ///< P
     unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes that have been given them by now
-    unsigned acts = 0;       ///< axes that synchronous actions are set up for
+    unsigned acts = 0;                                            ///< axes that synchronous actions are set up for
     unsigned recounted = 0;  ///< axes whose LP may change otherwise than by pulses: rings, PCLR
     unsigned unknown = 0;    ///< axes whose P synchronous actions may have written
 

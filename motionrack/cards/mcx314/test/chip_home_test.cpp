@@ -1,5 +1,5 @@
-// The automatic home search of the MCX314As: over a simulated axis with switches that bounce and an encoder's index, and
-// with switches moved by hand where the order of things matters.
+// The automatic home search of the MCX314As: over a simulated axis with switches that bounce and an encoder's index,
+// and with switches moved by hand where the order of things matters.
 //
 //   machine   0 mm ─────4──5────────20──────────────────100 mm        index each 5 mm from the start
 //   IN1       active ◄──┘           │                    start
@@ -56,7 +56,8 @@ struct Homing : Bench {
         std::vector<unsigned> states;
         command(X, cmd::HOME);
         while ((read(0) & X) != 0 && kernel.now() < whole_seconds(200)) {
-            if (const unsigned state = hmst(*this, X); states.empty() || states.back() != state) states.push_back(state);
+            if (const unsigned state = hmst(*this, X); states.empty() || states.back() != state)
+                states.push_back(state);
             advance(microseconds(100));
         }
         return states;
@@ -129,7 +130,7 @@ TEST(ChipHome, TheIndexCountsOnlyWithinTheSwitchWhereBothAreAskedFor) {
     EXPECT_DOUBLE_EQ(c.position(), 0.0);
 }
 
-// ---- by hand --------------------------------------------------------------------------------------------------------
+// ---- by hand
 
 struct ByHand : Bench {
     explicit ByHand(unsigned em7, unsigned em6 = home_interrupt) : Bench(Variant::mcx314as) {
@@ -186,7 +187,8 @@ TEST(ChipHome, StopsAlarmsAndTheOtherLimitEndIt) {
     const struct {
         const char* pin;
         unsigned command, rr1;
-    } ends[] = {{nullptr, 0x26, 0}, {nullptr, 0x27, 0}, {"yalarm", 0, 0x4000}, {"emgn", 0, 0x8000}, {"ylmtp", 0, 0x1000}};
+    } ends[] = {
+        {nullptr, 0x26, 0}, {nullptr, 0x27, 0}, {"yalarm", 0, 0x4000}, {"emgn", 0, 0x8000}, {"ylmtp", 0, 0x1000}};
     for (const auto& end : ends) {
         ByHand b(0x0D);  // step 1 towards +, step 2 towards -
         b.mode(Y, 2, 0x2000);

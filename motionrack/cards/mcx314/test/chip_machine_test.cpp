@@ -19,8 +19,9 @@ struct Machine {
     int instances;             // axes
     std::string_view passing;  // states that may last no time: "a b c"
 };
-// A drive whose end is there at its first working tick is over at once, and in position at once where that is not enabled; a
-// queued segment without pulses takes over and ends in one tick; a step may be asked for just after its segment's command.
+// A drive whose end is there at its first working tick is over at once, and in position at once where that is not
+// enabled; a queued segment without pulses takes over and ends in one tick; a step may be asked for just after its
+// segment's command.
 constexpr Machine machines[] = {
     {"drive", "DRIVE_STATE", 4, "driving final in_position"},
     {"continuous interpolation", "QUEUE_STATE", 1, "running"},
@@ -48,7 +49,8 @@ bool leads(const MachineInfo& info, std::string_view passing, int from, int to) 
     while (reached.size() > looked.size())
         for (const int at : std::set<int>(reached)) {
             if (!looked.insert(at).second) continue;
-            if (at != from && passing.find(info.states[static_cast<std::size_t>(at)].name) == std::string_view::npos) continue;
+            if (at != from && passing.find(info.states[static_cast<std::size_t>(at)].name) == std::string_view::npos)
+                continue;
             for (const TransitionInfo& t : info.transitions)
                 if (state_index(info, t.from) == at) reached.insert(state_index(info, t.to));
         }
@@ -142,8 +144,10 @@ TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
         const auto select = static_cast<std::uint16_t>(0x010F << axis);
         const auto n = static_cast<std::int8_t>(axis);
         twin::Program program;
-        program.ops = {{0, false, Kind::write, 0, select},  {0, false, Kind::write, 6, 0x0008},
-                       {5, true, Kind::input, 0, 0, n, twin::Pin::exp_plus}, {6, false, Kind::write, 6, 0x0000},
+        program.ops = {{0, false, Kind::write, 0, select},
+                       {0, false, Kind::write, 6, 0x0008},
+                       {5, true, Kind::input, 0, 0, n, twin::Pin::exp_plus},
+                       {6, false, Kind::write, 6, 0x0000},
                        {8, false, Kind::input, 0, 1, n, twin::Pin::exp_plus}};
         Watched watched(taken, Variant::mcx314);
         watched.run(program);

@@ -73,7 +73,8 @@ TEST(ChipPattern, ACircleStackedOnTheInterruptKeepsItsRadius) {
     std::vector<std::array<int, 2>> steps;
     for (std::array<int, 2> at = {100, 0}, done = {0, 0}; steps.size() < 4 || at != std::array<int, 2>{100, 0};) {
         const double angle = std::atan2(at[1], at[0]) + 0.01;
-        done = {static_cast<int>(std::lround(100 * std::cos(angle))), static_cast<int>(std::lround(100 * std::sin(angle)))};
+        done = {static_cast<int>(std::lround(100 * std::cos(angle))),
+                static_cast<int>(std::lround(100 * std::sin(angle)))};
         steps.push_back({done[0] - at[0], done[1] - at[1]});
         at = done;
     }
@@ -233,7 +234,8 @@ TEST(ChipPattern, WithConstantVectorSpeedTheStepsOfTwoAxesAreRarer) {
     b.advance(tick * 400);
     std::vector<std::int64_t> at;
     for (const auto& edge : x.list) at.push_back(edge.tick);
-    // R after a basic pulse is that of the axes that it stepped: two with D0, D1 and D8.., one with D2..D5, none with D6, D7.
+    // R after a basic pulse is that of the axes that it stepped: two with D0, D1 and D8.., one with D2..D5, none with
+    // D6, D7.
     EXPECT_EQ(at, (std::vector<std::int64_t>{12, 26, 40, 50, 100, 114, 128, 142}));
 }
 

@@ -1,4 +1,5 @@
-// Drives and steps that are asked for, from outside: single steps by command and by wire, nEXPP and nEXPM, the 8-bit bus.
+// Drives and steps that are asked for, from outside: single steps by command and by wire, nEXPP and nEXPM, the 8-bit
+// bus.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -127,7 +128,7 @@ TEST(ChipSteps, ABitPatternCanBeStepped) {
     }
 }
 
-// ---- nEXPP and nEXPM ------------------------------------------------------------------------------------------------
+// ---- nEXPP and nEXPM
 
 class ByHand : public Bench {
   public:
@@ -233,14 +234,14 @@ TEST(ChipByHand, AHeldAxisDoesNotMove) {
     EXPECT_EQ(b.count(0), 0);
 }
 
-// ---- 8-bit bus ------------------------------------------------------------------------------------------------------
+// ---- 8-bit bus
 
 TEST(ChipBytes, TheLowByteOfWr0CarriesOut) {
     Bench b;
     ByteBus bus(b.chip);
     b.start();
     b.speeds(X, 20'000, 2000, 2000);
-    bus.out(14, 0), bus.out(15, 0);  // WR7
+    bus.out(14, 0), bus.out(15, 0);   // WR7
     bus.out(12, 44), bus.out(13, 1);  // WR6 = 300
     bus.out(1, X);
     EXPECT_EQ(b.chip.peek(0) & X, 0);
@@ -297,15 +298,29 @@ TEST(ChipBytes, ALibrarysWordsDoTheSameAsOnTheWideBus) {
     for (sim::RegisterDevice* device : devices) {
         Bench& b = device == &bus ? narrow : wide;
         b.start();
-        for (const auto& [offset, value] : std::vector<std::array<unsigned, 2>>{
-                 {14, 0}, {12, 20'000}, {0, 0x0300}, {12, 2000}, {0, 0x0304}, {0, 0x0305}, {12, 200}, {0, 0x0302},
-                 {12, 500}, {0, 0x0106}, {12, 211}, {0, 0x0206}, {10, 0x0004}, {0, 0x010F}, {2, 0x8100}, {0, 0x0030}})
+        for (const auto& [offset, value] : std::vector<std::array<unsigned, 2>>{{14, 0},
+                                                                                {12, 20'000},
+                                                                                {0, 0x0300},
+                                                                                {12, 2000},
+                                                                                {0, 0x0304},
+                                                                                {0, 0x0305},
+                                                                                {12, 200},
+                                                                                {0, 0x0302},
+                                                                                {12, 500},
+                                                                                {0, 0x0106},
+                                                                                {12, 211},
+                                                                                {0, 0x0206},
+                                                                                {10, 0x0004},
+                                                                                {0, 0x010F},
+                                                                                {2, 0x8100},
+                                                                                {0, 0x0030}})
             device->write(offset, static_cast<std::uint16_t>(value));
         b.advance(microseconds(300));
     }
     EXPECT_EQ(wide.count(0), narrow.count(0));
     EXPECT_GT(wide.count(0), 100);
-    for (std::uint32_t offset = 0; offset < 16; offset += 2) EXPECT_EQ(wide.chip.read(offset), bus.read(offset)) << offset;
+    for (std::uint32_t offset = 0; offset < 16; offset += 2)
+        EXPECT_EQ(wide.chip.read(offset), bus.read(offset)) << offset;
     EXPECT_EQ(wide.chip.peek(6), bus.peek(6));
 }
 

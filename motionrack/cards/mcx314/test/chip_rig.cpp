@@ -109,7 +109,6 @@ class Watcher final : public sim::MotionListener {
 
 // A kernel with one chip, its wires and, perhaps, somebody who listens to its edges.
 class Bench {
-
   public:
     Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
         static constexpr const char* pins[] = {"in0",  "in1",   "in2",   "in3",  "expp",
@@ -126,7 +125,8 @@ class Bench {
         step_ = kernel_.find_wire("c.expls_n");
         for (int a = 0; a < axis_count; ++a)
             for (int line = 0; line < 2; ++line)
-                encoder_wires_[a][line] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + (line == 0 ? "eca" : "ecb"));
+                encoder_wires_[a][line] =
+                    kernel_.find_wire(std::string("c.") + "xyzu"[a] + (line == 0 ? "eca" : "ecb"));
         requests_.wire = chip_.interrupt_wire();
         kernel_.observe_wires(&requests_);
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].begin(chip_.pulses(a), a);

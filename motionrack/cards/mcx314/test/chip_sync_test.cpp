@@ -25,7 +25,8 @@ constexpr unsigned drive_plus = field("SM7", "FDRVP").mask, drive_minus = field(
                    quick_stop = field("SM7", "ISTOP").mask, save_lp = field("SM7", "LPSAV").mask,
                    save_ep = field("SM7", "EPSAV").mask, set_lp = field("SM7", "LPSET").mask,
                    set_ep = field("SM7", "EPSET").mask, set_p = field("SM7", "OPSET").mask,
-                   set_v = field("SM7", "VLSET").mask, out = field("SM7", "OUT").mask, interrupt = field("SM7", "INT").mask;
+                   set_v = field("SM7", "VLSET").mask, out = field("SM7", "OUT").mask,
+                   interrupt = field("SM7", "INT").mask;
 
 TEST(ChipSync, AnAxisThatReachesCompPlusStartsAnotherInTheSameTick) {
     Bench b(Variant::mcx314as);

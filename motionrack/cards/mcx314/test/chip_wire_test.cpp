@@ -207,7 +207,7 @@ TEST(ChipEncoder, WithoutAnEncoderTheLinesThemselvesCount) {
     EXPECT_EQ(b.ep(Z), 1);
 }
 
-// ---- listeners ------------------------------------------------------------------------------------------------------
+// ---- listeners
 
 class Watcher final : public sim::MotionListener {
   public:

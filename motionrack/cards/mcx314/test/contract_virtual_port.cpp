@@ -1,5 +1,5 @@
-// The contract tests' card here: a virtual chip of its own for each test. MOTIONRACK_VARIANT=mcx314as in the environment
-// makes it the other variant, which must do all that the original does.
+// The contract tests' card here: a virtual chip of its own for each test. MOTIONRACK_VARIANT=mcx314as in the
+// environment makes it the other variant, which must do all that the original does.
 #include <cstdlib>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/contract_port.hpp>
@@ -14,7 +14,8 @@ namespace {
 class VirtualContractPort final : public ContractPort {
   public:
     VirtualContractPort()
-        : chip_(kernel_, "c", {variant()}), port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), nanoseconds(500)) {
+        : chip_(kernel_, "c", {variant()}),
+          port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), nanoseconds(500)) {
         kernel_.start();
     }
     RegisterPort& registers() override { return port_; }

@@ -162,7 +162,7 @@ TEST(Curves, ASlowStopIsPlannedForAContinuousDrive) {
     EXPECT_GT(speed_after_fall(data, 800, 100), 700);
 }
 
-// ---- published numbers ----------------------------------------------------------------------------------------------
+// ---- published numbers
 
 TEST(Curves, TheMakersTrapezoidTakesTheTimesOfItsFormulas) {
     // R = 800,000 (M = 10), A = D = 200: 250,000 pulses/s2 from 1,000 to 40,000 pulses/s: 0.156 s and 3,198 pulses each

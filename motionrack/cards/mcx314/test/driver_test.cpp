@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// ---- messages -------------------------------------------------------------------------------------------------------
+// ---- messages
 
 TEST(DriverMessages, TellTheCauseThePlaceAndWhatToDo) {
     struct Case {
@@ -67,7 +67,7 @@ TEST(DriverMessages, LimitsAndMotionAreToldApart) {
     EXPECT_THAT(report.text(), HasSubstr("Y drives at LP " + std::to_string(report.lp)));
 }
 
-// ---- changes while driving ------------------------------------------------------------------------------------------
+// ---- changes while driving
 
 TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     DriverRig rig;

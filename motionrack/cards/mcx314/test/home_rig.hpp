@@ -1,5 +1,5 @@
-// A machine to be homed: the chip, its driver on a virtual bus, and for each axis motor, leadscrew, limit and home switches,
-// encoder with index.
+// A machine to be homed: the chip, its driver on a virtual bus, and for each axis motor, leadscrew, limit and home
+// switches, encoder with index.
 //
 //   driver ──► VirtualPort ──► chip ──pulses──► axis machine ──home──► xin0, ──enc_z──► xin2, ──limits──► xlmtp, xlmtm
 #pragma once
@@ -53,8 +53,13 @@ class Cam final : public sim::Device, private sim::MotionListener {
   public:
     /// From `low` to `high`, rotor pulses since the start. The wire `name` is 0 in between.
     Cam(sim::Kernel& kernel, const std::string& name, parts::AxisMachine& machine, std::int64_t low, std::int64_t high)
-        : kernel_(kernel), id_(kernel.add(*this, sim::Phase::parts, name)), wire_(kernel.add_wire(name, 1)), rotor_(machine.rotor()),
-          low_(low), high_(high), slot_(rotor_.listen(*this)) {
+        : kernel_(kernel),
+          id_(kernel.add(*this, sim::Phase::parts, name)),
+          wire_(kernel.add_wire(name, 1)),
+          rotor_(machine.rotor()),
+          low_(low),
+          high_(high),
+          slot_(rotor_.listen(*this)) {
         kernel_.schedule(id_, Instant{0});
     }
     sim::WireId wire() const { return wire_; }
@@ -66,9 +71,12 @@ class Cam final : public sim::Device, private sim::MotionListener {
     void look(Instant now) {
         const std::int64_t at = rotor_.count(now);
         kernel_.set_wire(wire_, at >= low_ && at <= high_ ? 0 : 1);
-        if (at < low_) rotor_.watch(slot_, sim::unwatched_below, low_);
-        else if (at > high_) rotor_.watch(slot_, high_, sim::unwatched_above);
-        else rotor_.watch(slot_, low_ - 1, high_ + 1);
+        if (at < low_)
+            rotor_.watch(slot_, sim::unwatched_below, low_);
+        else if (at > high_)
+            rotor_.watch(slot_, high_, sim::unwatched_above);
+        else
+            rotor_.watch(slot_, low_ - 1, high_ + 1);
     }
 
     sim::Kernel& kernel_;
@@ -82,7 +90,9 @@ class Cam final : public sim::Device, private sim::MotionListener {
 class HomeRig {
   public:
     explicit HomeRig(const std::vector<RigAxis>& axes = {RigAxis{}})
-        : chip(kernel, "c"), port(kernel, chip, chip.id(), chip.interrupt_wire(), nanoseconds(250)), driver(port, port),
+        : chip(kernel, "c"),
+          port(kernel, chip, chip.id(), chip.interrupt_wire(), nanoseconds(250)),
+          driver(port, port),
           junctions_(kernel, "wiring") {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const std::string axis(1, "XYZU"[i]), pin = std::string("c.") + "xyzu"[i];

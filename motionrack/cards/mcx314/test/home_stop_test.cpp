@@ -1,6 +1,6 @@
 // Homing interrupted, several axes at once, random places: what is trusted afterwards, and that everything stands.
-#include <gtest/gtest.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <motionrack/cards/mcx314/test/home_rig.hpp>
@@ -84,7 +84,8 @@ TEST(HomingStops, EmergencyStopAndAlarmAreTold) {
         rig.hold_wire(emergency ? "c.emgn" : "c.xalarm", 0);
         run_out(rig, one);
         EXPECT_EQ(one.report().fault, emergency ? HomeFault::emergency : HomeFault::alarm);
-        EXPECT_THAT(one.report().sentence, HasSubstr(emergency ? "emergency stop became active" : "alarm became active"));
+        EXPECT_THAT(one.report().sentence,
+                    HasSubstr(emergency ? "emergency stop became active" : "alarm became active"));
         EXPECT_FALSE(rig.driver.moving(1));
     }
 }
@@ -122,7 +123,7 @@ TEST(HomingStops, TheCallerWhoWaitsGivesUpAfterItsTime) {
     EXPECT_LT(rig.port.now(), whole_seconds(3));
 }
 
-// ---- several axes --------------------------------------------------------------------------------------------------
+// ---- several axes
 
 TEST(HomingTogether, TwoAxesHomeAtOnceAndTakeNoLongerThanTheSlowerOne) {
     HomeRig rig({RigAxis{.start_mm = 20}, RigAxis{.start_mm = 60, .bounce = milliseconds(1)}});
@@ -156,11 +157,13 @@ TEST(HomingTogether, WhenOneFailsTheOtherIsStopped) {
 }
 
 TEST(HomingTogether, TheSourcesFunctionsHomeEveryAxisOfTheMask) {
-    using Function = Result<std::vector<HomeReport>> (*)(Driver&, unsigned, unsigned, std::int64_t, std::int64_t, std::int64_t);
+    using Function =
+        Result<std::vector<HomeReport>> (*)(Driver&, unsigned, unsigned, std::int64_t, std::int64_t, std::int64_t);
     for (const Function function : {&HomeType1, &HomeType2, &HomeType3, &HomeType4}) {
         HomeRig rig({RigAxis{.start_mm = 12}, RigAxis{.start_mm = 23}});
         rig.start();
-        const auto done = function(rig.driver, axis_x | axis_y, 0x0012, 50, 1000, 100);  // IN0 active Low, IN2 active High
+        const auto done =
+            function(rig.driver, axis_x | axis_y, 0x0012, 50, 1000, 100);  // IN0 active Low, IN2 active High
         ASSERT_TRUE(done) << done.error().message;
         ASSERT_EQ(done->size(), 2u);
         EXPECT_TRUE((*done)[0].homed && (*done)[1].homed);
@@ -177,12 +180,12 @@ TEST(HomingTogether, TheSourcesFunctionsHomeEveryAxisOfTheMask) {
     EXPECT_EQ(rig.rotor(), 0);
 }
 
-// ---- any place, any speed ------------------------------------------------------------------------------------------
+// ---- any place, any speed
 
 RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere, ()) {
     const int type = *rc::gen::inRange(1, 5);
     RigAxis axis;
-    axis.home_mm = 1 + *rc::gen::inRange(1, 7) * 0.5;   // never at the index, which is at whole turns of 5 mm
+    axis.home_mm = 1 + *rc::gen::inRange(1, 7) * 0.5;  // never at the index, which is at whole turns of 5 mm
     axis.hysteresis_mm = *rc::gen::element(0.0, 0.05, 0.4);
     axis.bounce = *rc::gen::element(Duration{0}, microseconds(300), milliseconds(2));
     HomeSettings s = rig_settings(type);
@@ -204,7 +207,8 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
         RC_ASSERT(rig.driver.ReadEPS(0) == 0);
         RC_ASSERT(rig.machines[0]->lost_steps() == 0);
         // The search's edge was where the report says, although contacts bounce and looks are rare.
-        const std::int64_t edge = static_cast<std::int64_t>(axis.home_mm * pulses_per_mm) - static_cast<std::int64_t>(axis.start_mm * pulses_per_mm);
+        const std::int64_t edge = static_cast<std::int64_t>(axis.home_mm * pulses_per_mm) -
+                                  static_cast<std::int64_t>(axis.start_mm * pulses_per_mm);
         for (const HomeEdge& seen : done->edges) {
             if (seen.input != 0 || !seen.active) continue;
             RC_ASSERT(seen.lp <= edge);

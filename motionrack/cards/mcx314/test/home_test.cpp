@@ -1,6 +1,6 @@
 // Homing on the whole simulated machine: every type from every place, with bounce, missing switches, stops.
-#include <gtest/gtest.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/test/home_rig.hpp>
 
@@ -21,7 +21,9 @@ std::string states_of(const HomeReport& report) {
 }
 
 /// The first place at or below 1 mm, in pulses from `start_mm`.
-std::int64_t switch_pulses(double start_mm) { return static_cast<std::int64_t>(640 * (1 - start_mm)); }
+std::int64_t switch_pulses(double start_mm) {
+    return static_cast<std::int64_t>(640 * (1 - start_mm));
+}
 
 TEST(Homing, Type1SlowsDownAtTheSwitchAndHomeIsWhereItStands) {
     HomeRig rig;
@@ -67,7 +69,8 @@ TEST(Homing, Type3EndsAtTheFirstIndexAfterTheSwitch) {
     EXPECT_EQ(states_of(*done), "SEARCH_WAIT INDEX_WAIT HOMED");
     EXPECT_EQ(rig.rotor() % pulses_per_turn, 0);
     EXPECT_EQ(rig.rotor(), -4 * pulses_per_turn) << "switch at -12,160, slowed down at about -12,560";
-    EXPECT_NEAR(static_cast<double>(*done->switch_to_index()), 12'800 - 12'160, static_cast<double>(done->switch_within));
+    EXPECT_NEAR(static_cast<double>(*done->switch_to_index()), 12'800 - 12'160,
+                static_cast<double>(done->switch_within));
 }
 
 TEST(Homing, Type4EndsAtTheFirstIndexAfterTheSlowApproach) {
@@ -182,7 +185,8 @@ TEST_P(EachType, ReportsASwitchThatIsMissingAfterLookingBothWays) {
     const HomeSettings s = rig_settings(GetParam());
     const Result<HomeReport> done = home(rig.driver, 0, s);
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, HasSubstr("a limit switch ended the search in + direction, nor in the other direction"));
+    EXPECT_THAT(done.error().message,
+                HasSubstr("a limit switch ended the search in + direction, nor in the other direction"));
     EXPECT_NEAR(rig.position(), 30, 1);
 }
 
@@ -216,7 +220,8 @@ TEST(Homing, ReportsAnIndexThatIsNeverSeen) {
         rig.hold_wire("c.xin2", 0);
         const Result<HomeReport> done = home(rig.driver, 0, rig_settings(type));
         ASSERT_FALSE(done);
-        EXPECT_THAT(done.error().message, HasSubstr("the encoder's index (IN2, active High) was not seen within 3,200 pulses"));
+        EXPECT_THAT(done.error().message,
+                    HasSubstr("the encoder's index (IN2, active High) was not seen within 3,200 pulses"));
         EXPECT_FALSE(rig.driver.moving(1));
     }
 }
@@ -229,7 +234,7 @@ TEST(Homing, RefusesToTrustAnIndexAtTheSwitchItself) {
     EXPECT_THAT(done.error().message, HasSubstr("Shift the switch by half a motor turn"));
 }
 
-// ---- starting conditions -------------------------------------------------------------------------------------------
+// ---- starting conditions
 
 /// A cam of 8 mm, its edges in pulses from where the axis starts.
 struct CamRig : HomeRig {
@@ -268,7 +273,8 @@ TEST(Homing, AtTheLimitWithoutLeaveToTurnItSaysSo) {
     s.turn_at_limit = false;
     const Result<HomeReport> done = home(rig.driver, 0, s);
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, HasSubstr("was not found within 0 pulses, where a limit switch ended the search"));
+    EXPECT_THAT(done.error().message,
+                HasSubstr("was not found within 0 pulses, where a limit switch ended the search"));
     EXPECT_EQ(rig.rotor(), 0);
 }
 
@@ -296,7 +302,8 @@ TEST(Homing, RefusesWhatCannotBeDoneAndMovesNothing) {
         return started ? std::string() : started.error().message;
     };
     EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 5; }), HasSubstr("the type is 5, but may be 1 to 4"));
-    EXPECT_THAT(refusal([](HomeSettings& s) { s.slow_v = 51; }), HasSubstr("the slow speed (at most SV) is 51, but may be 1 to 50"));
+    EXPECT_THAT(refusal([](HomeSettings& s) { s.slow_v = 51; }),
+                HasSubstr("the slow speed (at most SV) is 51, but may be 1 to 50"));
     EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 4, s.index_input = 0; }), HasSubstr("both IN0"));
     EXPECT_THAT(refusal([](HomeSettings& s) { s.travel = 0; }), HasSubstr("the travel is 0"));
     rig.hold_wire("c.emgn", 0);

@@ -1,6 +1,6 @@
 // Manual operation on the simulated machine, with the time given in.
-#include <gtest/gtest.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/driver/manual.hpp>
 #include <motionrack/cards/mcx314/test/home_rig.hpp>
@@ -143,7 +143,8 @@ TEST(StepJog, IsStoppedByStop) {
     rig.manual.stop_now();
     rig.run(milliseconds(2));
     EXPECT_LE(rig.driver.ReadLPS(0) - before, 1);
-    EXPECT_NE(rig.machines[0]->lost_steps(), 0) << "a motor at 9,000 pulses/s does not stop at once: the position is lost";
+    EXPECT_NE(rig.machines[0]->lost_steps(), 0)
+        << "a motor at 9,000 pulses/s does not stop at once: the position is lost";
 }
 
 TEST(ManualHome, HomesWhileTheButtonIsHeld) {

@@ -37,7 +37,8 @@ TEST(Mcx314Map, TheStatesOfTheHomeSearchAreThoseThatHmstShows) {
         ASSERT_EQ(machine.states.size(), std::size(map::home_drives) + 1);
         for (std::size_t i = 0; i < machine.states.size(); ++i) {
             const int hmst = i == 0 ? 0 : map::home_drives[i - 1].hmst;
-            EXPECT_EQ(machine.states[i].meaning.find("HMST " + std::to_string(hmst) + ":"), 0u) << machine.states[i].name;
+            EXPECT_EQ(machine.states[i].meaning.find("HMST " + std::to_string(hmst) + ":"), 0u)
+                << machine.states[i].name;
         }
         return;
     }

@@ -69,7 +69,9 @@ TEST(Mcx314Oracle, RandomProgramsOfTheAsLookTheSameOnTheChipAndOnItsTwin) {
 }
 
 TEST(Mcx314Oracle, SoTheyDoWithTheOtherReadingsOfTheSources) {
-    const auto way = [](const Program& p) { return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, 0, 0}; };
+    const auto way = [](const Program& p) {
+        return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, 0, 0};
+    };
     std::uint64_t first = 20'000'000;
     for (const Variant variant : {Variant::mcx314, Variant::mcx314as}) {
         compare(first += 1000, 500, {variant, SlowDrive::at_sv, SoftwareLimit::beyond, 0}, way);

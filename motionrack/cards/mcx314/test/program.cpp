@@ -93,7 +93,7 @@ class Maker : private ExtensionActions {
         } else if (roll < 74) {
             command(axes(), random_.one_in(3) ? 0x27 : 0x26);
         } else if (roll < 84) {
-            external_ && random_.one_in(2) ? external() : wire();
+            external_&& random_.one_in(2) ? external() : wire();
         } else if (roll < 90) {
             modes();
         } else if (roll < 93) {

@@ -21,10 +21,10 @@ struct Op {
     Pin pin = Pin::in0;
 
     /// Things in the order in which they happen: two halves a tick, wires first.
-    std::int64_t order() const {
-        return tick * 4 + (between ? 2 : 0) + (is_wire() ? 0 : 1);
+    std::int64_t order() const { return tick * 4 + (between ? 2 : 0) + (is_wire() ? 0 : 1); }
+    bool is_wire() const {
+        return kind == Kind::input || kind == Kind::emergency || kind == Kind::step || kind == Kind::encoder;
     }
-    bool is_wire() const { return kind == Kind::input || kind == Kind::emergency || kind == Kind::step || kind == Kind::encoder; }
     bool is_read() const { return kind == Kind::read || kind == Kind::read_byte; }
 };
 

@@ -1,4 +1,5 @@
-// What random register programs do to an MCX314As besides: extension modes, home searches, synchronous actions, bounces.
+// What random register programs do to an MCX314As besides: extension modes, home searches, synchronous actions,
+// bounces.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/program_paths.hpp>
@@ -153,7 +154,7 @@ class ExtensionActions : protected Paths {
         if (random_.one_in(2)) data(1u << axis, 0x60, extension_mode());
         if (random_.one_in(2)) data(1u << axis, 0x06, random_.between(0, 30));
         if (random_.one_in(4)) mode(1u << axis, 2, random_.one_in(2) ? 4 : 0);
-        static constexpr Pin pins[] = {Pin::in0, Pin::in0, Pin::in1, Pin::in1,       Pin::in1,
+        static constexpr Pin pins[] = {Pin::in0, Pin::in0, Pin::in1, Pin::in1,        Pin::in1,
                                        Pin::in2, Pin::in2, Pin::in2, Pin::limit_plus, Pin::limit_minus};
         bool high[pin_count] = {true, true, true, true, true, true, true, true, true, true};
         if (random_.one_in(3)) input(axis, Pin::in1, high[1] = false);

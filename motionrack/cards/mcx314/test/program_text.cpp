@@ -95,8 +95,8 @@ std::string to_text(const Program& program) {
     std::string out = std::string(program.extended() ? "MCX314As, " : "") +
                       (options.slow_drive == SlowDrive::at_sv ? "slow drives at SV, " : "") +
                       (options.software_limit == SoftwareLimit::at ? "limits at COMP+, " : "") + "AO " +
-                      std::to_string(options.offset_after_reset) + ", seed " + std::to_string(program.seed) + ", program " + std::to_string(program.number) + ", " +
-                      std::to_string(program.ticks) + " ticks\n";
+                      std::to_string(options.offset_after_reset) + ", seed " + std::to_string(program.seed) +
+                      ", program " + std::to_string(program.number) + ", " + std::to_string(program.ticks) + " ticks\n";
     unsigned wr6 = 0, wr7 = 0;
     for (const Op& op : program.ops) {
         char line[160];
@@ -113,7 +113,8 @@ std::string to_text(const Program& program) {
         } else if (op.kind == Op::Kind::step) {
             n += std::snprintf(line + n, rest(), "EXPLSN = %d", op.value);
         } else if (op.kind == Op::Kind::write_byte) {
-            n += std::snprintf(line + n, rest(), "WR%d%c = %02X", op.offset / 2, op.offset % 2 != 0 ? 'H' : 'L', op.value);
+            n += std::snprintf(line + n, rest(), "WR%d%c = %02X", op.offset / 2, op.offset % 2 != 0 ? 'H' : 'L',
+                               op.value);
         } else if (op.kind == Op::Kind::read_byte) {
             n += std::snprintf(line + n, rest(), "read RR%d%c", op.offset / 2, op.offset % 2 != 0 ? 'H' : 'L');
         } else if (op.kind == Op::Kind::read) {

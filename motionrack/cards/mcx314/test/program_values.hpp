@@ -9,7 +9,8 @@ namespace motionrack::mcx314::twin {
 
 class Values {
   protected:
-    Values(std::uint64_t seed, std::uint64_t number, const ChipOptions& options) : random_(seed * 0x2545F4914F6CDD1Dull + number) {
+    Values(std::uint64_t seed, std::uint64_t number, const ChipOptions& options)
+        : random_(seed * 0x2545F4914F6CDD1Dull + number) {
         program_.options = options;
         program_.seed = seed;
         program_.number = number;

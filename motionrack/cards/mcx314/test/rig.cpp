@@ -207,7 +207,10 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
         if (t.value != c.value) {
             char line[80];
             std::snprintf(line, sizeof line, "RR%d%s twin %04X chip %04X; ", op.offset / 2,
-                          op.kind == Op::Kind::read ? "" : op.offset % 2 != 0 ? "H" : "L", t.value, c.value);
+                          op.kind == Op::Kind::read ? ""
+                          : op.offset % 2 != 0      ? "H"
+                                                    : "L",
+                          t.value, c.value);
             out += line;
         }
         if (t.interrupt != c.interrupt)
@@ -224,7 +227,8 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
         return out + "\n";
     }
     if (twin.conditions != chip.conditions)
-        out += "conditions: twin " + std::to_string(twin.conditions) + " chip " + std::to_string(chip.conditions) + "\n";
+        out +=
+            "conditions: twin " + std::to_string(twin.conditions) + " chip " + std::to_string(chip.conditions) + "\n";
     return out;
 }
 

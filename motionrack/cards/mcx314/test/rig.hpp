@@ -55,7 +55,7 @@ struct Outcome {
     std::vector<Pulse> pulses;  ///< by tick, then axis; only if they were listened to
     std::vector<Request> requests;
     std::array<std::vector<Crossing>, axis_count> crossings;  ///< only if somebody watched
-    std::vector<Change> changes;  ///< by instant, axis, pin; only if somebody followed
+    std::vector<Change> changes;                              ///< by instant, axis, pin; only if somebody followed
     std::uint64_t conditions = 0;                             ///< reported since the start
 };
 

@@ -1,6 +1,6 @@
 // The card's axis in millimetres: trust, moves, jog, homing, stops, on the simulated machine.
-#include <gtest/gtest.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <limits>
@@ -31,7 +31,8 @@ control::HomeOrder order(int type = 2) {
 }
 
 struct AxisRig : HomeRig {
-    explicit AxisRig(const RigAxis& axis = {}, const SingleAxisSettings& s = settings()) : HomeRig({axis}), x(driver, s) {
+    explicit AxisRig(const RigAxis& axis = {}, const SingleAxisSettings& s = settings())
+        : HomeRig({axis}), x(driver, s) {
         start();
         EXPECT_TRUE(SingleAxis::prepare(driver));
         EXPECT_TRUE(x.set_up());

@@ -52,7 +52,7 @@ void Twin::work(int a) {
     if (gen.stopping) end(a);
 }
 
-// ---- step 1 ---------------------------------------------------------------------------------------------------------
+// ---- step 1
 
 // Does generator `a` step axis `other` in the present segment (or is it its own)?
 bool Twin::moves_with(int a, int other) const {
@@ -64,7 +64,8 @@ bool Twin::moves_with(int a, int other) const {
 std::uint16_t Twin::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i) {
-        if (bit(axis.wr1, 2 * i + 1) && axis.level(static_cast<Pin>(i)) == bit(axis.wr1, 2 * i)) causes |= 1u << (8 + i);
+        if (bit(axis.wr1, 2 * i + 1) && axis.level(static_cast<Pin>(i)) == bit(axis.wr1, 2 * i))
+            causes |= 1u << (8 + i);
     }
     if (causes != 0) decelerating = true;
     const bool plus = axis.direction > 0;
@@ -137,7 +138,7 @@ void Twin::end(int a) {
     axes_[a].external = -1;
 }
 
-// ---- step 2 ---------------------------------------------------------------------------------------------------------
+// ---- step 2
 
 // A pulse of the generator; true if the drive ended with it.
 bool Twin::pulse(int a) {
@@ -268,7 +269,7 @@ void Twin::begin_segment(const Segment& segment) {
         if (path_.direction(i) != 0) axes_[segment.axis[i]].direction = path_.direction(i);
 }
 
-// ---- when the final deceleration begins -----------------------------------------------------------------------------
+// ---- when the final deceleration begins
 
 void Twin::check_final(int a) {
     const Axis& axis = axes_[a];
@@ -290,7 +291,7 @@ void Twin::check_final_of_path() {
     }
 }
 
-// ---- comparisons ----------------------------------------------------------------------------------------------------
+// ---- comparisons
 
 void Twin::compare(int a) {
     Axis& axis = axes_[a];

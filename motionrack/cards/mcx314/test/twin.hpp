@@ -63,10 +63,10 @@ struct Axis {
     unsigned compared = 0;       ///< the four comparisons as they were, in the bits of RR3
     bool waits_position = false;
     std::array<bool, 2> lines{true, true}, heard{true, true};  ///< encoder lines A and B, and as they were counted
-    std::array<int, 2> low{3, 3};  ///< ticks, up to 3, since nEXPP, nEXPM were seen High
-    std::int64_t pulse_end = 0;    ///< the tick at which the last pulse on its wire is over
+    std::array<int, 2> low{3, 3};                              ///< ticks, up to 3, since nEXPP, nEXPM were seen High
+    std::int64_t pulse_end = 0;                                ///< the tick at which the last pulse on its wire is over
     int pulse_direction = +1;
-    int external = -1;             ///< 0, 1: nEXPP, nEXPM drives until it is High
+    int external = -1;  ///< 0, 1: nEXPP, nEXPM drives until it is High
     bool hold = false;
     int held_command = 0;
     Segment held_segment;

@@ -35,7 +35,7 @@ void Twin::reset() {
     for (int a = 0; a < axis_count; ++a) compare(a);
 }
 
-// ---- writing --------------------------------------------------------------------------------------------------------
+// ---- writing
 
 void Twin::write(std::uint32_t offset, std::uint16_t value) {
     write_register(offset, value, 0xFFFF);
@@ -197,7 +197,7 @@ void Twin::data_read(int code, const Axis& axis) {
     rr7_ = static_cast<std::uint16_t>(value >> 16);
 }
 
-// ---- commands -------------------------------------------------------------------------------------------------------
+// ---- commands
 
 void Twin::drive_command(int code, unsigned axes) {
     for (int a = 0; a < axis_count; ++a) {
@@ -265,8 +265,7 @@ bool Twin::any_busy(const Segment& segment) const {
 void Twin::path_command(int code) {
     path_interrupt_ = false;
     const Segment segment = captured(code);
-    const bool no_place =
-        chain_ != 0 && (queued_ || path_.is_pattern() || segment.kind == Segment::Kind::pattern);
+    const bool no_place = chain_ != 0 && (queued_ || path_.is_pattern() || segment.kind == Segment::Kind::pattern);
     if (segment.names_an_axis_twice() || any_busy(segment) || no_place) {
         ++conditions_;
     } else if (chain_ != 0) {

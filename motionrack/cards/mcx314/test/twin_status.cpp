@@ -107,7 +107,7 @@ std::uint16_t Twin::levels(int a) const {
     return static_cast<std::uint16_t>(v);
 }
 
-// ---- output pins ----------------------------------------------------------------------------------------------------
+// ---- output pins
 
 // nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE of an axis.
 unsigned Twin::outputs(int a, bool pulse) const {

@@ -7,21 +7,7 @@ namespace motionrack::rtc5 {
 namespace {
 
 /// Places of the pins in map::pins.
-enum Pin : int {
-    enc0_a,
-    enc0_b,
-    enc1_a,
-    enc1_b,
-    start_n,
-    stop_n,
-    mcbsp,
-    mcbsp_frame,
-    laser_on,
-    xout,
-    yout,
-    busy,
-    io
-};
+enum Pin : int { enc0_a, enc0_b, enc1_a, enc1_b, start_n, stop_n, mcbsp, mcbsp_frame, laser_on, xout, yout, busy, io };
 static_assert(map::pins[laser_on].name == "laser_on" && map::pins[io].name == "io" && std::size(map::pins) == io + 1);
 
 constexpr Duration half_us = nanoseconds(500);

@@ -22,10 +22,10 @@ namespace motionrack::rtc5 {
 /// Outputs of consecutive ticks. In the 10 us of tick k the spot of ideal mirrors goes from the output of tick k-1 to
 /// that of tick k.
 struct Samples {
-    std::int64_t first = 0;                  ///< tick
-    std::span<const std::int32_t> x, y;      ///< head A, bits
-    std::span<const std::int32_t> x_b, y_b;  ///< head B, empty while it has no table selected
-    std::span<const std::uint8_t> laser;     ///< half-microseconds on, 0 .. 20
+    std::int64_t first = 0;                            ///< tick
+    std::span<const std::int32_t> x, y;                ///< head A, bits
+    std::span<const std::int32_t> x_b, y_b;            ///< head B, empty while it has no table selected
+    std::span<const std::uint8_t> laser;               ///< half-microseconds on, 0 .. 20
     std::span<const double> corrected_x, corrected_y;  ///< behind fly, before clipping; empty while no correction is on
 };
 
@@ -54,7 +54,8 @@ enum class StartFate : std::uint8_t {
     too_many,  ///< lost as it came: eight were waiting
 };
 
-/// Is told of lists that begin by an external start and of lists that end, in the tick itself; must not command the card.
+/// Is told of lists that begin by an external start and of lists that end, in the tick itself; must not command the
+/// card.
 class ListListener {
   public:
     virtual ~ListListener() = default;
@@ -73,10 +74,11 @@ class Engine {
     /// Where put() goes from here on: list 1 (odd numbers) or 2 (even ones), also while it runs. Positions are 0 ..
     /// 1048575; behind the list's end they are 0.
     Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
-    /// The same for a list that is not running: 1, 2, or the one that is free (0), free and run to its end (3). The list
-    /// opened, or 0: none, and put() is refused until one is.
+    /// The same for a list that is not running: 1, 2, or the one that is free (0), free and run to its end (3). The
+    /// list opened, or 0: none, and put() is refused until one is.
     Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
-    /// What is put up to list_return becomes subroutine `index` (0 .. 1023) in list 3; with nothing before it there is none.
+    /// What is put up to list_return becomes subroutine `index` (0 .. 1023) in list 3; with nothing before it there is
+    /// none.
     Result<void> load_sub(std::uint32_t index);
     /// Appends; refused when the list is full (nothing is changed). `command` must come from list_command().
     Result<void> put(const Command& command);
@@ -119,7 +121,8 @@ class Engine {
     void set_extstartpos(std::int64_t position) { state_.starts.position = position; }
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth);
     void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
-    /// What is no part of the state as the other card, whose state was copied, has it: tables, and the samples recorded.
+    /// What is no part of the state as the other card, whose state was copied, has it: tables, and the samples
+    /// recorded.
     void copy_beside_state(const Engine& other);
     void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y);
     Result<void> set_mcbsp_in(int mode, double scale);
@@ -335,7 +338,7 @@ class Engine {
     State state_;
     Inputs* inputs_ = nullptr;
     ListListener* listener_ = nullptr;
-    Start not_due_;                    // this start, until that tick, as far as the inputs were looked at
+    Start not_due_;  // this start, until that tick, as far as the inputs were looked at
     std::int64_t not_due_until_ = 0;
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
@@ -344,7 +347,7 @@ class Engine {
     std::int64_t filled_ = 0;  // the laser's samples are there up to this tick
     bool until_rest_ = false;  // the run ends when the card rests
     Extent extent_;
-    double block_z_ = 0;  // of the block's last tick
+    double block_z_ = 0;     // of the block's last tick
     bool evaluated_ = true;  // the output is that of the last tick
 };
 

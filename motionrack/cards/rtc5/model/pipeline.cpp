@@ -29,8 +29,7 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
     if (sink == nullptr) return;
     const auto ints = [&](std::size_t i) { return std::span<const std::int32_t>(b.out[i].data(), n); };
     sink->samples({state_.tick, ints(0), ints(1), second ? ints(2) : std::span<const std::int32_t>{},
-                   second ? ints(3) : std::span<const std::int32_t>{},
-                   std::span<const std::uint8_t>(b.laser.data(), n),
+                   second ? ints(3) : std::span<const std::int32_t>{}, std::span<const std::uint8_t>(b.laser.data(), n),
                    state_.fly.on() ? std::span<const double>(b.x.data(), n) : std::span<const double>{},
                    state_.fly.on() ? std::span<const double>(b.y.data(), n) : std::span<const double>{}});
 }

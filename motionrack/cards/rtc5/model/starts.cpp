@@ -88,7 +88,8 @@ std::int64_t Engine::ticks_to_start(std::int64_t limit) {
         return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);
     }
     if (inputs_ == nullptr) return limit;
-    const bool known = not_due_.target == start.target && not_due_.delay == start.delay && not_due_.encoder == start.encoder;
+    const bool known =
+        not_due_.target == start.target && not_due_.delay == start.delay && not_due_.encoder == start.encoder;
     if (known && state_.tick < not_due_until_) return std::min(limit, not_due_until_ - state_.tick);
     const auto n = block;
     load_counts(static_cast<int>(start.encoder), n);

@@ -125,9 +125,9 @@ struct Lists {
     std::int64_t input = 0, input_end = 0;  ///< where the next command goes
     std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
     std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
-    std::int64_t ended_unwritten = 0;  ///< times that a list ran into a place never written
-    std::array<std::int64_t, greatest_depth> returns{};  ///< of calls: where they go on
-    std::int64_t depth = 0, calls = 0, called_at = -1;   ///< calls in the tick called_at
+    std::int64_t ended_unwritten = 0;                          ///< times that a list ran into a place never written
+    std::array<std::int64_t, greatest_depth> returns{};        ///< of calls: where they go on
+    std::int64_t depth = 0, calls = 0, called_at = -1;         ///< calls in the tick called_at
     std::array<std::int64_t, subroutine_count> subroutines{};  ///< their begins in list 3; 0: none
     std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine that is being loaded, from 1; places
     std::int64_t loaded = list_status_bit("USED1") | list_status_bit("USED2");  ///< read_status without BUSY

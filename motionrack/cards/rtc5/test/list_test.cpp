@@ -127,10 +127,16 @@ TEST(Rtc5List, AListThatIsFullTakesNoMoreAndARunningOneIsNotStartedAgain) {
 }
 
 TEST(Rtc5List, ListsThatDoNotFitTheMemoryAreRefusedHoweverLongTheyAre) {
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max(), least = std::numeric_limits<std::int64_t>::min();
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max(),
+                           least = std::numeric_limits<std::int64_t>::min();
     Rig rig;
     const auto begin = rig.card.state().lists.begin;
-    for (const auto& [list1, list2] : {std::pair{most, std::int64_t{1}}, {most, most}, {std::int64_t{1}, most}, {most, std::int64_t{-1}}, {least, std::int64_t{-1}}, {least, least}}) {
+    for (const auto& [list1, list2] : {std::pair{most, std::int64_t{1}},
+                                       {most, most},
+                                       {std::int64_t{1}, most},
+                                       {most, std::int64_t{-1}},
+                                       {least, std::int64_t{-1}},
+                                       {least, least}}) {
         const auto refused = rig.card.config_list(list1, list2);
         ASSERT_FALSE(refused) << list1 << ", " << list2;
         EXPECT_NE(refused.error().message.find("do not fit a memory of"), std::string::npos) << refused.error().message;
@@ -234,7 +240,8 @@ TEST(Rtc5Starts, AListenerIsToldOfEachStartAndEndInItsTick) {
     rig.run(50);
     for (int i = 0; i < 7; ++i) rig.card.external_start();
     rig.card.run_to_rest(1000);
-    const std::vector<std::pair<std::int64_t, int>> expected = {{60, 2}, {100, 0}, {110, 1}, {120, 3}, {160, 0}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {180, 3}};
+    const std::vector<std::pair<std::int64_t, int>> expected = {
+        {60, 2}, {100, 0}, {110, 1}, {120, 3}, {160, 0}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {180, 3}};
     EXPECT_EQ(told.all, expected);
 }
 
@@ -308,7 +315,8 @@ TEST(Rtc5Card, EverySettingOfOneCardLeavesAnotherAlone) {
 }
 
 TEST(Rtc5List, TheTimeToRestDoesNotDependOnWhoLooks) {
-    for (const double target : {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
+    for (const double target :
+         {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
         Rig seen, unseen;
         for (Rig* rig : {&seen, &unseen}) {
             rig->card.set_jump_speed(10'000);

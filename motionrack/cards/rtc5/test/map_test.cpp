@@ -13,7 +13,8 @@ TEST(Rtc5Map, TheReferencePageIsCurrent) {
     std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/rtc5.md");
     std::stringstream stored;
     stored << file.rdbuf();
-    EXPECT_EQ(stored.str(), describe_markdown(card_map())) << "make it anew: motionrack describe rtc5 --markdown > docs/reference/rtc5.md";
+    EXPECT_EQ(stored.str(), describe_markdown(card_map()))
+        << "make it anew: motionrack describe rtc5 --markdown > docs/reference/rtc5.md";
 }
 
 TEST(Rtc5Map, CommandsTellTheirParameters) {

@@ -48,12 +48,14 @@ class Keeper final : public Sink {
     void samples(const Samples& b) override {
         EXPECT_EQ(b.first, static_cast<std::int64_t>(first + got.size()));
         for (std::size_t i = 0; i < b.x.size(); ++i)
-            got.push_back({b.x[i], b.y[i], b.x_b.empty() ? 0 : b.x_b[i], b.y_b.empty() ? 0 : b.y_b[i], b.laser[i], outside(b, i)});
+            got.push_back({b.x[i], b.y[i], b.x_b.empty() ? 0 : b.x_b[i], b.y_b.empty() ? 0 : b.y_b[i], b.laser[i],
+                           outside(b, i)});
     }
     static unsigned outside(const Samples& b, std::size_t i) {
         if (b.corrected_x.empty()) return 0;
         const double x = b.corrected_x[i], y = b.corrected_y[i];
-        return (x < field_least ? 1u : 0) | (x > field_greatest ? 2u : 0) | (y < field_least ? 4u : 0) | (y > field_greatest ? 8u : 0);
+        return (x < field_least ? 1u : 0) | (x > field_greatest ? 2u : 0) | (y < field_least ? 4u : 0) |
+               (y > field_greatest ? 8u : 0);
     }
     std::int64_t first = 0;
     std::vector<twin::Sample> got;

@@ -36,7 +36,8 @@ Sample Twin::tick() {
     Sample out;
     if (fly.kind != Kind::off) {
         flags(q);
-        out.outside = (q.x < -524288 ? 1u : 0) | (q.x > 524287 ? 2u : 0) | (q.y < -524288 ? 4u : 0) | (q.y > 524287 ? 8u : 0);
+        out.outside =
+            (q.x < -524288 ? 1u : 0) | (q.x > 524287 ? 2u : 0) | (q.y < -524288 ? 4u : 0) | (q.y > 524287 ? 8u : 0);
     }
     for (int h = 0; h < (second_head ? 2 : 1); ++h) {
         const Xy r = heads[h].of(q);

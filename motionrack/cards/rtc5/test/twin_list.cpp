@@ -1,9 +1,8 @@
 // The slow RTC5: lists, paths, waits.
-#include <motionrack/cards/rtc5/test/twin.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
+#include <motionrack/cards/rtc5/test/twin.hpp>
 
 namespace motionrack::rtc5::twin {
 
@@ -23,7 +22,8 @@ bool marks(Op op) {
 }
 /// A polyline does.
 bool goes_through(Op op) {
-    return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays, Op::set_trigger, Op::set_wobbel});
+    return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays,
+                       Op::set_trigger, Op::set_wobbel});
 }
 std::int64_t whole(double v) {
     return static_cast<std::int64_t>(v);
@@ -32,7 +32,9 @@ std::int64_t whole(double v) {
 }  // namespace
 
 Xy Twin::target(const Command& c) const {
-    if (!any_of(c.op, {Op::mark_rel, Op::jump_rel, Op::timed_mark_rel, Op::timed_jump_rel, Op::arc_rel, Op::micro_vector_rel})) return {c.p[0], c.p[1]};
+    if (!any_of(c.op, {Op::mark_rel, Op::jump_rel, Op::timed_mark_rel, Op::timed_jump_rel, Op::arc_rel,
+                       Op::micro_vector_rel}))
+        return {c.p[0], c.p[1]};
     return {std::clamp(p.x + c.p[0], -8388608.0, 8388607.0), std::clamp(p.y + c.p[1], -8388608.0, 8388607.0)};
 }
 
@@ -50,8 +52,10 @@ void Twin::list() {
         const int positions = c.op == Op::wait_for_encoder_in_range || c.op == Op::set_matrix_list ? 2 : 1;
         if (!skip) current = next;
         next += positions;
-        if (skip) skip = false;
-        else take(c);
+        if (skip)
+            skip = false;
+        else
+            take(c);
     }
     if (doing.what == Doing::wait) {
         doing.done = wait_over();
@@ -59,10 +63,12 @@ void Twin::list() {
     }
     ++doing.done;
     const double i = static_cast<double>(doing.done);
-    if (doing.what == Doing::line) p = doing.done == doing.steps ? doing.to : Xy{doing.from.x + i * doing.step.x, doing.from.y + i * doing.step.y};
+    if (doing.what == Doing::line)
+        p = doing.done == doing.steps ? doing.to : Xy{doing.from.x + i * doing.step.x, doing.from.y + i * doing.step.y};
     if (doing.what == Doing::arc) {
         const SinCos t = sin_cos(i * doing.step.x);
-        p = {doing.to.x + (t.cos * doing.from.x - t.sin * doing.from.y), doing.to.y + (t.sin * doing.from.x + t.cos * doing.from.y)};
+        p = {doing.to.x + (t.cos * doing.from.x - t.sin * doing.from.y),
+             doing.to.y + (t.sin * doing.from.x + t.cos * doing.from.y)};
     }
 }
 
@@ -88,7 +94,8 @@ void Twin::after() {
         const double dx = over.to.x - over.from.x, dy = over.to.y - over.from.y, length = std::sqrt(dx * dx + dy * dy);
         std::int64_t delay = jump_delay;
         if (jump_limit > 0 && length < jump_limit && least_jump < jump_delay)
-            delay = whole(std::floor(static_cast<double>(least_jump) + static_cast<double>(jump_delay - least_jump) * (length / jump_limit) + 0.5));
+            delay = whole(std::floor(static_cast<double>(least_jump) +
+                                     static_cast<double>(jump_delay - least_jump) * (length / jump_limit) + 0.5));
         hold(delay);
     }
     if (over.ending != 'm') return;
@@ -151,7 +158,8 @@ void Twin::mark(const Command& c) {
         }
     }
     if (c.op == Op::mark_abs || c.op == Op::mark_rel) return line_to(target(c), mark_speed, 'm');
-    if (c.op == Op::timed_mark_abs || c.op == Op::timed_mark_rel) return line_to(target(c), 0, 'm', std::max<std::int64_t>(1, whole(c.p[2] / 10)));
+    if (c.op == Op::timed_mark_abs || c.op == Op::timed_mark_rel)
+        return line_to(target(c), 0, 'm', std::max<std::int64_t>(1, whole(c.p[2] / 10)));
     const Xy middle = target(c), r{p.x - middle.x, p.y - middle.y};
     const double a = -c.p[2] * (pi / 180);
     doing = {};
@@ -174,15 +182,24 @@ void Twin::take(const Command& c) {
         return;
     }
     switch (c.op) {
-        case Op::none: return end_list(false);
-        case Op::set_end_of_list: return end_list(true);
-        case Op::list_nop: return hold(1);
-        case Op::long_delay: return hold(std::max<std::int64_t>(1, whole(v[0])));
-        case Op::laser_on_list: change_laser(now * 20, true); return hold(std::max<std::int64_t>(1, whole(v[0])), 'l');
-        case Op::laser_signal_on_list: return change_laser(now * 20, true);
-        case Op::laser_signal_off_list: return change_laser(now * 20, false);
+        case Op::none:
+            return end_list(false);
+        case Op::set_end_of_list:
+            return end_list(true);
+        case Op::list_nop:
+            return hold(1);
+        case Op::long_delay:
+            return hold(std::max<std::int64_t>(1, whole(v[0])));
+        case Op::laser_on_list:
+            change_laser(now * 20, true);
+            return hold(std::max<std::int64_t>(1, whole(v[0])), 'l');
+        case Op::laser_signal_on_list:
+            return change_laser(now * 20, true);
+        case Op::laser_signal_off_list:
+            return change_laser(now * 20, false);
         case Op::jump_abs:
-        case Op::jump_rel: return jump(target(c));
+        case Op::jump_rel:
+            return jump(target(c));
         case Op::timed_jump_abs:
         case Op::timed_jump_rel: {
             const Xy to = target(c);
@@ -194,65 +211,101 @@ void Twin::take(const Command& c) {
             std::vector<std::pair<double, bool>> changes_here;
             if (v[3] >= 0 && v[3] < 20) changes_here.push_back({v[3], false});
             if (v[2] >= 0 && v[2] < 20) changes_here.push_back({v[2], true});
-            std::stable_sort(changes_here.begin(), changes_here.end(), [](auto& a, auto& b) { return a.first < b.first; });
+            std::stable_sort(changes_here.begin(), changes_here.end(),
+                             [](auto& a, auto& b) { return a.first < b.first; });
             for (const auto& [at, on] : changes_here) change_laser(now * 20 + whole(at), on);
             return line_to(target(c), 0, 0, 1);
         }
-        case Op::set_jump_speed: jump_speed = v[0]; return;
-        case Op::set_mark_speed: mark_speed = v[0]; return;
-        case Op::set_scanner_delays: jump_delay = whole(v[0]), mark_delay = whole(v[1]), polygon_delay = whole(v[2]); return;
-        case Op::set_laser_delays: laser_on = whole(v[0]), laser_off = whole(v[1]); return;
-        case Op::write_io_port_list: io = whole(v[0]); return;
-        case Op::set_rot_center_list: centre = {v[0], v[1]}; return;
+        case Op::set_jump_speed:
+            jump_speed = v[0];
+            return;
+        case Op::set_mark_speed:
+            mark_speed = v[0];
+            return;
+        case Op::set_scanner_delays:
+            jump_delay = whole(v[0]), mark_delay = whole(v[1]), polygon_delay = whole(v[2]);
+            return;
+        case Op::set_laser_delays:
+            laser_on = whole(v[0]), laser_off = whole(v[1]);
+            return;
+        case Op::write_io_port_list:
+            io = whole(v[0]);
+            return;
+        case Op::set_rot_center_list:
+            centre = {v[0], v[1]};
+            return;
         case Op::store_encoder:
             for (int e = 0; e < 2; ++e) stored[whole(v[0]) * 2 + e] = encoders[e].count();
             return;
         case Op::set_fly_limits:
             for (int i = 0; i < 4; ++i) limits[i] = whole(v[i]);
             return;
-        case Op::set_fly_limits_z: limits[4] = whole(v[0]), limits[5] = whole(v[1]); return;
+        case Op::set_fly_limits_z:
+            limits[4] = whole(v[0]), limits[5] = whole(v[1]);
+            return;
         case Op::clear_fly_overflow:
             if (v[0] == 0 || whole(v[0]) & 1) marking &= ~0x30u;
             if (v[0] == 0 || whole(v[0]) & 2) marking &= ~0xC0u;
             if (v[0] == 0 || whole(v[0]) & 4) marking &= ~0x3000000u;
             return;
-        case Op::set_ext_start_delay_list: start_delay = whole(v[0]), start_encoder = static_cast<int>(v[1]); return;
-        case Op::simulate_ext_start:
-            if (asked.size() < 8) asked.push_back({0, whole(v[0]), static_cast<int>(v[1])});
-            else startstop |= 1u << 11;
+        case Op::set_ext_start_delay_list:
+            start_delay = whole(v[0]), start_encoder = static_cast<int>(v[1]);
             return;
-        case Op::set_control_mode_list: control = static_cast<std::uint32_t>(v[0]); return;
+        case Op::simulate_ext_start:
+            if (asked.size() < 8)
+                asked.push_back({0, whole(v[0]), static_cast<int>(v[1])});
+            else
+                startstop |= 1u << 11;
+            return;
+        case Op::set_control_mode_list:
+            control = static_cast<std::uint32_t>(v[0]);
+            return;
         case Op::set_encoder_speed:
             watch_speed = true;
             smooth = v[2];
             for (Counter& e : encoders) e.slow1 = e.slow2 = 0;
             return;
-        case Op::set_mcbsp_in_list: return set_mcbsp_in(static_cast<int>(v[0]), v[1]);
-        case Op::set_multi_mcbsp_in_list: return set_multi();
-        case Op::get_mcbsp_list: locations[0] = static_cast<std::int32_t>(word); return;
-        case Op::set_mcbsp_x_list: return set_one_online(0, v[0]);
-        case Op::set_mcbsp_y_list: return set_one_online(1, v[0]);
-        case Op::set_mcbsp_rot_list: return set_one_online(2, v[0]);
-        case Op::set_mcbsp_matrix_list: return set_online_matrix();
-        case Op::apply_mcbsp_list: return apply_online(c.head, static_cast<int>(v[0]));
+        case Op::set_mcbsp_in_list:
+            return set_mcbsp_in(static_cast<int>(v[0]), v[1]);
+        case Op::set_multi_mcbsp_in_list:
+            return set_multi();
+        case Op::get_mcbsp_list:
+            locations[0] = static_cast<std::int32_t>(word);
+            return;
+        case Op::set_mcbsp_x_list:
+            return set_one_online(0, v[0]);
+        case Op::set_mcbsp_y_list:
+            return set_one_online(1, v[0]);
+        case Op::set_mcbsp_rot_list:
+            return set_one_online(2, v[0]);
+        case Op::set_mcbsp_matrix_list:
+            return set_online_matrix();
+        case Op::apply_mcbsp_list:
+            return apply_online(c.head, static_cast<int>(v[0]));
         case Op::set_wobbel:
             across = v[0], along = v[1], wobbel_turns = v[2] / 100000;
             wobbel_step = 0;
             wobbel_direction = {1, 0};
             return;
-        case Op::list_call: return call(whole(v[0]));
-        case Op::sub_call: return call(subroutines[whole(v[0])] == 0 ? -1 : subroutines[whole(v[0])]);
+        case Op::list_call:
+            return call(whole(v[0]));
+        case Op::sub_call:
+            return call(subroutines[whole(v[0])] == 0 ? -1 : subroutines[whole(v[0])]);
         case Op::list_return:
             if (returns.empty()) return hold(1);
             next = returns.back();
             returns.pop_back();
             return;
-        case Op::set_trigger: return set_trigger(c);
-        case Op::set_trigger4: set_trigger(c); return hold(1);
+        case Op::set_trigger:
+            return set_trigger(c);
+        case Op::set_trigger4:
+            set_trigger(c);
+            return hold(1);
         case Op::set_matrix_list:
         case Op::set_offset_list:
         case Op::set_angle_list:
-        case Op::set_scale_list: return transform_command(c);
+        case Op::set_scale_list:
+            return transform_command(c);
         case Op::wait_for_encoder:
         case Op::wait_for_encoder_mode:
         case Op::wait_for_encoder_in_range:
@@ -262,7 +315,8 @@ void Twin::take(const Command& c) {
             doing.steps = 1;
             doing.command = c;
             return;
-        default: return fly_command(c);
+        default:
+            return fly_command(c);
     }
 }
 
@@ -291,7 +345,8 @@ bool Twin::wait_over() const {
         const double x = encoders[0].count(), y = encoders[1].count();
         return x >= v[0] && x <= v[1] && y >= v[2] && y <= v[3];
     }
-    if (c.op == Op::wait_for_mcbsp) return reached(whole(v[1]), whole(v[2]), axis(word_before, v[0] != 0), axis(word, v[0] != 0));
+    if (c.op == Op::wait_for_mcbsp)
+        return reached(whole(v[1]), whole(v[2]), axis(word_before, v[0] != 0), axis(word, v[0] != 0));
     const Counter& e = encoders[whole(v[1])];
     return reached(whole(v[0]), c.op == Op::wait_for_encoder ? 0 : whole(v[2]), e.before, e.count());
 }
@@ -311,8 +366,10 @@ bool Twin::zero(std::vector<int> which) {
     }
     bool empty = false;
     for (const int e : which) {
-        if (control & 512) encoders[e].reset_at_start = true;
-        else encoders[e].zero = encoders[e].travel;
+        if (control & 512)
+            encoders[e].reset_at_start = true;
+        else
+            encoders[e].zero = encoders[e].travel;
         empty = empty || tracking[e] != 0;
     }
     if (!empty) return false;
@@ -354,10 +411,14 @@ void Twin::fly_command(const Command& c) {
             if (zero({0, 1})) return;
             both(Kind::two_d);
             break;
-        case Op::activate_fly_xy: both(Kind::encoder); break;
+        case Op::activate_fly_xy:
+            both(Kind::encoder);
+            break;
         case Op::activate_fly_2d:
-            if (table_2d != nullptr) both(Kind::two_d);
-            else set_flag(9);
+            if (table_2d != nullptr)
+                both(Kind::two_d);
+            else
+                set_flag(9);
             break;
         case Op::set_fly_x_pos:
         case Op::set_fly_y_pos:
@@ -387,7 +448,8 @@ void Twin::fly_command(const Command& c) {
                 p = {clip24(p.x + (q.x - g.x)), clip24(p.y + (q.y - g.y))};
             }
             return jump(v[0] == 0 ? park_from : Xy{v[1], v[2]});
-        default: return;
+        default:
+            return;
     }
     const bool turn = fly.kind == Kind::turn || fly.kind == Kind::mcbsp_turn;
     if (!turn && !fly.x && !fly.y && !fly.z) fly = {};

@@ -111,7 +111,8 @@ TEST(Curve, RestsWhereTheProgramSaysSo) {
 TEST(Curve, RestsWhereThePathTurnsByMoreThan120Degrees) {
     for (const double degrees : {100.0, 119.0, 121.0, 180.0}) {
         const SinCos out = sin_cos(degrees * pi / 180);
-        EXPECT_EQ(rests({slow(line_to({10, 0, 0})), slow(line_to({10 + 10 * out.cos, 10 * out.sin, 0}))}), degrees < 120 ? 1 : 2)
+        EXPECT_EQ(rests({slow(line_to({10, 0, 0})), slow(line_to({10 + 10 * out.cos, 10 * out.sin, 0}))}),
+                  degrees < 120 ? 1 : 2)
             << degrees;
     }
     EXPECT_EQ(rests({line_to({0, 0, 0, 90, 0, 0}), line_to({0, 0, 0, 0, 0, 0})}), 2);

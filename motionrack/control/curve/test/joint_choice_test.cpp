@@ -38,7 +38,8 @@ double seconds_of(const Row& row, unsigned stops) {
     double seconds = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {
         const bool begin = i == 0 || (stops >> (i - 1) & 1) != 0, end = (stops >> i & 1) != 0;
-        if (!(end ? row.joints[i + 1].can_stop : row.joints[i + 1].can_pass)) return std::numeric_limits<double>::infinity();
+        if (!(end ? row.joints[i + 1].can_stop : row.joints[i + 1].can_pass))
+            return std::numeric_limits<double>::infinity();
         seconds += leg_seconds(row.legs[i], row.joints[i], begin, row.joints[i + 1], end);
     }
     return seconds;
@@ -61,7 +62,8 @@ TEST(AChoiceOfJoints, IsTheQuickestOfAllRows) {
     for (unsigned seed = 1; seed <= 300; ++seed) {
         const Row row = random_row(seed, 1 + seed % 9);
         double least = std::numeric_limits<double>::infinity();
-        for (unsigned stops = 0; stops < 1u << row.legs.size(); ++stops) least = std::min(least, seconds_of(row, stops));
+        for (unsigned stops = 0; stops < 1u << row.legs.size(); ++stops)
+            least = std::min(least, seconds_of(row, stops));
         ASSERT_NEAR(seconds_of(row, chosen(row)) / least, 1, 1e-12) << seed;
     }
 }

@@ -18,13 +18,17 @@ double seconds_of(std::span<const FeedPiece> feed) {
 
 class ALineWithEasedEnds : public testing::Test {
   protected:
-    double between(double a, double b) { return a * std::exp(std::log(b / a) * std::uniform_real_distribution<>(0, 1)(random_)); }
+    double between(double a, double b) {
+        return a * std::exp(std::log(b / a) * std::uniform_real_distribution<>(0, 1)(random_));
+    }
 
     /// One or both ends eased.
     std::vector<FeedSpan> spans() {
-        const double length = between(0.05, 100), speed = between(5, 200), accel = between(200, 5000), jerk = between(5e3, 1e6);
+        const double length = between(0.05, 100), speed = between(5, 200), accel = between(200, 5000),
+                     jerk = between(5e3, 1e6);
         std::vector<FeedSpan> out(3, {0, speed, accel, jerk});
-        for (const std::size_t end : {0u, 2u}) out[end].length = length * between(1e-4, 0.3), out[end].jerk = jerk * between(0.1, 0.8);
+        for (const std::size_t end : {0u, 2u})
+            out[end].length = length * between(1e-4, 0.3), out[end].jerk = jerk * between(0.1, 0.8);
         out[1].length = length - out[0].length - out[2].length;
         const auto kinds = random_() % 3;
         if (kinds == 1) out.pop_back();
@@ -75,9 +79,12 @@ TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutJumpsAndIsNoSlowerThanByCells) {
 
 TEST(AnEasedFeed, IsNotWrittenWhereItsEndsAreTooLongOrItsMiddleIsUnlike) {
     std::vector<FeedPiece> feed;
-    EXPECT_FALSE(write_eased_feed(std::vector<FeedSpan>{{1, 1, 2000, 20'000}, {1, 1, 2000, 40'000}, {1, 1, 2000, 20'000}}, feed));
-    EXPECT_FALSE(write_eased_feed(std::vector<FeedSpan>{{0.1, 50, 2000, 20'000}, {1, 60, 2000, 40'000}, {0.1, 50, 2000, 20'000}}, feed));
-    EXPECT_FALSE(write_eased_feed(std::vector<FeedSpan>{{0.1, 50, 2000, 40'000}, {1, 50, 2000, 20'000}, {0.1, 50, 2000, 40'000}}, feed));
+    EXPECT_FALSE(write_eased_feed(
+        std::vector<FeedSpan>{{1, 1, 2000, 20'000}, {1, 1, 2000, 40'000}, {1, 1, 2000, 20'000}}, feed));
+    EXPECT_FALSE(write_eased_feed(
+        std::vector<FeedSpan>{{0.1, 50, 2000, 20'000}, {1, 60, 2000, 40'000}, {0.1, 50, 2000, 20'000}}, feed));
+    EXPECT_FALSE(write_eased_feed(
+        std::vector<FeedSpan>{{0.1, 50, 2000, 40'000}, {1, 50, 2000, 20'000}, {0.1, 50, 2000, 40'000}}, feed));
     EXPECT_TRUE(feed.empty());
 }
 

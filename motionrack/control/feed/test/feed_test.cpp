@@ -26,7 +26,9 @@ class RandomSpans {
             for (FeedSpan& span : out) span.brake = between(10, 1e4);
         return out;
     }
-    double between(double least, double most) { return least * std::exp(std::log(most / least) * std::uniform_real_distribution<>(0, 1)(random_)); }
+    double between(double least, double most) {
+        return least * std::exp(std::log(most / least) * std::uniform_real_distribution<>(0, 1)(random_));
+    }
 
   private:
     std::mt19937 random_;
@@ -53,7 +55,8 @@ Peaks peaks_of(std::span<const FeedPiece> pieces, const std::vector<FeedSpan>& s
     const double length = length_of(spans);
     FeedState last;
     const auto jump = [&](const FeedState& state) {
-        out.jump = std::max({out.jump, std::fabs(state.place - last.place) / length, std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
+        out.jump = std::max({out.jump, std::fabs(state.place - last.place) / length,
+                             std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
                              std::fabs(state.accel - last.accel) / spans.front().accel});
     };
     std::size_t k = 0;
@@ -66,8 +69,8 @@ Peaks peaks_of(std::span<const FeedPiece> pieces, const std::vector<FeedSpan>& s
             // Where two spans meet those of either hold.
             FeedSpan span = spans[k];
             if (k + 1 < spans.size() && state.place > end - 1e-10 * length)
-                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel), std::max(span.jerk, spans[k + 1].jerk),
-                        std::max(span.brake, spans[k + 1].brake)};
+                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel),
+                        std::max(span.jerk, spans[k + 1].jerk), std::max(span.brake, spans[k + 1].brake)};
             out.speed = std::max(out.speed, state.speed / span.speed);
             out.accel = std::max({out.accel, state.accel / span.accel, -state.accel / span.brake});
             out.jerk = std::max(out.jerk, std::fabs(state.jerk) / span.jerk);
@@ -82,7 +85,8 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
     FeedPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
         for (const double speed : {100.0, 5.0}) {
-            const std::vector<FeedSpan> spans = {{0.3 * length, speed, 1000, 20'000}, {0.7 * length, speed, 1000, 20'000}};
+            const std::vector<FeedSpan> spans = {{0.3 * length, speed, 1000, 20'000},
+                                                 {0.7 * length, speed, 1000, 20'000}};
             const auto pieces = planner.plan(spans);
             EXPECT_NEAR(seconds_of(pieces) / SCurve(length, speed, 1000, 20'000).duration(), 1, 1e-12) << length;
             const Peaks peaks = peaks_of(pieces, spans);
@@ -108,7 +112,8 @@ TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
 TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
     FeedPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
-        const std::vector<FeedSpan> spans = {{0.5 * length, 100, 1000, 20'000}, {0.5 * length, 100.000001, 1000, 20'000}};
+        const std::vector<FeedSpan> spans = {{0.5 * length, 100, 1000, 20'000},
+                                             {0.5 * length, 100.000001, 1000, 20'000}};
         const double quickest = SCurve(length, 100, 1000, 20'000).duration();
         const double seconds = seconds_of(planner.plan(spans));
         EXPECT_GE(seconds, quickest * (1 - 1e-6)) << length;
@@ -144,7 +149,8 @@ TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
     EXPECT_NEAR(seconds_of(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
 }
 
-/// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the place is left.
+/// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the
+/// place is left.
 TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
     FeedPlanner planner;
     RandomSpans random(7);
@@ -152,7 +158,8 @@ TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
     for (int run = 0; run < 1000; ++run) {
         const std::vector<FeedSpan> spans = random.next(6);
         double stopping = 0;
-        for (const FeedSpan& span : spans) stopping += SCurve(span.length, span.speed, span.accel, span.jerk).duration();
+        for (const FeedSpan& span : spans)
+            stopping += SCurve(span.length, span.speed, span.accel, span.jerk).duration();
         const double seconds = seconds_of(planner.plan(spans));
         ASSERT_LE(seconds, 1.5 * stopping) << run;
         slower += seconds > 1.01 * stopping;
@@ -207,7 +214,9 @@ TEST(AFeedProfile, TakesLimitsOfAnySize) {
     RandomSpans random(11);
     for (int run = 0; run < 2000; ++run) {
         std::vector<FeedSpan> spans(1 + run % 5);
-        for (FeedSpan& span : spans) span = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7), random.between(1e-3, 1e10)};
+        for (FeedSpan& span : spans)
+            span = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7),
+                    random.between(1e-3, 1e10)};
         for (FeedSpan& span : spans) span.brake = run % 2 == 0 ? span.accel : random.between(1e-3, 1e7);
         const auto pieces = planner.plan(spans);
         const double seconds = seconds_of(pieces);
@@ -219,11 +228,13 @@ TEST(AFeedProfile, TakesLimitsOfAnySize) {
 
 TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::vector<FeedSpan> spans;
-    for (int i = 0; i < 300; ++i) spans.push_back({0.05 + 0.3 * (i % 7), 10.0 + i * 37 % 90, 500.0 + i * 13 % 700, 9000.0 + i * 101 % 20'000});
+    for (int i = 0; i < 300; ++i)
+        spans.push_back({0.05 + 0.3 * (i % 7), 10.0 + i * 37 % 90, 500.0 + i * 13 % 700, 9000.0 + i * 101 % 20'000});
     std::uint64_t fold = 0;
     FeedPlanner planner;
     for (const FeedPiece& piece : planner.plan(spans))
-        for (const double value : {piece.begin, piece.length, piece.seconds, piece.square, piece.slope, piece.bend, piece.jerk, piece.at(0.3 * piece.seconds).place})
+        for (const double value : {piece.begin, piece.length, piece.seconds, piece.square, piece.slope, piece.bend,
+                                   piece.jerk, piece.at(0.3 * piece.seconds).place})
             fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
     EXPECT_EQ(fold, 713957576561859831u);
 }
@@ -264,14 +275,17 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
     int steady = 0, steady_found = 0, found = 0, all = 0;
     for (int n = 0; n < 1500; ++n) {
         std::vector<FeedSpan> spans = random.next(20);
-        for (FeedSpan& span : spans) span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000), random.between(5e3, 1e5)};
+        for (FeedSpan& span : spans)
+            span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000),
+                    random.between(5e3, 1e5)};
         const std::span<const FeedPiece> plan = planner.plan(spans);
         double time = random.between(0.02, 0.9) * seconds_of(plan), left = seconds_of(plan) - time;
         std::size_t k = 0;
         while (time > plan[k].seconds) time -= plan[k++].seconds;
         const FeedState state = plan[k].at(time);
         const std::vector<FeedSpan> rest = spans_from(spans, state.place);
-        const std::span<const FeedPiece> next = on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
+        const std::span<const FeedPiece> next =
+            on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
         const bool is_steady = state.accel > -1 && state.jerk > -1;
         ++all;
         steady += is_steady;
@@ -296,7 +310,8 @@ TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
     const std::vector<FeedSpan> spans = {{0.2, 10, 1000, 20'000}};
     EXPECT_TRUE(planner.plan_from({100, 0}, spans).empty());  // the jerk needs 0.2236 mm
     EXPECT_FALSE(planner.plan_from({100, 0}, std::vector<FeedSpan>{{0.3, 10, 1000, 20'000}}).empty());
-    EXPECT_TRUE(planner.plan_from({101, 0}, std::vector<FeedSpan>{{50, 10, 1000, 20'000}}).empty());  // too fast already
+    EXPECT_TRUE(
+        planner.plan_from({101, 0}, std::vector<FeedSpan>{{50, 10, 1000, 20'000}}).empty());  // too fast already
 }
 
 TEST(ACell, ThatSlowsDownAndSpeedsUpAgainTakesItsTime) {

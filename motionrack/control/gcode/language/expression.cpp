@@ -12,7 +12,22 @@
 namespace motionrack::control::gcode {
 
 enum class ExpressionReader::Operator : unsigned char {
-    none, power, times, over, modulo, plus, minus, equal, unequal, greater, not_less, less, not_greater, both, any, one
+    none,
+    power,
+    times,
+    over,
+    modulo,
+    plus,
+    minus,
+    equal,
+    unequal,
+    greater,
+    not_less,
+    less,
+    not_greater,
+    both,
+    any,
+    one
 };
 
 namespace {
@@ -135,7 +150,8 @@ bool ExpressionReader::value(const char*& at, double& value) {
     if (at == end_) return fail(at, "a value is missing here: a number, #1, #<name> or [ ]");
     const char* begin = at;
     const char* bracket_at = at;
-    if (++depth_ > deepest) return fail(at, fmt::format("more than {} brackets, signs or '#' stand in each other here", deepest));
+    if (++depth_ > deepest)
+        return fail(at, fmt::format("more than {} brackets, signs or '#' stand in each other here", deepest));
     bool good = false;
     if (*at == '[') {
         good = bracket(at, value);
@@ -147,8 +163,11 @@ bool ExpressionReader::value(const char*& at, double& value) {
         } else if (good) {
             const auto known = source_.named(name.name);
             if (!known)
-                return fail(begin, fmt::format("#<{}> has no value yet; set it before, e.g. #<{}> = 1 (EXISTS[#<{}>] asks whether it has)",
-                                               name.name, name.name, name.name));
+                return fail(
+                    begin,
+                    fmt::format(
+                        "#<{}> has no value yet; set it before, e.g. #<{}> = 1 (EXISTS[#<{}>] asks whether it has)",
+                        name.name, name.name, name.name));
             value = *known;
         }
     } else if (function_at(at, end_, bracket_at) != Function::none) {
@@ -163,9 +182,11 @@ bool ExpressionReader::value(const char*& at, double& value) {
         value = number.value;
         good = number.fault == NumberFault::none;
         if (!good)
-            return fail(begin, number.fault == NumberFault::too_large   ? "this number is too large; the largest is 1000000000"
-                               : number.fault == NumberFault::two_points ? "this number has two decimal points"
-                                                                         : "this is no value: a number, #1, #<name>, a function or [ ] is expected");
+            return fail(begin, number.fault == NumberFault::too_large
+                                   ? "this number is too large; the largest is 1000000000"
+                               : number.fault == NumberFault::two_points
+                                   ? "this number has two decimal points"
+                                   : "this is no value: a number, #1, #<name>, a function or [ ] is expected");
     }
     --depth_;
     skip(at);
@@ -188,10 +209,11 @@ ExpressionReader::Operator ExpressionReader::operator_at(const char* at, const c
         std::string_view text;
         Operator what;
     };
-    static constexpr Sign signs[] = {{"**", Operator::power}, {"*", Operator::times}, {"/", Operator::over}, {"+", Operator::plus},
-                                     {"-", Operator::minus}, {"mod", Operator::modulo}, {"eq", Operator::equal}, {"ne", Operator::unequal},
-                                     {"gt", Operator::greater}, {"ge", Operator::not_less}, {"lt", Operator::less}, {"le", Operator::not_greater},
-                                     {"and", Operator::both}, {"or", Operator::any}, {"xor", Operator::one}};
+    static constexpr Sign signs[] = {
+        {"**", Operator::power},   {"*", Operator::times},     {"/", Operator::over},   {"+", Operator::plus},
+        {"-", Operator::minus},    {"mod", Operator::modulo},  {"eq", Operator::equal}, {"ne", Operator::unequal},
+        {"gt", Operator::greater}, {"ge", Operator::not_less}, {"lt", Operator::less},  {"le", Operator::not_greater},
+        {"and", Operator::both},   {"or", Operator::any},      {"xor", Operator::one}};
     for (const Sign& sign : signs) {
         if (!stands(at, end_, sign.text)) continue;
         after = at + sign.text.size();
@@ -223,7 +245,9 @@ bool ExpressionReader::apply(const char* at, Operator what, double& left, double
             if (left == 0 && right < 0) return fail(at, fmt::format("0 ** {:.6g} is a division by zero", right));
             left = power(left, right);
             break;
-        case Operator::times: left *= right; break;
+        case Operator::times:
+            left *= right;
+            break;
         case Operator::over:
             if (right == 0) return fail(at, "division by zero");
             left /= right;
@@ -233,18 +257,41 @@ bool ExpressionReader::apply(const char* at, Operator what, double& left, double
             left = std::fmod(left, right);
             if (left < 0) left += std::fabs(right);
             break;
-        case Operator::plus: left += right; break;
-        case Operator::minus: left -= right; break;
-        case Operator::equal: left = std::fabs(left - right) < same; break;
-        case Operator::unequal: left = std::fabs(left - right) >= same; break;
-        case Operator::greater: left = left > right; break;
-        case Operator::not_less: left = left >= right; break;
-        case Operator::less: left = left < right; break;
-        case Operator::not_greater: left = left <= right; break;
-        case Operator::both: left = left != 0 && right != 0; break;
-        case Operator::any: left = left != 0 || right != 0; break;
-        case Operator::one: left = (left != 0) != (right != 0); break;
-        case Operator::none: break;
+        case Operator::plus:
+            left += right;
+            break;
+        case Operator::minus:
+            left -= right;
+            break;
+        case Operator::equal:
+            left = std::fabs(left - right) < same;
+            break;
+        case Operator::unequal:
+            left = std::fabs(left - right) >= same;
+            break;
+        case Operator::greater:
+            left = left > right;
+            break;
+        case Operator::not_less:
+            left = left >= right;
+            break;
+        case Operator::less:
+            left = left < right;
+            break;
+        case Operator::not_greater:
+            left = left <= right;
+            break;
+        case Operator::both:
+            left = left != 0 && right != 0;
+            break;
+        case Operator::any:
+            left = left != 0 || right != 0;
+            break;
+        case Operator::one:
+            left = (left != 0) != (right != 0);
+            break;
+        case Operator::none:
+            break;
     }
     return finite(at, left);
 }
@@ -260,16 +307,19 @@ bool ExpressionReader::unary(const char*& at, double& value) {
     if (function == Function::atan) return arc_tangent(at, x, value);
     value = calculate(function, x);
     if (std::isfinite(value)) return true;
-    return fail(begin, fmt::format("{} of {:.6g} has no value; it needs {}", std::string_view(begin, function_names[static_cast<std::size_t>(function)].size()),
+    return fail(begin, fmt::format("{} of {:.6g} has no value; it needs {}",
+                                   std::string_view(begin, function_names[static_cast<std::size_t>(function)].size()),
                                    x, domain_of(function)));
 }
 
 bool ExpressionReader::arc_tangent(const char*& at, double over, double& value) {
     skip(at);
-    if (at == end_ || *at != '/') return fail(at, "ATAN takes two sides of a triangle: '/' and a second bracket are missing, e.g. ATAN[1]/[2]");
+    if (at == end_ || *at != '/')
+        return fail(at, "ATAN takes two sides of a triangle: '/' and a second bracket are missing, e.g. ATAN[1]/[2]");
     ++at;
     skip(at);
-    if (at == end_ || *at != '[') return fail(at, "ATAN takes two sides of a triangle: the second bracket is missing, e.g. ATAN[1]/[2]");
+    if (at == end_ || *at != '[')
+        return fail(at, "ATAN takes two sides of a triangle: the second bracket is missing, e.g. ATAN[1]/[2]");
     double under = 0;
     if (!bracket(at, under)) return false;
     value = atan2(over, under) * degrees;

@@ -4,8 +4,8 @@
 //
 // Operators from the strongest to the weakest, equals from left to right:
 //     **     * / MOD     + -     EQ NE GT GE LT LE     AND OR XOR
-// Comparisons give 1 or 0; EQ and NE take numbers for equal that differ by less than 0.0001. MOD is never negative. Angles are in
-// degrees. Functions: ABS ACOS ASIN ATAN[]/[] COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN.
+// Comparisons give 1 or 0; EQ and NE take numbers for equal that differ by less than 0.0001. MOD is never negative.
+// Angles are in degrees. Functions: ABS ACOS ASIN ATAN[]/[] COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN.
 #pragma once
 
 #include <optional>

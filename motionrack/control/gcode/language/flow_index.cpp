@@ -20,7 +20,9 @@ class Indexer {
 
   private:
     FlowPlace& open_place() { return index_.places[static_cast<std::size_t>(open_.back())]; }
-    std::string what(const FlowPlace& place) const { return fmt::format("o{} {}", labels_[static_cast<std::size_t>(place.label)], name_of(place.word)); }
+    std::string what(const FlowPlace& place) const {
+        return fmt::format("o{} {}", labels_[static_cast<std::size_t>(place.label)], name_of(place.word));
+    }
     void fail(const FlowPlace& place, std::string message);
     void pair(std::int32_t at);
     void begin_sub(std::int32_t at, const std::string& label);
@@ -71,10 +73,12 @@ void Indexer::line(std::string_view text, std::size_t column, const Lines& befor
     place.label = label_number(words.label);
     place.text = text;
     const auto at = static_cast<std::int32_t>(index_.places.size() - 1);
-    const bool takes_values = place.word == FlowWord::call || place.word == FlowWord::endsub || place.word == FlowWord::give_back ||
-                              place.word == FlowWord::if_true || place.word == FlowWord::else_if || place.word == FlowWord::while_true ||
+    const bool takes_values = place.word == FlowWord::call || place.word == FlowWord::endsub ||
+                              place.word == FlowWord::give_back || place.word == FlowWord::if_true ||
+                              place.word == FlowWord::else_if || place.word == FlowWord::while_true ||
                               place.word == FlowWord::repeat;
-    if (!takes_values && !is_rest_empty(text, place.rest)) fail(place, fmt::format("{}: nothing but a comment may stand behind it", what(place)));
+    if (!takes_values && !is_rest_empty(text, place.rest))
+        fail(place, fmt::format("{}: nothing but a comment may stand behind it", what(place)));
     if (place.word == FlowWord::sub)
         begin_sub(at, words.label);
     else if (place.word == FlowWord::numbered)
@@ -86,11 +90,13 @@ void Indexer::line(std::string_view text, std::size_t column, const Lines& befor
 void Indexer::begin_sub(std::int32_t at, const std::string& label) {
     const FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
     if (!open_.empty())
-        return fail(place, fmt::format("{}: a sub stands by itself, but {} of line {} is open here; end that first", what(place), what(open_place()), open_place().line));
+        return fail(place, fmt::format("{}: a sub stands by itself, but {} of line {} is open here; end that first",
+                                       what(place), what(open_place()), open_place().line));
     const auto [found, is_first] = index_.subs.try_emplace(label, at);
     if (!is_first)
-        return fail(place, fmt::format("{}: there is one in line {} already; each sub needs a number or name of its own", what(place),
-                                       index_.places[static_cast<std::size_t>(found->second)].line));
+        return fail(place,
+                    fmt::format("{}: there is one in line {} already; each sub needs a number or name of its own",
+                                what(place), index_.places[static_cast<std::size_t>(found->second)].line));
     index_.places.back().begin = at;
     open_.push_back(at);
 }
@@ -99,7 +105,10 @@ void Indexer::begin_sub(std::int32_t at, const std::string& label) {
 void Indexer::begin_program(std::int32_t at, const std::string& label) {
     const FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
     if (!open_.empty())
-        return fail(place, fmt::format("O{}: a numbered program stands by itself, but {} of line {} is open here; end that first", label, what(open_place()), open_place().line));
+        return fail(
+            place,
+            fmt::format("O{}: a numbered program stands by itself, but {} of line {} is open here; end that first",
+                        label, what(open_place()), open_place().line));
     const auto [found, is_first] = index_.programs.try_emplace(label, at);
     if (is_first) return;
     fail(place, fmt::format("O{}: there is one in line {} already; each program needs a number of its own", label,
@@ -110,7 +119,8 @@ void Indexer::pair(std::int32_t at) {
     FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
     switch (place.word) {
         case FlowWord::while_true:
-            if (!open_.empty() && open_place().word == FlowWord::do_once && open_place().label == place.label) return close(at, FlowWord::do_once);
+            if (!open_.empty() && open_place().word == FlowWord::do_once && open_place().label == place.label)
+                return close(at, FlowWord::do_once);
             [[fallthrough]];
         case FlowWord::if_true:
         case FlowWord::do_once:
@@ -118,16 +128,23 @@ void Indexer::pair(std::int32_t at) {
             place.begin = at;
             open_.push_back(at);
             return;
-        case FlowWord::endsub: return close(at, FlowWord::sub);
-        case FlowWord::endif: return close(at, FlowWord::if_true);
-        case FlowWord::endwhile: return close(at, FlowWord::while_true);
-        case FlowWord::endrepeat: return close(at, FlowWord::repeat);
+        case FlowWord::endsub:
+            return close(at, FlowWord::sub);
+        case FlowWord::endif:
+            return close(at, FlowWord::if_true);
+        case FlowWord::endwhile:
+            return close(at, FlowWord::while_true);
+        case FlowWord::endrepeat:
+            return close(at, FlowWord::repeat);
         case FlowWord::else_if:
-        case FlowWord::else_branch: return branch(at);
+        case FlowWord::else_branch:
+            return branch(at);
         case FlowWord::leave:
         case FlowWord::go_on:
-        case FlowWord::give_back: return inside(at);
-        default: return;
+        case FlowWord::give_back:
+            return inside(at);
+        default:
+            return;
     }
 }
 
@@ -142,10 +159,13 @@ bool Indexer::fits(std::int32_t at, FlowWord opener) {
     if (!open_.empty() && opens(open_.back())) return true;
     if (const auto outer = std::find_if(open_.begin(), open_.end(), opens); outer != open_.end()) {
         open_.erase(outer);  // it has been told of
-        fail(place, fmt::format("{}: {} of line {} is open here; end that first", what(place), what(open_place()), open_place().line));
+        fail(place, fmt::format("{}: {} of line {} is open here; end that first", what(place), what(open_place()),
+                                open_place().line));
     } else {
-        fail(place, fmt::format("{}: no o{} {} is open here; {} it with that, or leave it out", what(place), labels_[static_cast<std::size_t>(place.label)],
-                                name_of(opener), place.word == FlowWord::else_if || place.word == FlowWord::else_branch ? "precede" : "begin"));
+        fail(place,
+             fmt::format("{}: no o{} {} is open here; {} it with that, or leave it out", what(place),
+                         labels_[static_cast<std::size_t>(place.label)], name_of(opener),
+                         place.word == FlowWord::else_if || place.word == FlowWord::else_branch ? "precede" : "begin"));
     }
     return false;
 }
@@ -154,7 +174,8 @@ void Indexer::branch(std::int32_t at) {
     if (!fits(at, FlowWord::if_true)) return;
     FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
     FlowPlace& before = open_place();
-    if (before.word == FlowWord::else_branch) return fail(place, fmt::format("{}: the else of line {} is the last branch", what(place), before.line));
+    if (before.word == FlowWord::else_branch)
+        return fail(place, fmt::format("{}: the else of line {} is the last branch", what(place), before.line));
     before.branch = at;
     place.begin = before.begin;
     open_.back() = at;
@@ -165,7 +186,8 @@ void Indexer::close(std::int32_t at, FlowWord opener) {
     FlowPlace& last = open_place();
     last.branch = at;
     const std::int32_t begin = last.begin;
-    for (std::int32_t one = begin; one != at; one = index_.places[static_cast<std::size_t>(one)].branch) index_.places[static_cast<std::size_t>(one)].end = at;
+    for (std::int32_t one = begin; one != at; one = index_.places[static_cast<std::size_t>(one)].branch)
+        index_.places[static_cast<std::size_t>(one)].end = at;
     index_.places[static_cast<std::size_t>(at)].begin = begin;
     index_.places[static_cast<std::size_t>(at)].end = at;
     open_.pop_back();
@@ -182,7 +204,8 @@ void Indexer::inside(std::int32_t at) {
             return;
         }
     }
-    fail(place, fmt::format("{}: it stands in no {} o{}", what(place), returns ? "sub" : "loop", labels_[static_cast<std::size_t>(place.label)]));
+    fail(place, fmt::format("{}: it stands in no {} o{}", what(place), returns ? "sub" : "loop",
+                            labels_[static_cast<std::size_t>(place.label)]));
 }
 
 void Indexer::finish() {
@@ -194,15 +217,19 @@ void Indexer::finish() {
                              : first.word == FlowWord::while_true ? FlowWord::endwhile
                              : first.word == FlowWord::repeat     ? FlowWord::endrepeat
                                                                   : FlowWord::while_true;
-        fail(first, fmt::format("{}: its o{} {} is missing", what(first), labels_[static_cast<std::size_t>(first.label)], name_of(end)));
+        fail(first, fmt::format("{}: its o{} {} is missing", what(first),
+                                labels_[static_cast<std::size_t>(first.label)], name_of(end)));
     }
-    std::stable_sort(index_.problems.begin(), index_.problems.end(), [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
+    std::stable_sort(index_.problems.begin(), index_.problems.end(),
+                     [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
 }
 
 }  // namespace
 
 std::int32_t FlowIndex::at_line(std::int32_t line) const {
-    const auto found = std::lower_bound(places.begin(), places.end(), line, [](const FlowPlace& place, std::int32_t wanted) { return place.line < wanted; });
+    const auto found =
+        std::lower_bound(places.begin(), places.end(), line,
+                         [](const FlowPlace& place, std::int32_t wanted) { return place.line < wanted; });
     return found != places.end() && found->line == line ? static_cast<std::int32_t>(found - places.begin()) : no_place;
 }
 

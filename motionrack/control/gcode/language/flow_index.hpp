@@ -28,16 +28,16 @@ struct FlowPlace {
     std::int32_t begin = no_place;
     std::int32_t branch = no_place;
     std::int32_t end = no_place;
-    std::string_view text;     ///< the line
-    Lines before;              ///< from where the line is next
-    Lines after;               ///< from where what follows it is next
+    std::string_view text;  ///< the line
+    Lines before;           ///< from where the line is next
+    Lines after;            ///< from where what follows it is next
 
     FlowPlace(const Lines& from, const Lines& to) : before(from), after(to) {}
 };
 
 struct FlowIndex {
-    std::vector<FlowPlace> places;  ///< in the order of their lines
-    std::map<std::string, std::int32_t, std::less<>> subs;  ///< by label
+    std::vector<FlowPlace> places;                              ///< in the order of their lines
+    std::map<std::string, std::int32_t, std::less<>> subs;      ///< by label
     std::map<std::string, std::int32_t, std::less<>> programs;  ///< numbered ones: O100 .. M99
     std::vector<Problem> problems;  ///< of O words that do not fit together, without the file
     std::int32_t lines = 0;         ///< of the text

@@ -13,8 +13,9 @@ namespace motionrack::control::gcode {
 namespace {
 
 /// In the order of FlowWord.
-constexpr std::array<std::string_view, 16> names = {"sub",   "endsub",   "call", "return", "if",        "elseif", "else",    "endif",
-                                                    "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
+constexpr std::array<std::string_view, 16> names = {
+    "sub",   "endsub",   "call", "return", "if",        "elseif", "else",     "endif",
+    "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
 /// Those that are written.
 constexpr std::size_t of_words = 15;
 
@@ -94,7 +95,8 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
     const std::size_t label_at = at;
     if (at < text.size() && text[at] == '<') {
         const std::size_t close = text.find('>', at);
-        if (close == std::string_view::npos) return fail(column, "the name of this O word is not closed: '>' is missing");
+        if (close == std::string_view::npos)
+            return fail(column, "the name of this O word is not closed: '>' is missing");
         for (; at <= close; ++at)
             if (!is_blank(text[at])) line.label += lower(text[at]);
     } else if (at < text.size() && (text[at] == '#' || text[at] == '[')) {
@@ -115,14 +117,16 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
     const auto found = std::find(words.begin(), words.end(), word);
     const bool numbered = word.empty() && is_digit(text[label_at]) && is_rest_empty(text, at);
     if (found == words.end() && !numbered) {
-        return fail(column, word.empty()
-                                ? fmt::format("o{} alone does nothing; it needs one of {}", text.substr(label_at, at - label_at), fmt::join(words, " "))
-                                : fmt::format("'{}' does not go with an O word; known are {}", word, fmt::join(words, " ")));
+        return fail(column, word.empty() ? fmt::format("o{} alone does nothing; it needs one of {}",
+                                                       text.substr(label_at, at - label_at), fmt::join(words, " "))
+                                         : fmt::format("'{}' does not go with an O word; known are {}", word,
+                                                       fmt::join(words, " ")));
     }
     line.word = numbered ? FlowWord::numbered : static_cast<FlowWord>(found - words.begin());
     line.rest = static_cast<std::uint16_t>(at);
     if (line.computed && line.word != FlowWord::call)
-        return fail(column, fmt::format("only a call may compute its O number; {} needs a number or a name", name_of(line.word)));
+        return fail(column, fmt::format("only a call may compute its O number; {} needs a number or a name",
+                                        name_of(line.word)));
     return true;
 }
 

@@ -45,7 +45,10 @@ constexpr Known known[] = {
     {"_line", [](const Interpreter& in) { return static_cast<double>(in.line_number()); }},
     {"_motion_mode", [](const Interpreter& in) { return in.modes().motion == no_motion ? 800.0 : in.modes().motion; }},
     {"_plane", [](const Interpreter& in) { return 170.0 + 10 * in.modes().plane; }},
-    {"_ccomp", [](const Interpreter& in) { return in.modes().cutter == CutterSide::off ? 400.0 : in.modes().cutter == CutterSide::left ? 410.0 : 420.0; }},
+    {"_ccomp",
+     [](const Interpreter& in) {
+         return in.modes().cutter == CutterSide::off ? 400.0 : in.modes().cutter == CutterSide::left ? 410.0 : 420.0;
+     }},
     {"_metric", [](const Interpreter& in) { return in.modes().inch ? 0.0 : 1.0; }},
     {"_imperial", [](const Interpreter& in) { return in.modes().inch ? 1.0 : 0.0; }},
     {"_absolute", [](const Interpreter& in) { return in.modes().incremental ? 0.0 : 1.0; }},
@@ -53,7 +56,10 @@ constexpr Known known[] = {
     {"_inverse_time", [](const Interpreter& in) { return in.modes().inverse_time ? 1.0 : 0.0; }},
     {"_units_per_minute", [](const Interpreter& in) { return in.modes().inverse_time ? 0.0 : 1.0; }},
     {"_units_per_rev", [](const Interpreter&) { return 0.0; }},
-    {"_coord_system", [](const Interpreter& in) { return in.modes().system < 6 ? 540.0 + 10 * in.modes().system : 585.0 + in.modes().system; }},
+    {"_coord_system",
+     [](const Interpreter& in) {
+         return in.modes().system < 6 ? 540.0 + 10 * in.modes().system : 585.0 + in.modes().system;
+     }},
     {"_tool_offset", [](const Interpreter& in) { return in.frame().tool != Point{} ? 1.0 : 0.0; }},
     {"_retract_r_plane", [](const Interpreter& in) { return in.modes().retract_to_r ? 1.0 : 0.0; }},
     {"_retract_old_z", [](const Interpreter& in) { return in.modes().retract_to_r ? 0.0 : 1.0; }},
@@ -70,10 +76,23 @@ constexpr Known known[] = {
     {"_feed_override", [](const Interpreter& in) { return in.modes().feed_override ? 1.0 : 0.0; }},
     {"_adaptive_feed", [](const Interpreter&) { return 0.0; }},
     {"_feed_hold", [](const Interpreter& in) { return in.modes().feed_stop ? 1.0 : 0.0; }},
-    {"_feed", [](const Interpreter& in) { return in.modes().feed * 60 / (in.modes().inverse_time ? 1 : unit_of(in.modes(), 0)); }},
+    {"_feed",
+     [](const Interpreter& in) {
+         return in.modes().feed * 60 / (in.modes().inverse_time ? 1 : unit_of(in.modes(), 0));
+     }},
     {"_rpm", [](const Interpreter& in) { return in.modes().speed_rpm; }},
-    {"_x", here<0>}, {"_y", here<1>}, {"_z", here<2>}, {"_a", here<3>}, {"_b", here<4>}, {"_c", here<5>},
-    {"_abs_x", absolute<0>}, {"_abs_y", absolute<1>}, {"_abs_z", absolute<2>}, {"_abs_a", absolute<3>}, {"_abs_b", absolute<4>}, {"_abs_c", absolute<5>},
+    {"_x", here<0>},
+    {"_y", here<1>},
+    {"_z", here<2>},
+    {"_a", here<3>},
+    {"_b", here<4>},
+    {"_c", here<5>},
+    {"_abs_x", absolute<0>},
+    {"_abs_y", absolute<1>},
+    {"_abs_z", absolute<2>},
+    {"_abs_a", absolute<3>},
+    {"_abs_b", absolute<4>},
+    {"_abs_c", absolute<5>},
     {"_current_tool", [](const Interpreter& in) { return static_cast<double>(std::max(0, in.modes().tool_loaded)); }},
     {"_selected_tool", [](const Interpreter& in) { return static_cast<double>(in.modes().tool_selected); }},
     {"_value", [](const Interpreter& in) { return in.parameters().returned().value_or(0); }},
@@ -85,7 +104,8 @@ constexpr Known known[] = {
 
 const Known* find(std::string_view name) {
     if (!name.starts_with('_')) return nullptr;
-    const auto* found = std::find_if(std::begin(known), std::end(known), [&](const Known& one) { return one.name == name; });
+    const auto* found =
+        std::find_if(std::begin(known), std::end(known), [&](const Known& one) { return one.name == name; });
     return found == std::end(known) ? nullptr : found;
 }
 
@@ -118,7 +138,8 @@ double KnownValues::numbered(int number) const {
     if (between(number, 5410, 5413)) {
         const Tool* tool = interpreter_.tools().find(modes.tool_loaded);
         if (!tool) return 0;
-        const double of_tool[] = {tool->diameter_mm, tool->front_angle, tool->back_angle, static_cast<double>(tool->orientation)};
+        const double of_tool[] = {tool->diameter_mm, tool->front_angle, tool->back_angle,
+                                  static_cast<double>(tool->orientation)};
         return of_tool[number - 5410];
     }
     if (between(number, 5420, 5428)) {

@@ -5,8 +5,8 @@
 //     5181..5189  where G30 goes                                     5400..5413  tool in the spindle: number, offsets, diameter, ..
 //     5210..5219  G92: whether it is on, and the shift               5420..5428  where the machine is in program coordinates
 //
-// Lengths are mm but for 5061.. and 5420.., which are in the program's coordinates and units; 5061.. are as any other parameter: each
-// probing move sets them. Names: those of LinuxCNC that mean something here.
+// Lengths are mm but for 5061.. and 5420.., which are in the program's coordinates and units; 5061.. are as any other
+// parameter: each probing move sets them. Names: those of LinuxCNC that mean something here.
 #pragma once
 
 #include <motionrack/control/gcode/language/expression.hpp>

@@ -25,9 +25,7 @@ inline bool is_global(std::string_view name) {
 class Parameters {
   public:
     /// 1 .. last_parameter; 0 if it was never set.
-    double numbered(int number) const {
-        return numbered_.empty() ? 0 : numbered_[static_cast<std::size_t>(number)];
-    }
+    double numbered(int number) const { return numbered_.empty() ? 0 : numbered_[static_cast<std::size_t>(number)]; }
     void set(int number, double value);
     std::optional<double> named(std::string_view name) const;
     void set(const std::string& name, double value);

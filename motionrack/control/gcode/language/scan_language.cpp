@@ -1,4 +1,5 @@
-// What a line has beyond words with numbers: values from parameters, assignments, O words, and comments that show values.
+// What a line has beyond words with numbers: values from parameters, assignments, O words, and comments that show
+// values.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,14 +24,16 @@ bool begins_with(std::string_view text, std::string_view word) {
 
 /// A word whose plain number was faulty.
 bool Scanner::word_of_language(char letter, std::size_t column, const Number& plain) {
-    if (options_.language == Language::words || plain.fault != NumberFault::no_digits) return bad_number(plain, letter, column);
+    if (options_.language == Language::words || plain.fault != NumberFault::no_digits)
+        return bad_number(plain, letter, column);
     ExpressionReader reader(text_, *options_.parameters);
     if (!reader.begins(at_)) return bad_number(plain, letter, column);
     double value = 0;
     if (!reader.value(at_, value)) return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
     if (std::fabs(value) > largest_number) {
-        return fail_at(column, GrblStatus::bad_number,
-                       fmt::format("{} comes out as {:.6g}; the largest number is 1000000000", word_at(text_, column), value));
+        return fail_at(
+            column, GrblStatus::bad_number,
+            fmt::format("{} comes out as {:.6g}; the largest number is 1000000000", word_at(text_, column), value));
     }
     Number number;
     number.value = value;
@@ -46,7 +49,8 @@ bool Scanner::assignment() {
     const std::size_t column = here();
     ExpressionReader reader(text_, *options_.parameters);
     Assignment found;
-    if (!reader.parameter(at_, found.parameter)) return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
+    if (!reader.parameter(at_, found.parameter))
+        return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
     if (at_ == end_ || *at_ != '=') {
         return fail_at(column, GrblStatus::expected_letter,
                        "a parameter alone does nothing; write a letter before it (X#1) or give it a value (#1 = 2)");
@@ -55,9 +59,11 @@ bool Scanner::assignment() {
     if (!reader.value(at_, found.value)) return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
     const ParameterName& name = found.parameter;
     if (name.number > 0 ? KnownValues::is_of_machine(name.number) : KnownValues::is_of_machine(name.name)) {
-        return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("{} tells of the machine and cannot be set; offsets are set by G10 and G92, reference points by G28.1 and G30.1",
-                                   name.number > 0 ? fmt::format("#{}", name.number) : fmt::format("#<{}>", name.name)));
+        return fail_at(
+            column, GrblStatus::unsupported,
+            fmt::format("{} tells of the machine and cannot be set; offsets are set by G10 and G92, reference points "
+                        "by G28.1 and G30.1",
+                        name.number > 0 ? fmt::format("#{}", name.number) : fmt::format("#<{}>", name.name)));
     }
     block_.assignments.push_back(std::move(found));
     return true;
@@ -65,8 +71,10 @@ bool Scanner::assignment() {
 
 /// An O word stands first on its line; what follows it is the matter of who walks through the program.
 bool Scanner::flow(std::size_t column) {
-    if ((block_.words & ~letter_bit('N')) != 0 || (block_.g_groups | block_.m_groups) != 0 || !block_.assignments.empty()) {
-        return fail_at(column, GrblStatus::unsupported, "an O word stands first on its line; put what is before it on a line of its own");
+    if ((block_.words & ~letter_bit('N')) != 0 || (block_.g_groups | block_.m_groups) != 0 ||
+        !block_.assignments.empty()) {
+        return fail_at(column, GrblStatus::unsupported,
+                       "an O word stands first on its line; put what is before it on a line of its own");
     }
     block_.flow = true;
     block_.flow_column = static_cast<std::uint16_t>(column);
@@ -76,7 +84,8 @@ bool Scanner::flow(std::size_t column) {
 
 /// (MSG,text), and where the language has parameters (DEBUG,text) and (PRINT,text).
 bool Scanner::comment_kind(std::string_view body, Comment& found) {
-    const bool values = options_.language != Language::words && (begins_with(body, "DEBUG,") || begins_with(body, "PRINT,"));
+    const bool values =
+        options_.language != Language::words && (begins_with(body, "DEBUG,") || begins_with(body, "PRINT,"));
     if (!values && !begins_with(body, "MSG,")) return true;
     found.message = true;
     found.values = values;

@@ -43,7 +43,8 @@ std::size_t end_of_parameter(std::string_view text) {
 /// As they are before the line moves, but after its assignments; as LinuxCNC does.
 void Interpreter::show_values() {
     shown_.clear();
-    for (const Comment& comment : block_.comments) shown_.push_back(comment.values ? with_values(comment.text) : std::string());
+    for (const Comment& comment : block_.comments)
+        shown_.push_back(comment.values ? with_values(comment.text) : std::string());
 }
 
 /// A parameter that has no value is shown as ######, as LinuxCNC does.

@@ -15,7 +15,11 @@ constexpr double most_repeats = 1e9;
 }  // namespace
 
 Walk::Walk(std::string_view text, const Settings& settings, std::string file)
-    : lines_(text), block_delete_(settings.block_delete), end_(settings.block_delete), most_lines_(settings.most_lines), subprogram_(settings.subprogram) {
+    : lines_(text),
+      block_delete_(settings.block_delete),
+      end_(settings.block_delete),
+      most_lines_(settings.most_lines),
+      subprogram_(settings.subprogram) {
     sources_.push_back(std::make_unique<Source>());
     source_ = sources_.back().get();
     source_->text = text;
@@ -64,7 +68,8 @@ Outcome<void> Walk::follow(Interpreter& interpreter) {
     const std::int32_t at = source_->index->at_line(lines_.number());
     if (at == no_place) {
         const Block& block = interpreter.block();
-        set_problem(problem_, block.text, block.flow_column, GrblStatus::unsupported, "this O word was not found when the program was looked through; put it first on its line");
+        set_problem(problem_, block.text, block.flow_column, GrblStatus::unsupported,
+                    "this O word was not found when the program was looked through; put it first on its line");
         place(problem_);
         return tl::unexpected<Problem>(problem_);
     }
@@ -82,7 +87,9 @@ bool Walk::within_budget(const FlowPlace& place) {
     if (walked_ <= most_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
     return fail(place, place.column,
-                fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever end? No more of it was read", walked_));
+                fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever "
+                            "end? No more of it was read",
+                            walked_));
 }
 
 void Walk::jump(const FlowPlace& place) {
@@ -184,7 +191,8 @@ void Walk::end_repeat(const FlowPlace& place) {
 /// Repeats of this call between two places are over.
 void Walk::forget_repeats(std::int32_t first, std::int32_t last) {
     const std::size_t outer = frames_.empty() ? 0 : frames_.back().repeats;
-    while (repeats_.size() > outer && repeats_.back().place >= first && repeats_.back().place < last) repeats_.pop_back();
+    while (repeats_.size() > outer && repeats_.back().place >= first && repeats_.back().place < last)
+        repeats_.pop_back();
 }
 
 void Walk::leave_loop(const FlowPlace& loop) {

@@ -7,9 +7,9 @@
 //     o100 break, continue    of the loop with that label
 //     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those of the caller
 //
-// A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or M30, at the end of
-// its text, or at a '%' that is not its first line with anything on it. A plain program costs nothing of all this: the first O word
-// makes an index of the text.
+// A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or
+// M30, at the end of its text, or at a '%' that is not its first line with anything on it. A plain program costs
+// nothing of all this: the first O word makes an index of the text.
 #pragma once
 
 #include <memory>
@@ -26,8 +26,8 @@ class Walk {
 
     /// The next line to read; false: there is none.
     bool next(std::string_view& line) { return !over_ && (lines_.next(line) || text_ended()); }
-    /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word cannot be done; then
-    /// it is passed over.
+    /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word
+    /// cannot be done; then it is passed over.
     Outcome<void> took(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         if (block.percent || !end_.begun()) see_end(block.text);
@@ -84,7 +84,8 @@ class Walk {
     Outcome<void> follow_program(Interpreter& interpreter);
     Outcome<void> follow_contour(Interpreter& interpreter);
     bool read_contour(Interpreter& reader, std::vector<ContourPiece>& contour);
-    bool add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at, bool& begun);
+    bool add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at,
+                     bool& begun);
     FlowPlace this_line(const Block& block, std::size_t column) const;
     bool call_program(const FlowPlace& place, Interpreter& interpreter);
     bool leave_program(const FlowPlace& place, Interpreter& interpreter);

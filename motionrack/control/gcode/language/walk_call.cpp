@@ -49,11 +49,13 @@ bool Walk::arguments(const FlowPlace& place, std::size_t most, Interpreter& inte
         const auto column = static_cast<std::size_t>(at - place.text.data());
         if (at == end || *at != '[') {
             if (is_rest_empty(place.text, column)) return true;
-            return fail(place, column, fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(place.word)));
+            return fail(place, column,
+                        fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(place.word)));
         }
         if (values.size() == most) {
-            return fail(place, column, most == 1 ? fmt::format("{} takes one value", name_of(place.word))
-                                                 : fmt::format("a call has at most {} arguments", most));
+            return fail(place, column,
+                        most == 1 ? fmt::format("{} takes one value", name_of(place.word))
+                                  : fmt::format("a call has at most {} arguments", most));
         }
         double value = 0;
         if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());
@@ -65,7 +67,9 @@ bool Walk::arguments(const FlowPlace& place, std::size_t most, Interpreter& inte
 bool Walk::evaluate(const FlowPlace& place, Interpreter& interpreter, double& value) {
     std::vector<double> values;
     if (!arguments(place, 1, interpreter, values)) return false;
-    if (values.empty()) return fail(place, place.column, fmt::format("{} needs a value in brackets, e.g. [#1 LT 5]", name_of(place.word)));
+    if (values.empty())
+        return fail(place, place.column,
+                    fmt::format("{} needs a value in brackets, e.g. [#1 LT 5]", name_of(place.word)));
     value = values.front();
     return true;
 }
@@ -91,7 +95,9 @@ bool Walk::call(const FlowPlace& place, Interpreter& interpreter) {
     std::string label;
     Target target{};
     std::vector<double> values;
-    if (!label_of_call(place, interpreter, label) || !find_sub(place, label, false, target) || !arguments(place, most_arguments, interpreter, values)) return false;
+    if (!label_of_call(place, interpreter, label) || !find_sub(place, label, false, target) ||
+        !arguments(place, most_arguments, interpreter, values))
+        return false;
     if (!interpreter.parameters().enter(values)) return fail(place, place.column, too_deep(asks_for(label, false)));
     interpreter.parameters().forget_returned();
     enter(target, no_place, 0);
@@ -114,15 +120,17 @@ bool Walk::look_for(const std::string& label, bool numbered, Target& target) {
         target = {source, found->second};
         return true;
     };
-    return look(source_) || std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return look(source.get()); });
+    return look(source_) ||
+           std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return look(source.get()); });
 }
 
 /// A sub or a numbered program of the same text, of one read before, or of a file of its own.
 bool Walk::find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
     if (look_for(label, numbered, target)) return true;
     if (look_for(label, !numbered, target)) {
-        return fail(place, place.column, fmt::format("{}: {} is {}; call it by {}", asks_for(label, numbered), text_of(label, !numbered),
-                                                     numbered ? "a sub" : "a numbered program", asks_for(label, !numbered)));
+        return fail(place, place.column,
+                    fmt::format("{}: {} is {}; call it by {}", asks_for(label, numbered), text_of(label, !numbered),
+                                numbered ? "a sub" : "a numbered program", asks_for(label, !numbered)));
     }
     return load(place, label, numbered, target);
 }
@@ -130,15 +138,24 @@ bool Walk::find_sub(const FlowPlace& place, const std::string& label, bool numbe
 bool Walk::load(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
     const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
-        return fail(place, place.column, fmt::format("{}: this program has no {}, and it came without a folder in which another file could have it; put it into the program",
-                                                     asks, wanted));
+        return fail(place, place.column,
+                    fmt::format("{}: this program has no {}, and it came without a folder in which another file could "
+                                "have it; put it into the program",
+                                asks, wanted));
     }
     if (!is_plain(name)) {
-        return fail(place, place.column, fmt::format("{}: this program has no {}, and the name is none of a file in its folder (letters, digits, '_', '-' and '.')", asks, wanted));
+        return fail(place, place.column,
+                    fmt::format("{}: this program has no {}, and the name is none of a file in its folder (letters, "
+                                "digits, '_', '-' and '.')",
+                                asks, wanted));
     }
-    if (sources_.size() > most_files) return fail(place, place.column, fmt::format("a program may use {} files of subprograms; this is one more", most_files));
+    if (sources_.size() > most_files)
+        return fail(place, place.column,
+                    fmt::format("a program may use {} files of subprograms; this is one more", most_files));
     Result<std::string> text = subprogram_(name);
-    if (!text) return fail(place, place.column, fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
+    if (!text)
+        return fail(place, place.column,
+                    fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
     auto source = std::make_unique<Source>();
     source->kept = std::move(*text);
     source->text = source->kept;
@@ -150,7 +167,8 @@ bool Walk::load(const FlowPlace& place, const std::string& label, bool numbered,
     }
     const auto& named = numbered ? kept.index->programs : kept.index->subs;
     const auto found = named.find(label);
-    if (found == named.end()) return fail(place, place.column, fmt::format("{}: {} has no {}", asks, kept.file, wanted));
+    if (found == named.end())
+        return fail(place, place.column, fmt::format("{}: {} has no {}", asks, kept.file, wanted));
     target = {&kept, found->second};
     return true;
 }
@@ -159,15 +177,18 @@ bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
     std::vector<double> values;
     bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;
-    good = leave_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
+    good =
+        leave_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
     back_to_caller();
     return good;
 }
 
 bool Walk::leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned) {
     if (interpreter.leave_call(returned)) return true;
-    return fail(place, place.column, "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter compensation is on; "
-                                     "write G40 and a straight move before the sub ends");
+    return fail(place, place.column,
+                "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter "
+                "compensation is on; "
+                "write G40 and a straight move before the sub ends");
 }
 
 void Walk::back_to_caller() {
@@ -180,14 +201,15 @@ void Walk::back_to_caller() {
     frames_.pop_back();
 }
 
-// ---- numbered programs --------------------------------------------------------------------------------------------------------------
+// ---- numbered programs
 
 /// M98 and M99: calls without arguments, as often as L says.
 Outcome<void> Walk::follow_program(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
     const FlowPlace place = this_line(block, block.m_column[m_program]);
-    if (!within_budget(place) || !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
+    if (!within_budget(place) ||
+        !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
         return tl::unexpected<Problem>(problem_);
     return {};
 }
@@ -220,7 +242,9 @@ bool Walk::leave_program(const FlowPlace& place, Interpreter& interpreter) {
         return true;
     }
     if (frames_.back().program == no_place)
-        return fail(place, place.column, "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return leaves it before that");
+        return fail(place, place.column,
+                    "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return "
+                    "leaves it before that");
     const bool good = leave_call(place, interpreter, std::nullopt);
     Frame& frame = frames_.back();
     if (--frame.left == 0) {

@@ -29,7 +29,9 @@ Outcome<void> Walk::follow_contour(Interpreter& interpreter) {
     if (!within_budget(here) || !find_sub(here, interpreter.contour_label(), false, target)) return failed();
     Interpreter reader = interpreter.draws_contour();
     if (!reader.parameters().enter({})) {
-        fail(here, here.column, fmt::format("{} stands in {} calls; does the sub call itself without end?", name_of_g(block.g[g_motion]), deepest_call));
+        fail(here, here.column,
+             fmt::format("{} stands in {} calls; does the sub call itself without end?", name_of_g(block.g[g_motion]),
+                         deepest_call));
         return failed();
     }
     std::vector<ContourPiece> contour;
@@ -40,8 +42,10 @@ Outcome<void> Walk::follow_contour(Interpreter& interpreter) {
     over_ = !faults_.empty();
     if (!good) return failed();
     if (contour.empty()) {
-        fail(here, here.column, fmt::format("{}: o{} sub draws no contour; it needs a straight move to where the contour begins, and one or more after it",
-                                              name_of_g(block.g[g_motion]), interpreter.contour_label()));
+        fail(here, here.column,
+             fmt::format("{}: o{} sub draws no contour; it needs a straight move to where the contour begins, and one "
+                         "or more after it",
+                         name_of_g(block.g[g_motion]), interpreter.contour_label()));
         return failed();
     }
     if (auto turned = interpreter.turn(std::move(contour)); !turned) {
@@ -64,7 +68,10 @@ bool Walk::read_contour(Interpreter& reader, std::vector<ContourPiece>& contour)
         }
         const Block& block = reader.block();
         const FlowPlace here = this_line(block, 0);
-        if (reader.turns()) return fail(here, block.g_column[g_motion], fmt::format("{} stands within the contour of another cycle; end that first", name_of_g(block.g[g_motion])));
+        if (reader.turns())
+            return fail(here, block.g_column[g_motion],
+                        fmt::format("{} stands within the contour of another cycle; end that first",
+                                    name_of_g(block.g[g_motion])));
         if (auto taken = took(reader); !taken) {
             problem_ = taken.error();
             return false;
@@ -75,14 +82,19 @@ bool Walk::read_contour(Interpreter& reader, std::vector<ContourPiece>& contour)
 }
 
 /// What the last line moves; the first move leads to where the contour begins.
-bool Walk::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at, bool& begun) {
+bool Walk::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at,
+                       bool& begun) {
     while (const Step* step = reader.pull()) {
         const Move& move = step->move;
         if (step->kind != StepKind::move || move.kind == MoveKind::dwell) continue;
-        if (contour.size() >= most_pieces) return fail(here, 0, fmt::format("a contour has at most {} moves; this is one more", most_pieces));
+        if (contour.size() >= most_pieces)
+            return fail(here, 0, fmt::format("a contour has at most {} moves; this is one more", most_pieces));
         const bool arc = move.kind == MoveKind::arc;
-        if (arc && (move.first != 2 || std::abs(move.turns) != 1)) return fail(here, 0, "a contour has arcs of less than a turn in the plane of X and Z (G18)");
-        if (!begun && arc) return fail(here, 0, "the first move of a contour leads straight to where it begins, but this one is an arc");
+        if (arc && (move.first != 2 || std::abs(move.turns) != 1))
+            return fail(here, 0, "a contour has arcs of less than a turn in the plane of X and Z (G18)");
+        if (!begun && arc)
+            return fail(here, 0,
+                        "the first move of a contour leads straight to where it begins, but this one is an arc");
         if (begun && move.end[1] != at[1]) return fail(here, 0, "a contour goes along X and Z only; leave Y out");
         const Point from = at;
         at = move.end;
@@ -96,8 +108,14 @@ bool Walk::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<C
         const double unit = reader.modes().inch ? 25.4 : 1;
         piece.chamfer = block.has('C');
         if (block.has('A') || block.has('C')) piece.corner = block[piece.chamfer ? 'C' : 'A'] * unit;
-        if (piece.corner < 0 || (block.has('A') && block.has('C'))) return fail(here, 0, "A is the radius of a fillet and C of a chamfer at the end of the move; write one of them, 0 or more");
-        if (!begun && piece.corner > 0) return fail(here, 0, "A and C make corners of a contour; its first move leads to where it begins, and there is none");
+        if (piece.corner < 0 || (block.has('A') && block.has('C')))
+            return fail(
+                here, 0,
+                "A is the radius of a fillet and C of a chamfer at the end of the move; write one of them, 0 or more");
+        if (!begun && piece.corner > 0)
+            return fail(
+                here, 0,
+                "A and C make corners of a contour; its first move leads to where it begins, and there is none");
         if (begun && (arc || length(piece.to - piece.from) > shortest)) contour.push_back(piece);
         begun = true;
     }

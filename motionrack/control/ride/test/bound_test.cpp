@@ -1,4 +1,5 @@
-// How near jerk-limited rides are to the quickest with any jerk: never quicker, and how much slower on smooth shapes in short chords.
+// How near jerk-limited rides are to the quickest with any jerk: never quicker, and how much slower on smooth shapes in
+// short chords.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -80,7 +81,8 @@ TEST(AnAccelBound, OfALineIsItsTrapezoid) {
     EXPECT_EQ(accel_bound({}, limits), 0);
 }
 
-/// No axis may take the circle faster than sqrt(2 acceleration radius), and at sqrt(acceleration radius) both can hold the speed.
+/// No axis may take the circle faster than sqrt(2 acceleration radius), and at sqrt(acceleration radius) both can hold
+/// the speed.
 TEST(AnAccelBound, OfACircleIsNearTheSpeedOfItsBend) {
     const MachineLimits limits = with_jerk(1e6);
     const double seconds = seconds_of(at_feed(circle(0.1), 1e4), limits).bound;
@@ -129,7 +131,9 @@ TEST(AnAccelBound, IsNoShorterWithTighterLimits) {
 TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::uint64_t fold = 0;
     for (const auto& shape : {circle(0.7), sine(0.25), spiral(1)})
-        fold = (fold ^ std::bit_cast<std::uint64_t>(accel_bound(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) * 0x9E3779B97F4A7C15u;
+        fold = (fold ^ std::bit_cast<std::uint64_t>(
+                           accel_bound(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) *
+               0x9E3779B97F4A7C15u;
     EXPECT_EQ(fold, 18085057422729386909u);
 }
 
@@ -142,7 +146,8 @@ TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
             }
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
         for (const ride_test::KeptStretch& kept : ride_test::kept_ride(ProgramMaker(seed).program(4), machine()))
-            EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, machine(), 60) * (1 - 1e-3)) << seed;
+            EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, machine(), 60) * (1 - 1e-3))
+                << seed;
 }
 
 struct Nearness {
@@ -151,13 +156,16 @@ struct Nearness {
     double at_feed, as_fast_as_can_be;  ///< how many times the quickest
 };
 
-/// With a jerk that asks for no time. At the feed what is lost is at the ends and on bends that are sharper than the feed allows; without one,
-/// on bends where the speed changes, for a limit holds for a part of the curve at its sharpest; long chords have bends that come and go.
+/// With a jerk that asks for no time. At the feed what is lost is at the ends and on bends that are sharper than the
+/// feed allows; without one, on bends where the speed changes, for a limit holds for a part of the curve at its
+/// sharpest; long chords have bends that come and go.
 TEST(ARide, IsNearTheQuickestOnSmoothShapes) {
     const std::vector<Nearness> shapes = {
-        {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011}, {"circle 1", circle(1), 1.001, 1.011},
-        {"sine 0.1", sine(0.1), 1.008, 1.023},      {"sine 0.25", sine(0.25), 1.007, 1.023},      {"sine 1", sine(1), 1.032, 1.055},
-        {"spiral 0.1", spiral(0.1), 1.001, 1.008},  {"spiral 0.25", spiral(0.25), 1.001, 1.008},  {"spiral 1", spiral(1), 1.009, 1.036}};
+        {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011},
+        {"circle 1", circle(1), 1.001, 1.011},      {"sine 0.1", sine(0.1), 1.008, 1.023},
+        {"sine 0.25", sine(0.25), 1.007, 1.023},    {"sine 1", sine(1), 1.032, 1.055},
+        {"spiral 0.1", spiral(0.1), 1.001, 1.008},  {"spiral 0.25", spiral(0.25), 1.001, 1.008},
+        {"spiral 1", spiral(1), 1.009, 1.036}};
     const MachineLimits limits = with_jerk(1e8);
     for (const Nearness& shape : shapes) {
         const Seconds fed = seconds_of(shape.moves, limits), free = seconds_of(at_feed(shape.moves, 1000), limits);

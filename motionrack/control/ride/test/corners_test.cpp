@@ -28,8 +28,14 @@ struct Row {
     std::string name;
     double along, up_and_along, up;  ///< one line goes along, the next one up or down
 };
-void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
-const std::vector<Row> rows = {{"comb", 3, 0, 10}, {"narrow comb", 0.5, 0, 2}, {"zigzag", 0, 5, 5}, {"small zigzag", 0, 1, 1}, {"flat zigzag", 0, 5, 2}};
+void PrintTo(const Row& row, std::ostream* out) {
+    *out << row.name;
+}
+const std::vector<Row> rows = {{"comb", 3, 0, 10},
+                               {"narrow comb", 0.5, 0, 2},
+                               {"zigzag", 0, 5, 5},
+                               {"small zigzag", 0, 1, 1},
+                               {"flat zigzag", 0, 5, 2}};
 
 std::vector<Move> moves_of(const Row& row, double tolerance) {
     std::vector<Move> out;
@@ -83,7 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, ARowOfCorners, testing::ValuesIn(rows), [](const 
 });
 
 double gain_of(const Row& row, double tolerance, double jerk) {
-    return 1 - ride_test::seconds_of_ride(moves_of(row, tolerance), machine(jerk)) / ride_test::seconds_stopping(moves_of(row, 0), machine(jerk));
+    return 1 - ride_test::seconds_of_ride(moves_of(row, tolerance), machine(jerk)) /
+                   ride_test::seconds_stopping(moves_of(row, 0), machine(jerk));
 }
 
 TEST(ACorner, GainsMuchWhereAxesTakeTurnsAndAlsoWhereOneGoesOn) {

@@ -1,7 +1,8 @@
-// The slow referee of times: how quick a curve could be driven with axes' speeds and accelerations limited and any jerk.
+// The slow referee of times: how quick a curve could be driven with axes' speeds and accelerations limited and any
+// jerk.
 //
-// Fine steps over u, each with constant acceleration along u. Whether a step may be driven from one square of speed to another is asked of
-// every axis at both ends of the step; the greatest squares are sought by halving.
+// Fine steps over u, each with constant acceleration along u. Whether a step may be driven from one square of speed to
+// another is asked of every axis at both ends of the step; the greatest squares are sought by halving.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@ struct OracleStep {
 class Oracle {
   public:
     /// Each piece is cut into at least `of_piece` steps, and the curve into about `of_curve`.
-    Oracle(std::span<const CurvePiece> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000) : limits_(limits) {
+    Oracle(std::span<const CurvePiece> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000)
+        : limits_(limits) {
         if (curve.empty()) return;
         const double whole = curve.back().begin + curve.back().length;
         caps_.push_back(0);
@@ -30,7 +32,8 @@ class Oracle {
             const int count = of_piece + static_cast<int>(of_curve * std::min(1.0, piece.length / whole));
             for (int i = 0; i < count; ++i) {
                 const double begin = piece.length * i / count, end = piece.length * (i + 1) / count;
-                steps_.push_back({piece.length / count, tangent_on(piece, begin), bend_on(piece, begin), tangent_on(piece, end), bend_on(piece, end)});
+                steps_.push_back({piece.length / count, tangent_on(piece, begin), bend_on(piece, begin),
+                                  tangent_on(piece, end), bend_on(piece, end)});
                 caps_.back() = std::min(caps_.back(), cap(steps_.back().tangent_in, piece.feed));
                 caps_.push_back(cap(steps_.back().tangent_out, piece.feed));
             }
@@ -71,9 +74,11 @@ class Oracle {
         const double per_accel = 2 * step.length;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             // begin: |tangent a + bend w0| <= accel, where a = (w1 - w0) / (2 length)
-            within(out, step.tangent_in[i] / per_accel, step.bend_in[i] * square - step.tangent_in[i] / per_accel * square, limits_[i].max_accel);
+            within(out, step.tangent_in[i] / per_accel,
+                   step.bend_in[i] * square - step.tangent_in[i] / per_accel * square, limits_[i].max_accel);
             // end: |tangent a + bend w1| <= accel
-            within(out, step.tangent_out[i] / per_accel + step.bend_out[i], -step.tangent_out[i] / per_accel * square, limits_[i].max_accel);
+            within(out, step.tangent_out[i] / per_accel + step.bend_out[i], -step.tangent_out[i] / per_accel * square,
+                   limits_[i].max_accel);
         }
         return out;
     }
@@ -95,7 +100,9 @@ class Oracle {
         double low = 0, high = cap;
         while (high - low > 1e-12 * high && high > 1e-290) {
             // By size first: caps may be far too great.
-            const double middle = low > 0 && high < 4 * low ? 0.5 * (low + high) : low > 0 ? std::sqrt(low) * std::sqrt(high) : high * 1e-3;
+            const double middle = low > 0 && high < 4 * low ? 0.5 * (low + high)
+                                  : low > 0                 ? std::sqrt(low) * std::sqrt(high)
+                                                            : high * 1e-3;
             (can(middle) ? low : high) = middle;
         }
         return low;
@@ -107,7 +114,8 @@ class Oracle {
 };
 
 /// Seconds.
-inline double quickest_seconds(std::span<const CurvePiece> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000) {
+inline double quickest_seconds(std::span<const CurvePiece> curve, const MachineLimits& limits, int of_piece = 20,
+                               int of_curve = 4000) {
     return Oracle(curve, limits, of_piece, of_curve).seconds();
 }
 

@@ -32,7 +32,8 @@ class RandomPieces {
     }
     MachineLimits machine() {
         MachineLimits limits;
-        for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, between(50, 400), between(200, 5000), between(5e3, 1e6), 0, 1000};
+        for (AxisLimits& axis : limits)
+            axis = {true, -1e9, 1e9, between(50, 400), between(200, 5000), between(5e3, 1e6), 0, 1000};
         return limits;
     }
 
@@ -50,13 +51,16 @@ TEST(PieceLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
         const FeedSpan span = limits.up_to(top, piece.length);
         ASSERT_GT(std::min({span.speed, span.accel, span.brake, span.jerk}), 0) << run;
         for (int k = 0; k < 40; ++k) {
-            const double x = piece.length * random.between(0, 1), v = top * random.between(0, 1), j = random.between(-span.jerk, span.jerk);
+            const double x = piece.length * random.between(0, 1), v = top * random.between(0, 1),
+                         j = random.between(-span.jerk, span.jerk);
             const double a = k % 2 == 0 ? span.accel : -span.brake;
             const Point tangent = tangent_on(piece, x), bend = bend_on(piece, x);
             for (std::size_t i = 0; i < 3; ++i) {
                 ASSERT_LE(std::fabs(tangent[i] * v), machine[i].max_speed * (1 + 1e-9)) << run;
                 ASSERT_LE(std::fabs(tangent[i] * a + bend[i] * v * v), machine[i].max_accel * (1 + 1e-9)) << run;
-                ASSERT_LE(std::fabs(tangent[i] * j + 3 * bend[i] * v * a + piece.twist[i] * v * v * v), piece.jerk_share * machine[i].max_jerk * (1 + 1e-9)) << run;
+                ASSERT_LE(std::fabs(tangent[i] * j + 3 * bend[i] * v * a + piece.twist[i] * v * v * v),
+                          piece.jerk_share * machine[i].max_jerk * (1 + 1e-9))
+                    << run;
             }
         }
     }

@@ -1,5 +1,5 @@
-// What must hold at every instant of a ride, looked at densely: axes within their limits, no jumps, on the path, at the feed, at rest at the
-// end, and no quicker than with any jerk.
+// What must hold at every instant of a ride, looked at densely: axes within their limits, no jumps, on the path, at the
+// feed, at rest at the end, and no quicker than with any jerk.
 #pragma once
 
 #include <fmt/format.h>
@@ -56,19 +56,25 @@ class RideChecks {
     static constexpr double time_rounding = 1e-13;
     /// Where a feed ends on a bend the bound's cells are too slow by so much.
     static constexpr double bound_rounding = 3e-3;
-    /// Where pieces of the curve and of the feed meet, a rounding decides which of the curve's is looked at with which of the feed's.
+    /// Where pieces of the curve and of the feed meet, a rounding decides which of the curve's is looked at with which
+    /// of the feed's.
     static constexpr double beside = 1e-7;
 
     void fail(const char* name, double by, const std::string& text) {
         if (fault_.name.empty()) fault_ = {name, fmt::format("{} ({:.9g} of what is allowed): {}", name, by, text)};
     }
-    void hold(const char* name, double value, double most, const KeptStretch& kept, double time, const RideState& state) {
-        if (!(value <= most)) fail(name, value / most, fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time, kept.stretch.seconds, state.u, state.line));
+    void hold(const char* name, double value, double most, const KeptStretch& kept, double time,
+              const RideState& state) {
+        if (!(value <= most))
+            fail(name, value / most,
+                 fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time,
+                             kept.stretch.seconds, state.u, state.line));
     }
 
     void check(const KeptStretch& kept, double until, bool ends) {
         const Stretch stretch = kept.view();
-        if (!(stretch.seconds > 0 && stretch.seconds < 1e15)) return fail("finite time", stretch.seconds, fmt::format("{}", stretch.seconds));
+        if (!(stretch.seconds > 0 && stretch.seconds < 1e15))
+            return fail("finite time", stretch.seconds, fmt::format("{}", stretch.seconds));
         StretchView view(stretch);
         last_time_ = 0;
         looks_ = 0;
@@ -81,18 +87,24 @@ class RideChecks {
             while (piece < kept.curve.size() && kept.curve[piece].begin < feed.begin + feed.length) ++piece, ++pieces;
             const std::size_t looks = std::min<std::size_t>(200, 6 + 4 * pieces);
             for (std::size_t i = 0; i <= looks; ++i) {
-                const double time = begin + feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), beside, 1 - beside);
+                const double time =
+                    begin +
+                    feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), beside, 1 - beside);
                 if (time > until) break;
                 look(kept, view, time, std::max(hair_, looks_ == 0 ? hair_before : 0));
                 if (!fault_.name.empty()) return;
             }
             begin += feed.seconds;
         }
-        if (!ends) look(kept, view, until, hair_);
-        else last_ = view.at(until);
+        if (!ends)
+            look(kept, view, until, hair_);
+        else
+            last_ = view.at(until);
         if (ends) check_rest(kept);
         const double least = accel_bound(kept.curve, limits_);
-        if (!(stretch.seconds >= least * (1 - bound_rounding))) fail("bound", least / stretch.seconds, fmt::format("{:.9g} s, the bound {:.9g} s, line {}", stretch.seconds, least, stretch.line));
+        if (!(stretch.seconds >= least * (1 - bound_rounding)))
+            fail("bound", least / stretch.seconds,
+                 fmt::format("{:.9g} s, the bound {:.9g} s, line {}", stretch.seconds, least, stretch.line));
     }
 
     void look(const KeptStretch& kept, StretchView& view, double time, double hair) {
@@ -104,9 +116,13 @@ class RideChecks {
             hold("speed", std::fabs(state.speed[i]), axis.max_speed * slack, kept, time, state);
             hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack, kept, time, state);
             if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack, kept, time, state);
-            hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_speed * step + 3e-9, kept, time, state);
-            hold("jump of speed", std::fabs(state.speed[i] - last_.speed[i]), axis.max_accel * step + 1e-6 * axis.max_speed, kept, time, state);
-            if (axis.max_jerk > 0) hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]), axis.max_jerk * slack * step + (slack - 1) * axis.max_accel, kept, time, state);
+            hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_speed * step + 3e-9, kept, time,
+                 state);
+            hold("jump of speed", std::fabs(state.speed[i] - last_.speed[i]),
+                 axis.max_accel * step + 1e-6 * axis.max_speed, kept, time, state);
+            if (axis.max_jerk > 0)
+                hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]),
+                     axis.max_jerk * slack * step + (slack - 1) * axis.max_accel, kept, time, state);
         }
         check_feed(kept, state, time);
         if (looks_++ % 4 == 0) check_path(kept, state, time);
@@ -117,32 +133,41 @@ class RideChecks {
     /// What the program allows on a move; a left out move before it may have made it a little longer.
     double programmed(std::size_t i) const {
         const Move& move = program_.moves[i];
-        if (move.kind == MoveKind::traverse || move.kind == MoveKind::dwell) return std::numeric_limits<double>::infinity();
-        return move.feed_mode == FeedMode::units_per_second ? move.feed : move.feed * (paths_[i].length * (1 + 1e-9) + 0.02 * half_pulse_);
+        if (move.kind == MoveKind::traverse || move.kind == MoveKind::dwell)
+            return std::numeric_limits<double>::infinity();
+        return move.feed_mode == FeedMode::units_per_second
+                   ? move.feed
+                   : move.feed * (paths_[i].length * (1 + 1e-9) + 0.02 * half_pulse_);
     }
 
     void check_feed(const KeptStretch& kept, const RideState& state, double time) {
         const std::size_t i = static_cast<std::size_t>(state.line - 1);
         double most = programmed(i);
-        if (time < kept.stretch.overlap) most = std::max(most, programmed(static_cast<std::size_t>(kept.stretch.before.curve.line - 1)));
+        if (time < kept.stretch.overlap)
+            most = std::max(most, programmed(static_cast<std::size_t>(kept.stretch.before.curve.line - 1)));
         const Point& v = state.speed;
         const double xyz = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         if (paths_[i].shape == PathShape::nothing) return;
-        hold("feed", paths_[i].shape == PathShape::rotary ? std::max({std::fabs(v[3]), std::fabs(v[4]), std::fabs(v[5])}) : xyz, most * slack, kept, time, state);
+        hold("feed",
+             paths_[i].shape == PathShape::rotary ? std::max({std::fabs(v[3]), std::fabs(v[4]), std::fabs(v[5])}) : xyz,
+             most * slack, kept, time, state);
     }
 
     double off_path(const RideState& state, std::size_t i) const {
         const Move& move = program_.moves[i];
-        const double tolerance = move.path == PathControl::continuous ? std::max(move.tolerance_mm, half_pulse_) : half_pulse_;
+        const double tolerance =
+            move.path == PathControl::continuous ? std::max(move.tolerance_mm, half_pulse_) : half_pulse_;
         const Point& p = state.place;
-        if (paths_[i].shape == PathShape::arc || paths_[i].shape == PathShape::line) return distance_to(paths_[i], p[0], p[1], p[2]) - tolerance;
+        if (paths_[i].shape == PathShape::arc || paths_[i].shape == PathShape::line)
+            return distance_to(paths_[i], p[0], p[1], p[2]) - tolerance;
         double square = 0;
         for (std::size_t k = 0; k < 3; ++k) square += (p[k] - paths_[i].end[k]) * (p[k] - paths_[i].end[k]);
         return std::sqrt(square) - tolerance;
     }
 
     void check_path(const KeptStretch& kept, const RideState& state, double time) {
-        const auto line = static_cast<std::ptrdiff_t>(state.line - 1), count = static_cast<std::ptrdiff_t>(paths_.size());
+        const auto line = static_cast<std::ptrdiff_t>(state.line - 1),
+                   count = static_cast<std::ptrdiff_t>(paths_.size());
         double least = std::numeric_limits<double>::infinity();
         for (std::ptrdiff_t away = 0; away < count && !(least <= 1e-8); ++away) {
             if (line - away >= 0) least = std::min(least, off_path(state, static_cast<std::size_t>(line - away)));
@@ -154,8 +179,10 @@ class RideChecks {
     void check_rest(const KeptStretch& kept) {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double jerk = jerk_of(limits_[i]);
-            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_, kept, last_time_, last_);
-            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_, kept, last_time_, last_);
+            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_,
+                 kept, last_time_, last_);
+            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_,
+                 kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
             last_.speed[i] = last_.accel[i] = 0;
             last_.place[i] = kept.stretch.end[i];
@@ -165,7 +192,8 @@ class RideChecks {
     void check_end() {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double off = std::fabs(last_.place[i] - program_.moves.back().end[i]);
-            if (!(off <= 3e-9)) fail("end", off / 3e-9, fmt::format("axis {} is {:.9g} from the program's end", i, off));
+            if (!(off <= 3e-9))
+                fail("end", off / 3e-9, fmt::format("axis {} is {:.9g} from the program's end", i, off));
         }
     }
 
@@ -180,7 +208,9 @@ class RideChecks {
     int looks_ = 0;
 };
 
-inline Fault fault_of(const WildProgram& program) { return RideChecks(program).find(); }
+inline Fault fault_of(const WildProgram& program) {
+    return RideChecks(program).find();
+}
 
 /// The program without what the fault does not need. Moves that are left out move what follows.
 inline WildProgram reduced(WildProgram program) {
@@ -205,12 +235,17 @@ inline std::string text_of(const WildProgram& program) {
     std::string out = fmt::format("start {:.17g}\n", fmt::join(program.start, " "));
     for (std::size_t i = 0; i < program.limits.size(); ++i) {
         const AxisLimits& axis = program.limits[i];
-        out += fmt::format("{}: speed {:.9g} accel {:.9g} jerk {:.9g} pulses {:.9g}\n", axis_letters[i], axis.max_speed, axis.max_accel, axis.max_jerk, axis.pulses_per_unit);
+        out += fmt::format("{}: speed {:.9g} accel {:.9g} jerk {:.9g} pulses {:.9g}\n", axis_letters[i], axis.max_speed,
+                           axis.max_accel, axis.max_jerk, axis.pulses_per_unit);
     }
     for (const Move& move : program.moves) {
-        out += fmt::format("{} kind {} path {} mode {} feed {:.9g} haste {:.3g} tolerance {:.9g} end {:.17g}", move.line, static_cast<int>(move.kind), static_cast<int>(move.path),
-                           static_cast<int>(move.feed_mode), move.feed, move.haste, move.tolerance_mm, fmt::join(move.end, " "));
-        if (move.kind == MoveKind::arc) out += fmt::format(" plane {}{} centre {:.17g} {:.17g} turns {}", move.first, move.second, move.centre_first, move.centre_second, move.turns);
+        out +=
+            fmt::format("{} kind {} path {} mode {} feed {:.9g} haste {:.3g} tolerance {:.9g} end {:.17g}", move.line,
+                        static_cast<int>(move.kind), static_cast<int>(move.path), static_cast<int>(move.feed_mode),
+                        move.feed, move.haste, move.tolerance_mm, fmt::join(move.end, " "));
+        if (move.kind == MoveKind::arc)
+            out += fmt::format(" plane {}{} centre {:.17g} {:.17g} turns {}", move.first, move.second,
+                               move.centre_first, move.centre_second, move.turns);
         if (move.kind == MoveKind::dwell) out += fmt::format(" seconds {:.9g}", move.seconds);
         out += "\n";
     }

@@ -64,8 +64,11 @@ TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
     double greatest = 0;
     for (std::size_t i = 1; i < moves.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto speed = [&](const PlannedMove& move, double along) { return along * (move.move.end[axis] - move.start[axis]) / move.length; };
-            greatest = std::max(greatest, std::fabs(speed(moves[i], moves[i].entry) - speed(moves[i - 1], moves[i - 1].exit)));
+            const auto speed = [&](const PlannedMove& move, double along) {
+                return along * (move.move.end[axis] - move.start[axis]) / move.length;
+            };
+            greatest =
+                std::max(greatest, std::fabs(speed(moves[i], moves[i].entry) - speed(moves[i - 1], moves[i - 1].exit)));
         }
     EXPECT_LT(greatest, machine()[0].start_speed);
     EXPECT_GT(greatest, 0.1);

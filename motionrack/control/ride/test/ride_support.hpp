@@ -16,7 +16,10 @@ struct KeptStretch {
     KeptEnd before;
     Stretch stretch;
 
-    explicit KeptStretch(const Stretch& from) : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) { before.keep(from.before); }
+    explicit KeptStretch(const Stretch& from)
+        : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) {
+        before.keep(from.before);
+    }
     /// Valid as long as this is.
     Stretch view() const {
         Stretch out = stretch;
@@ -27,7 +30,8 @@ struct KeptStretch {
     }
 };
 
-inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const MachineLimits& limits, const Point& start = {}) {
+inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const MachineLimits& limits,
+                                          const Point& start = {}) {
     std::vector<KeptStretch> out;
     Ride ride(limits, start, [&](const Stretch& stretch) { out.emplace_back(stretch); });
     for (const Move& move : moves) ride.push(move);
@@ -37,7 +41,8 @@ inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const 
 
 inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimits& limits) {
     double seconds = 0;
-    for (const KeptStretch& kept : kept_ride(moves, limits)) seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
+    for (const KeptStretch& kept : kept_ride(moves, limits))
+        seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
     return seconds;
 }
 

@@ -82,7 +82,8 @@ TEST(ARide, HasNoJumps) {
 
 TEST(ARide, OfAStraightLineIsAnSCurve) {
     const Ridden ridden = ride({line_to({100, 0})});
-    EXPECT_NEAR(ridden.seconds, 1 + 100.0 / 2000 + 2000.0 / 40'000, 1e-9);  // way / speed + speed / acceleration + acceleration / jerk
+    EXPECT_NEAR(ridden.seconds, 1 + 100.0 / 2000 + 2000.0 / 40'000,
+                1e-9);  // way / speed + speed / acceleration + acceleration / jerk
     EXPECT_EQ(ridden.end[0], 100);
 }
 
@@ -104,7 +105,8 @@ TEST(ARide, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
         double farthest = 0;
         for (const RideState& state : ride(moves).states) {
             double nearest = 1e9;
-            for (const Geometry& path : paths) nearest = std::min(nearest, distance_to(path, state.place[0], state.place[1], state.place[2]));
+            for (const Geometry& path : paths)
+                nearest = std::min(nearest, distance_to(path, state.place[0], state.place[1], state.place[2]));
             farthest = std::max(farthest, nearest);
         }
         EXPECT_LE(farthest, tolerance) << tolerance;
@@ -117,14 +119,16 @@ TEST(ARide, OfAZigzagIsHardlySlowerThanWithExactStops) {
         for (const double length : {0.5, 5.0, 50.0}) {
             std::vector<Move> moves;
             for (int i = 1; i <= 30; ++i) moves.push_back(line_to({i * length, i % 2 * length}, tolerance));
-            EXPECT_LE(ride(moves).seconds, 1.03 * ride_test::seconds_stopping(moves, machine())) << tolerance << " " << length;
+            EXPECT_LE(ride(moves).seconds, 1.03 * ride_test::seconds_stopping(moves, machine()))
+                << tolerance << " " << length;
         }
 }
 
 TEST(ARide, TakesACircleAtTheSpeedOfItsBend) {
     const Ridden ridden = ride({arc_from({}, 0, 5, 12 * pi)});
     double fastest = 0;
-    for (const RideState& state : ridden.states) fastest = std::max(fastest, std::sqrt(state.speed[0] * state.speed[0] + state.speed[1] * state.speed[1]));
+    for (const RideState& state : ridden.states)
+        fastest = std::max(fastest, std::sqrt(state.speed[0] * state.speed[0] + state.speed[1] * state.speed[1]));
     EXPECT_GT(fastest, 0.97 * std::sqrt(0.8 * 2000 * 5));
     EXPECT_EQ(ridden.rests, 1);
 }
@@ -144,8 +148,10 @@ TEST(ARide, RunsThroughManyChordsAsThroughTheCurve) {
         const double x = 0.05 * i;
         const SinCos wave = sin_cos(x / 15);
         Move move = line_to({x, 20 * wave.sin});
-        const double slope = 20.0 / 15 * wave.cos, bend = 20.0 / 225 * std::fabs(wave.sin) / std::pow(1 + slope * slope, 1.5);
-        quickest += std::hypot(move.end[0] - at[0], move.end[1] - at[1]) / std::min(100.0, std::sqrt(2000 / std::max(bend, 1e-9)));
+        const double slope = 20.0 / 15 * wave.cos,
+                     bend = 20.0 / 225 * std::fabs(wave.sin) / std::pow(1 + slope * slope, 1.5);
+        quickest += std::hypot(move.end[0] - at[0], move.end[1] - at[1]) /
+                    std::min(100.0, std::sqrt(2000 / std::max(bend, 1e-9)));
         at = move.end;
         moves.push_back(move);
     }

@@ -1,4 +1,5 @@
-// Programs driven while they still come, held, slowed and let go on at any instant: what holds at every instant of them.
+// Programs driven while they still come, held, slowed and let go on at any instant: what holds at every instant of
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,7 +58,8 @@ std::vector<Move> program(std::mt19937& random) {
 /// Pushes the moves that have come while there is room, and passes the time; looks at all axes all the time.
 class Driven {
   public:
-    Driven(std::vector<Move> moves, RiderSettings settings) : moves_(std::move(moves)), rider(machine(), {}, settings) {}
+    Driven(std::vector<Move> moves, RiderSettings settings)
+        : moves_(std::move(moves)), rider(machine(), {}, settings) {}
 
     /// False when all is driven.
     bool step(double seconds, bool early) {
@@ -79,8 +81,9 @@ class Driven {
     }
     void pass_time(double seconds) { now += seconds; }
 
-    std::size_t come = static_cast<std::size_t>(-1);           ///< so many moves, at most
-    double now = 0, speed = 0, accel = 0, jerk = 0, jump = 0;  ///< greatest parts of the limits; of what the limits let change
+    std::size_t come = static_cast<std::size_t>(-1);  ///< so many moves, at most
+    double now = 0, speed = 0, accel = 0, jerk = 0,
+           jump = 0;  ///< greatest parts of the limits; of what the limits let change
     RideState last;
 
   private:
@@ -128,7 +131,8 @@ TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
         const std::vector<Move> moves = program(random);
         const bool knows_all = seed % 2 == 0;
         Driven driven(moves, {knows_all ? std::size_t{16'384} : 60});
-        while (driven.step(0.0015, false)) {}
+        while (driven.step(0.0015, false)) {
+        }
         expect_limits(driven);
         expect_end(driven, moves.back().end);
         EXPECT_NEAR(driven.now, ride_test::seconds_of_ride(moves, machine()), (knows_all ? 1e-3 : 0.1) * driven.now);
@@ -225,22 +229,26 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     EXPECT_TRUE(driven.rider.stands());
     EXPECT_EQ(driven.rider.next(true), RideNext::nothing);
     driven.rider.resume();
-    while (driven.step(0.001, true)) {}
+    while (driven.step(0.001, true)) {
+    }
     EXPECT_NEAR(driven.last.place[0], 100, 1e-6);
     expect_limits(driven);
 }
 
-/// The bend alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down takes from the same.
+/// The bend alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down takes
+/// from the same.
 TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
     Move circle = arc_from({}, 0, 10, 50);
     circle.feed = 1000;
     for (const double when : {0.8, 0.9, 1.0, 1.1, 1.2}) {
         Driven driven({circle}, {});
         while (driven.now < when) driven.step(0.001, true);
-        const double speed = std::hypot(driven.last.speed[0], driven.last.speed[1]), all = std::sqrt(machine()[0].max_accel * 10);
+        const double speed = std::hypot(driven.last.speed[0], driven.last.speed[1]),
+                     all = std::sqrt(machine()[0].max_accel * 10);
         EXPECT_GT(speed, 0.9 * all);
         driven.rider.hold();
-        const double asked = driven.now, alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
+        const double asked = driven.now,
+                     alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
         while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
         EXPECT_LT(driven.now - asked, 4 * alone) << when;
         expect_limits(driven);
@@ -282,7 +290,8 @@ TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
     EXPECT_NEAR(driven.last.place[0], 10, 1e-3);
     EXPECT_NEAR(driven.last.place[1], 0, 1e-3);
     driven.rider.resume();
-    while (driven.step(0.0005, true)) {}
+    while (driven.step(0.0005, true)) {
+    }
     expect_limits(driven);
     expect_end(driven, {10, 10});
 }
@@ -309,7 +318,8 @@ TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
     Driven driven(moves, {40});
     int looks = 0;
     while (driven.step(0.003, false)) {
-        if (driven.rider.stands() || driven.rider.left() < driven.rider.until_rest()) continue;  // the next stretch begins before its end
+        if (driven.rider.stands() || driven.rider.left() < driven.rider.until_rest())
+            continue;  // the next stretch begins before its end
         const RideState end = driven.rider.at(driven.rider.until_rest());
         for (const double speed : end.speed) EXPECT_EQ(speed, 0);
         ++looks;

@@ -1,5 +1,5 @@
-// Rides against exact stops, as S-curves, on programs of straight lines. What a row of corners takes is estimated before they are chosen to
-// be passed or stopped at, so a few programs would be quicker with stops, by little.
+// Rides against exact stops, as S-curves, on programs of straight lines. What a row of corners takes is estimated
+// before they are chosen to be passed or stopped at, so a few programs would be quicker with stops, by little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,14 +13,17 @@ namespace {
 using curve_test::line_to;
 using curve_test::machine;
 
-double times_stopping(const std::vector<Move>& moves) { return ride_test::seconds_of_ride(moves, machine()) / ride_test::seconds_stopping(moves, machine()); }
+double times_stopping(const std::vector<Move>& moves) {
+    return ride_test::seconds_of_ride(moves, machine()) / ride_test::seconds_stopping(moves, machine());
+}
 
 TEST(ARideBesideExactStops, IsSeldomSlower) {
     int slower = 0, programs = 0;
     double most = 0;
     for (std::uint64_t seed = 1; seed < 1000; ++seed) {
         const std::vector<Move> moves = curve_test::ProgramMaker(seed).program(2);
-        if (std::any_of(moves.begin(), moves.end(), [](const Move& move) { return move.kind == MoveKind::arc; })) continue;
+        if (std::any_of(moves.begin(), moves.end(), [](const Move& move) { return move.kind == MoveKind::arc; }))
+            continue;
         const double times = times_stopping(moves);
         ++programs;
         slower += times > 1.02;

@@ -1,4 +1,5 @@
-// Programs in which anything may follow anything, on machines whose axes are up to a million times apart; each from a seed.
+// Programs in which anything may follow anything, on machines whose axes are up to a million times apart; each from a
+// seed.
 #pragma once
 
 #include <cmath>
@@ -74,15 +75,40 @@ class WildMaker {
         if (one_of(25) == 0) make_mode();
         const double heading_before = heading_;
         switch (kind) {
-            case 0: heading_ += between(-pi, pi); line(moves, size_between(1e-9, 100)); break;
-            case 1: heading_ += between(-0.1, 0.1); line(moves, size_); break;                                   // chords
-            case 2: heading_ += moves.size() % 2 == 0 ? 2.0 : -2.0; line(moves, size_); break;                   // zigzag
-            case 3: heading_ += pi; line(moves, size_ * between(0.5, 1)); break;                                 // back and forth
-            case 4: heading_ += one_of(2) == 0 ? 0 : pi / 2; line(moves, size_between(1e-6, 30)); break;         // axis by axis
-            case 5: case 6: if (kind == 6) heading_ += between(-2, 2); arc(moves); break;
-            case 7: rotary(moves); break;
-            case 8: one_of(3) == 0 ? dwell(moves) : line(moves, size_); break;
-            default: one_of(2) == 0 ? arc(moves) : line(moves, size_between(1e-3, 50)); break;                   // in line
+            case 0:
+                heading_ += between(-pi, pi);
+                line(moves, size_between(1e-9, 100));
+                break;
+            case 1:
+                heading_ += between(-0.1, 0.1);
+                line(moves, size_);
+                break;  // chords
+            case 2:
+                heading_ += moves.size() % 2 == 0 ? 2.0 : -2.0;
+                line(moves, size_);
+                break;  // zigzag
+            case 3:
+                heading_ += pi;
+                line(moves, size_ * between(0.5, 1));
+                break;  // back and forth
+            case 4:
+                heading_ += one_of(2) == 0 ? 0 : pi / 2;
+                line(moves, size_between(1e-6, 30));
+                break;  // axis by axis
+            case 5:
+            case 6:
+                if (kind == 6) heading_ += between(-2, 2);
+                arc(moves);
+                break;
+            case 7:
+                rotary(moves);
+                break;
+            case 8:
+                one_of(3) == 0 ? dwell(moves) : line(moves, size_);
+                break;
+            default:
+                one_of(2) == 0 ? arc(moves) : line(moves, size_between(1e-3, 50));
+                break;  // in line
         }
         if (!std::isfinite(heading_)) heading_ = heading_before;
     }
@@ -101,12 +127,14 @@ class WildMaker {
     /// In any plane; the rotary axes and the third one may turn with it.
     void arc(std::vector<Move>& moves) {
         Move move = mode_;
-        const std::size_t first = one_of(4) == 0 ? static_cast<std::size_t>(one_of(3)) : 0, second = (first + 1) % 3, third = (first + 2) % 3;
+        const std::size_t first = one_of(4) == 0 ? static_cast<std::size_t>(one_of(3)) : 0, second = (first + 1) % 3,
+                          third = (first + 2) % 3;
         move.kind = MoveKind::arc;
         move.first = static_cast<std::uint8_t>(first);
         move.second = static_cast<std::uint8_t>(second);
         const double radius = one_of(2) == 0 ? size_between(1e-4, 100) : size_between(0.1, 20);
-        const double sweep = (one_of(2) == 0 ? 1 : -1) * (one_of(4) == 0 ? size_between(1e-5, 0.1) : between(0.05, one_of(4) == 0 ? 20 : 6));
+        const double sweep = (one_of(2) == 0 ? 1 : -1) *
+                             (one_of(4) == 0 ? size_between(1e-5, 0.1) : between(0.05, one_of(4) == 0 ? 20 : 6));
         const double side = sweep > 0 ? radius : -radius;
         const SinCos in = sin_cos(heading_), out = sin_cos(heading_ + sweep);
         move.centre_first = at_[first] - side * in.sin;

@@ -11,7 +11,8 @@ TEST(ARideOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     for (std::uint64_t seed = 100'001; seed <= 100'060; ++seed) {
         const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
         const ride_test::Fault fault = ride_test::fault_of(program);
-        ASSERT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n" << ride_test::text_of(ride_test::reduced(program));
+        ASSERT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n"
+                                  << ride_test::text_of(ride_test::reduced(program));
     }
 }
 
@@ -21,7 +22,8 @@ TEST(ARideOfAnything, IsNeverQuickerThanWithAnyJerk) {
         const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
         for (const ride_test::KeptStretch& kept : ride_test::kept_ride(program.moves, program.limits, program.start)) {
             if (kept.curve.empty()) continue;
-            EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, program.limits) * (1 - 2e-3)) << seed << " line " << kept.stretch.line;
+            EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, program.limits) * (1 - 2e-3))
+                << seed << " line " << kept.stretch.line;
         }
     }
 }

@@ -14,14 +14,22 @@ std::string value(int depth) {
     const int kind = depth == 0 ? *rc::gen::inRange(0, 2) : *rc::gen::inRange(0, 8);
     const auto sub = [&] { return value(depth - 1); };
     switch (kind) {
-        case 0: return fmt::format("{}", *rc::gen::inRange(-400, 400) / 16.0);
-        case 1: return fmt::format("#{}", *rc::gen::inRange(1, 5));
-        case 2: return fmt::format("[{} + {}]", sub(), sub());
-        case 3: return fmt::format("[{} - {} * {}]", sub(), sub(), *rc::gen::inRange(-3, 4));
-        case 4: return fmt::format("[{} / {}]", sub(), *rc::gen::inRange(2, 9));
-        case 5: return fmt::format("[{} MOD 7 + {}]", sub(), *rc::gen::inRange(0, 9));
-        case 6: return fmt::format("ABS[{}]", sub());
-        default: return fmt::format("[10 * SIN[{}]]", sub());
+        case 0:
+            return fmt::format("{}", *rc::gen::inRange(-400, 400) / 16.0);
+        case 1:
+            return fmt::format("#{}", *rc::gen::inRange(1, 5));
+        case 2:
+            return fmt::format("[{} + {}]", sub(), sub());
+        case 3:
+            return fmt::format("[{} - {} * {}]", sub(), sub(), *rc::gen::inRange(-3, 4));
+        case 4:
+            return fmt::format("[{} / {}]", sub(), *rc::gen::inRange(2, 9));
+        case 5:
+            return fmt::format("[{} MOD 7 + {}]", sub(), *rc::gen::inRange(0, 9));
+        case 6:
+            return fmt::format("ABS[{}]", sub());
+        default:
+            return fmt::format("[10 * SIN[{}]]", sub());
     }
 }
 
@@ -30,13 +38,18 @@ std::string line(bool turns) {
     const char* axes = "XYZ";
     const char axis = axes[*rc::gen::inRange(0, 3)];
     switch (*rc::gen::inRange(0, 6)) {
-        case 0: return fmt::format("#{} = {}\n", *rc::gen::inRange(1, 5), value(2));
-        case 1: return fmt::format("G0 {}{}\n", axis, value(2));
-        case 2: return fmt::format("G1 {}{} {}\n", axis, value(1), axis == 'X' ? "Y" + value(1) : "");
+        case 0:
+            return fmt::format("#{} = {}\n", *rc::gen::inRange(1, 5), value(2));
+        case 1:
+            return fmt::format("G0 {}{}\n", axis, value(2));
+        case 2:
+            return fmt::format("G1 {}{} {}\n", axis, value(1), axis == 'X' ? "Y" + value(1) : "");
         case 3:
             return fmt::format("G10 L2 P1 X{} Y{}{}\n", *rc::gen::inRange(-9, 9), *rc::gen::inRange(-9, 9),
                                turns ? fmt::format(" R{}", *rc::gen::inRange(-18, 18) * 10) : "");
-        case 4: return *rc::gen::element<std::string>("G90\n", "G91\n", "G55\n", "G54\n", "G20\n", "G21\n", turns ? "G54\n" : "G92 X1 Y2\n", turns ? "G55\n" : "G92.1\n");
+        case 4:
+            return *rc::gen::element<std::string>("G90\n", "G91\n", "G55\n", "G54\n", "G20\n", "G21\n",
+                                                  turns ? "G54\n" : "G92 X1 Y2\n", turns ? "G55\n" : "G92.1\n");
         default: {
             const int radius = *rc::gen::inRange(1, 9);
             return fmt::format("G91 G2 X{} Y0 I{} J0 P2\nG90\n", 2 * radius, radius);
@@ -51,8 +64,12 @@ std::string body(int depth, int& label, bool turns) {
         const int kind = depth == 0 ? 0 : *rc::gen::inRange(0, 5);
         const int o = ++label;
         if (kind <= 2) out += line(turns);
-        if (kind == 3) out += fmt::format("o{0} if [{1} GT 1]\n{2}o{0} else\n{3}o{0} endif\n", o, value(1), body(depth - 1, label, turns), body(depth - 1, label, turns));
-        if (kind == 4) out += fmt::format("o{0} repeat [{1}]\n{2}o{0} endrepeat\n", o, *rc::gen::inRange(1, 4), body(depth - 1, label, turns));
+        if (kind == 3)
+            out += fmt::format("o{0} if [{1} GT 1]\n{2}o{0} else\n{3}o{0} endif\n", o, value(1),
+                               body(depth - 1, label, turns), body(depth - 1, label, turns));
+        if (kind == 4)
+            out += fmt::format("o{0} repeat [{1}]\n{2}o{0} endrepeat\n", o, *rc::gen::inRange(1, 4),
+                               body(depth - 1, label, turns));
     }
     return out;
 }
@@ -66,11 +83,14 @@ TEST(GcodeReferee, Rs274MovesAsWeDoInRandomPrograms) {
         int label = 0;
         const bool turns = *rc::gen::arbitrary<bool>();
         const std::string sub = fmt::format("o900 sub\n{}o900 endsub [#1 + 1]\n", body(1, label, turns));
-        const std::string text = fmt::format("{}G21 G90 G17 F100\nG0 X0\n{}o900 call [1.5] [2.5]\nG0 X#<_value>\n{}M2\n", sub, body(2, label, turns), body(1, label, turns));
+        const std::string text =
+            fmt::format("{}G21 G90 G17 F100\nG0 X0\n{}o900 call [1.5] [2.5]\nG0 X#<_value>\n{}M2\n", sub,
+                        body(2, label, turns), body(1, label, turns));
         write(at.file("random.ngc"), text);
         const std::string theirs = motion_lines(of_rs274(at, "random", false));
         std::string ours;
-        const auto done = print_canon(text, testing::machine("XYZABC", 1e8), {}, [&](std::string_view one) { ours += one; });
+        const auto done =
+            print_canon(text, testing::machine("XYZABC", 1e8), {}, [&](std::string_view one) { ours += one; });
         RC_ASSERT(done.has_value());
         RC_LOG() << text;
         RC_ASSERT(motion_lines(ours) == theirs);

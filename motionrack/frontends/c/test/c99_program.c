@@ -6,24 +6,24 @@
 
 static int failures = 0;
 
-#define CHECK(condition)                                                                        \
-    do {                                                                                        \
-        if (!(condition)) {                                                                     \
-            fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, mr_last_error());        \
-            ++failures;                                                                         \
-        }                                                                                       \
+#define CHECK(condition)                                                                  \
+    do {                                                                                  \
+        if (!(condition)) {                                                               \
+            fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, mr_last_error()); \
+            ++failures;                                                                   \
+        }                                                                                 \
     } while (0)
 
 enum { WR0 = 0x00, WR6 = 0x0c, WR7 = 0x0e, RR0 = 0x00, RR6 = 0x0c, RR7 = 0x0e, AXIS_X = 0x0100 };
 enum { R = 0x00, A = 0x02, SV = 0x04, V = 0x05, P = 0x06, LP = 0x09, READ_LP = 0x10, FIXED_PLUS = 0x20 };
 
-static void data(mr_rack *rack, uint16_t command, uint32_t value) {
+static void data(mr_rack* rack, uint16_t command, uint32_t value) {
     CHECK(mr_write16(rack, "c1", WR7, (uint16_t)(value >> 16)) == MR_OK);
     CHECK(mr_write16(rack, "c1", WR6, (uint16_t)(value & 0xffff)) == MR_OK);
     CHECK(mr_write16(rack, "c1", WR0, (uint16_t)(AXIS_X | command)) == MR_OK);
 }
 
-static int32_t logical_position(mr_rack *rack) {
+static int32_t logical_position(mr_rack* rack) {
     uint16_t low = 0, high = 0;
     CHECK(mr_write16(rack, "c1", WR0, AXIS_X | READ_LP) == MR_OK);
     CHECK(mr_read16(rack, "c1", RR6, &low) == MR_OK);
@@ -31,7 +31,7 @@ static int32_t logical_position(mr_rack *rack) {
     return (int32_t)((uint32_t)high << 16 | low);
 }
 
-static void set_up(mr_rack *rack) {
+static void set_up(mr_rack* rack) {
     data(rack, R, 800000); /* speeds in units of 10 pulses a second */
     data(rack, A, 400);
     data(rack, SV, 100);
@@ -41,7 +41,7 @@ static void set_up(mr_rack *rack) {
 }
 
 static void drives_a_fixed_number_of_pulses(void) {
-    mr_rack *rack = NULL;
+    mr_rack* rack = NULL;
     uint16_t status = 0;
     CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
     CHECK(mr_now_ns(rack) == 0);
@@ -58,19 +58,19 @@ static void drives_a_fixed_number_of_pulses(void) {
     mr_rack_close(rack);
 }
 
-static uint64_t peeked(mr_rack *rack, const char *name) {
+static uint64_t peeked(mr_rack* rack, const char* name) {
     uint64_t value = 0;
     CHECK(mr_peek(rack, "c1", name, &value) == MR_OK);
     return value;
 }
 
-static double wire(mr_rack *rack, const char *name) {
+static double wire(mr_rack* rack, const char* name) {
     double value = -1;
     CHECK(mr_wire_get(rack, name, &value) == MR_OK);
     return value;
 }
 
-static double part(mr_rack *rack, const char *name) {
+static double part(mr_rack* rack, const char* name) {
     double value = -1;
     CHECK(mr_part_get(rack, name, &value) == MR_OK);
     return value;
@@ -78,7 +78,7 @@ static double part(mr_rack *rack, const char *name) {
 
 /* The example at the head of motionrack/c.h. */
 static void the_headers_example_runs(void) {
-    mr_rack *rack = NULL;
+    mr_rack* rack = NULL;
     uint16_t low = 0;
     if (mr_rack_open("card.c1 = \"mcx314\"", &rack) != MR_OK) {
         fprintf(stderr, "%s\n", mr_last_error());
@@ -98,7 +98,7 @@ static void the_headers_example_runs(void) {
 
 /* Registers by name, the machine's truth, a limit switch by hand. */
 static void a_limit_switch_stops_the_drive(void) {
-    mr_rack *rack = NULL;
+    mr_rack* rack = NULL;
     CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
     set_up(rack);
     CHECK(peeked(rack, "x.P") == 20000);
@@ -141,7 +141,7 @@ static void a_snapshot_is_a_world_of_its_own(void) {
 
 /* A broken encoder track: the counter stands while the machine moves. */
 static void a_broken_track_stops_the_counter(void) {
-    mr_rack *rack = NULL;
+    mr_rack* rack = NULL;
     CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
     set_up(rack);
     CHECK(mr_fault(rack, "encoder.broken_a", "X") == MR_OK);
@@ -155,7 +155,7 @@ static void a_broken_track_stops_the_counter(void) {
 }
 
 static void tells_what_is_wrong(void) {
-    mr_rack *rack = NULL;
+    mr_rack* rack = NULL;
     uint8_t byte = 7;
     CHECK(mr_rack_open("card.c1 = \"mcx315\"", &rack) == MR_BAD_INPUT);
     CHECK(rack == NULL);

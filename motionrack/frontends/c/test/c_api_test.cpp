@@ -80,12 +80,16 @@ TEST(CApi, AccessesThatTheBusDoesNotHaveAreRefused) {
 }
 
 TEST(CApi, AnEightBitBusHasBytePorts) {
-    Open r("[card.c1]\ntype = \"mcx314\"\nbus = \"8-bit\"\nbus_access_ns = 100\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n");
+    Open r(
+        "[card.c1]\ntype = \"mcx314\"\nbus = \"8-bit\"\nbus_access_ns = 100\n[axis.X]\ncard = \"c1\"\nchannel = "
+        "\"x\"\n");
     ASSERT_EQ(r.code, MR_OK) << mr_last_error();
     std::uint16_t word = 0;
     EXPECT_EQ(mr_read16(r, "c1", 0, &word), MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("accesses of 8 bits, not of 16"));
-    const auto out = [&](std::uint32_t port, std::uint8_t value) { EXPECT_EQ(mr_write8(r, "c1", port, value), MR_OK) << mr_last_error(); };
+    const auto out = [&](std::uint32_t port, std::uint8_t value) {
+        EXPECT_EQ(mr_write8(r, "c1", port, value), MR_OK) << mr_last_error();
+    };
     out(0x0D, 0x12);
     out(0x0C, 0x34);
     out(0x01, 0x01);

@@ -1,11 +1,12 @@
-/* The maker's two demonstration programs for the DataBoard 4002, his functional test and his examples, run port by port, with what
- * comes of them checked. */
+/* The maker's two demonstration programs for the DataBoard 4002, his functional test and his examples, run port by
+ * port, with what comes of them checked. */
 #include "databoard4002_host.h"
 
-/* ---- what is to be expected ----------------------------------------------------------------------------------------------- */
+/* ---- what is to be expected
+ * ----------------------------------------------------------------------------------------------- */
 
-/* How long `counts` take by the description: each count at the least of the speed of the distance travelled, that of the distance
- * to go, and Rate; a rate r makes 400 kHz / (16384 - r). */
+/* How long `counts` take by the description: each count at the least of the speed of the distance travelled, that of
+ * the distance to go, and Rate; a rate r makes 400 kHz / (16384 - r). */
 static uint64_t leg_ns(long counts, unsigned stretch, unsigned rate) {
     uint64_t ns = 0;
     long done;
@@ -24,7 +25,7 @@ static uint64_t leg_ns(long counts, unsigned stretch, unsigned rate) {
 }
 
 /* One leg as the demonstration goes it, with its result. */
-static void leg(host *h, const listing *l, unsigned target, unsigned stretch, unsigned rate) {
+static void leg(host* h, const listing* l, unsigned target, unsigned stretch, unsigned rate) {
     const long from = position(h), to = (long)target * 256, way = to > from ? to - from : from - to;
     const uint64_t start = mr_now_ns(h->rack), expected = leg_ns(way, stretch, rate);
     uint64_t took;
@@ -34,18 +35,21 @@ static void leg(host *h, const listing *l, unsigned target, unsigned stretch, un
     /* The commands before G and after the event come on top; between two speeds the period that runs is finished. */
     CHECK(took > expected - 10 * MS && took < expected + 120 * MS);
     if (took <= expected - 10 * MS || took >= expected + 120 * MS)
-        fprintf(stderr, "%s to %u: %.4f s, expected %.4f s\n", l->name, target, (double)took * 1e-9, (double)expected * 1e-9);
+        fprintf(stderr, "%s to %u: %.4f s, expected %.4f s\n", l->name, target, (double)took * 1e-9,
+                (double)expected * 1e-9);
     quit(h, l);
     CHECK(position(h) == to);
     CHECK(part(h, "c1.fout_hz") == 0 && wire(h, "c1.vout") == 0);
 }
 
-static void the_demonstration_runs(const listing *l, int laps) {
-    static const uint8_t first[] = {C2, 'I', C2, 'D', DATA, 25, DATA, 0, DATA, 0, C2, 'R', DATA, 240, DATA, 63,
-                                    C2, 'S', DATA, 14000 & 255, DATA, 14000 >> 8, DATA, 0, DATA, 1, DATA, 0};
-    static const uint8_t last[] = {DATA, 16344 & 255, DATA, 16344 >> 8, DATA, 0, DATA, 600 & 255, DATA, 600 >> 8, C2, 'O'};
-    static const uint8_t move[] = {C2, 'P', DATA, 0, DATA, 1000 & 255, DATA, 1000 >> 8, C4, 33, 0x40 + DATA, 0x80,
-                                   C2, 'G', C4, 33, 0x40 + DATA, 0x81, C2, 'L'};
+static void the_demonstration_runs(const listing* l, int laps) {
+    static const uint8_t first[] = {C2,   'I',        C2,   'D', DATA, 25, DATA, 0,   DATA, 0,
+                                    C2,   'R',        DATA, 240, DATA, 63, C2,   'S', DATA, 14000 & 255,
+                                    DATA, 14000 >> 8, DATA, 0,   DATA, 1,  DATA, 0};
+    static const uint8_t last[] = {DATA, 16344 & 255, DATA, 16344 >> 8, DATA, 0,
+                                   DATA, 600 & 255,   DATA, 600 >> 8,   C2,   'O'};
+    static const uint8_t move[] = {C2,          'P',  DATA, 0,   DATA, 1000 & 255, DATA,        1000 >> 8, C4, 33,
+                                   0x40 + DATA, 0x80, C2,   'G', C4,   33,         0x40 + DATA, 0x81,      C2, 'L'};
     host h = host_open();
     int lap;
     init(&h, l);
@@ -77,10 +81,13 @@ static void the_demonstration_runs(const listing *l, int laps) {
     mr_rack_close(h.rack);
 }
 
-/* ---- stops ---------------------------------------------------------------------------------------------------------------- */
+/* ---- stops
+ * ---------------------------------------------------------------------------------------------------------------- */
 
-static void a_margin_is_told_and_the_move_goes_on_when_it_is_released(const listing *l) {
-    static const happening done[] = {{9000ull * MS, "c1.esr", 1}, {12000ull * MS, "c1.esl", 1}, {13000ull * MS, "c1.esl", 0},
+static void a_margin_is_told_and_the_move_goes_on_when_it_is_released(const listing* l) {
+    static const happening done[] = {{9000ull * MS, "c1.esr", 1},
+                                     {12000ull * MS, "c1.esl", 1},
+                                     {13000ull * MS, "c1.esl", 0},
                                      {15000ull * MS, "c1.esr", 0}};
     host h = host_open();
     uint64_t start, expected = leg_ns(256000, 1, 16383) + 6000ull * MS;
@@ -92,13 +99,13 @@ static void a_margin_is_told_and_the_move_goes_on_when_it_is_released(const list
     CHECK(!h.gave_up);
     CHECK(position(&h) == 256000);
     CHECK(mr_now_ns(h.rack) - start > expected - 20 * MS && mr_now_ns(h.rack) - start < expected + 130 * MS);
-    CHECK(strstr(h.said, l->right) == h.said);       /* the edge of ESR */
-    CHECK(strstr(h.said + 1, l->left) != NULL);      /* that of ESL, and ESR is still there: both are told */
+    CHECK(strstr(h.said, l->right) == h.said);  /* the edge of ESR */
+    CHECK(strstr(h.said + 1, l->left) != NULL); /* that of ESL, and ESR is still there: both are told */
     CHECK(strstr(h.said, l->emergency) == NULL);
     mr_rack_close(h.rack);
 }
 
-static void after_an_emergency_stop_nothing_moves_until_the_next_go(const listing *l) {
+static void after_an_emergency_stop_nothing_moves_until_the_next_go(const listing* l) {
     static const happening done[] = {{32000ull * MS, "c1.ems", 1}, {32500ull * MS, "c1.ems", 0}};
     host h = host_open();
     long there;
@@ -120,7 +127,8 @@ static void after_an_emergency_stop_nothing_moves_until_the_next_go(const listin
     mr_rack_close(h.rack);
 }
 
-/* ---- the description's own examples --------------------------------------------------------------------------------------- */
+/* ---- the description's own examples
+ * --------------------------------------------------------------------------------------- */
 
 /* "Uppstart av 4002": its points 2 to 8. */
 static void the_functional_test_passes(void) {
@@ -145,7 +153,7 @@ static void the_functional_test_passes(void) {
     mr_rack_close(h.rack);
 }
 
-static long number_from(host *h, int command, int bytes) {
+static long number_from(host* h, int command, int bytes) {
     unsigned long value = 0, sign = 1ul << (8 * bytes - 1);
     int i;
     out_strobe(h, &assembler, C2, (unsigned)command);
@@ -211,8 +219,10 @@ static void both_resets_stop_at_once(void) {
         out_strobe(&h, &assembler, C2, 'G');
         pass(&h, 30000ull * MS);
         CHECK(wire(&h, "c1.vout") > 0.1 && position(&h) > 1000);
-        if (all) (void)in(&h, RST);
-        else out(&h, C3, 0);
+        if (all)
+            (void)in(&h, RST);
+        else
+            out(&h, C3, 0);
         CHECK(wire(&h, "c1.vout") == 0 && wire(&h, "c1.relay") == 0);
         there = position(&h);
         pass(&h, 1000 * MS);
@@ -225,7 +235,7 @@ static void both_resets_stop_at_once(void) {
 }
 
 int main(void) {
-    const listing *const listings[] = {&assembler, &basic};
+    const listing* const listings[] = {&assembler, &basic};
     int i;
     the_functional_test_passes();
     numbers_positions_and_interrupts();

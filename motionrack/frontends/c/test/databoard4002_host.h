@@ -1,5 +1,5 @@
-/* An 8-bit host in front of a DataBoard 4002, port by port, and the routines of the maker's two demonstration programs as they are
- * listed: in assembler for a Z80 at 4 MHz, and in BASIC.
+/* An 8-bit host in front of a DataBoard 4002, port by port, and the routines of the maker's two demonstration programs
+ * as they are listed: in assembler for a Z80 at 4 MHz, and in BASIC.
  *
  *   program ── OUT port, IN port ──► mr_write8, mr_read8 ──► card c1 ──► pulses ──► an ideal motor ──► counter
  *           └─ the time an instruction takes ──► mr_advance_ns
@@ -13,12 +13,12 @@
 
 static int failures = 0;
 
-#define CHECK(condition)                                                                        \
-    do {                                                                                        \
-        if (!(condition)) {                                                                     \
-            fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, mr_last_error());        \
-            ++failures;                                                                         \
-        }                                                                                       \
+#define CHECK(condition)                                                                  \
+    do {                                                                                  \
+        if (!(condition)) {                                                               \
+            fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, mr_last_error()); \
+            ++failures;                                                                   \
+        }                                                                                 \
     } while (0)
 
 /* The names and numbers of both listings. */
@@ -28,19 +28,19 @@ enum { T_STATE = 250, BUS = 250, MS = 1000000 };
 
 typedef struct {
     uint64_t at_ns;
-    const char *wire;
+    const char* wire;
     double level;
 } happening; /* something that somebody does to the machine while the program runs */
 
 typedef struct {
-    mr_rack *rack;
+    mr_rack* rack;
     uint64_t longest_wait_ns; /* for Ready */
     uint8_t tape[1024];       /* accesses to C2, C4 and DATA: the port, 40h added for IN, then the byte */
     unsigned taped;
     char said[256]; /* what the program put on its screen */
     int gave_up;    /* "unit never ready", or a wait for an event that never came */
-    const happening *next;
-    const happening *end;
+    const happening* next;
+    const happening* end;
 } host;
 
 static host host_open(void) {
@@ -50,28 +50,29 @@ static host host_open(void) {
     return h;
 }
 
-static void pass(host *h, uint64_t ns) {
+static void pass(host* h, uint64_t ns) {
     const uint64_t until = mr_now_ns(h->rack) + ns;
     for (; h->next != h->end && h->next->at_ns <= until; ++h->next) {
-        if (h->next->at_ns > mr_now_ns(h->rack)) CHECK(mr_advance_ns(h->rack, h->next->at_ns - mr_now_ns(h->rack)) == MR_OK);
+        if (h->next->at_ns > mr_now_ns(h->rack))
+            CHECK(mr_advance_ns(h->rack, h->next->at_ns - mr_now_ns(h->rack)) == MR_OK);
         CHECK(mr_wire_set(h->rack, h->next->wire, h->next->level) == MR_OK);
     }
     if (until > mr_now_ns(h->rack)) CHECK(mr_advance_ns(h->rack, until - mr_now_ns(h->rack)) == MR_OK);
 }
 
-static void tape(host *h, int kind, uint8_t value) {
+static void tape(host* h, int kind, uint8_t value) {
     if (h->taped + 2 > sizeof h->tape) return;
     h->tape[h->taped++] = (uint8_t)kind;
     h->tape[h->taped++] = value;
 }
 
-static void out(host *h, uint32_t port, int value) {
+static void out(host* h, uint32_t port, int value) {
     pass(h, 11 * T_STATE - BUS);
     CHECK(mr_write8(h->rack, "c1", port, (uint8_t)value) == MR_OK);
     if (port != CS) tape(h, (int)port, (uint8_t)value);
 }
 
-static uint8_t in(host *h, uint32_t port) {
+static uint8_t in(host* h, uint32_t port) {
     uint8_t value = 0;
     pass(h, 11 * T_STATE - BUS);
     CHECK(mr_read8(h->rack, "c1", port, &value) == MR_OK);
@@ -79,25 +80,28 @@ static uint8_t in(host *h, uint32_t port) {
     return value;
 }
 
-static void say(host *h, const char *text) {
+static void say(host* h, const char* text) {
     if (strlen(h->said) + strlen(text) + 2 < sizeof h->said) strcat(strcat(h->said, text), "|");
 }
 
-static double part(const host *h, const char *name) {
+static double part(const host* h, const char* name) {
     double value = -1e9;
     CHECK(mr_part_get(h->rack, name, &value) == MR_OK);
     return value;
 }
 
-static double wire(const host *h, const char *name) {
+static double wire(const host* h, const char* name) {
     double value = -1e9;
     CHECK(mr_wire_get(h->rack, name, &value) == MR_OK);
     return value;
 }
 
-static long position(const host *h) { return (long)part(h, "c1.position_counts"); }
+static long position(const host* h) {
+    return (long)part(h, "c1.position_counts");
+}
 
-/* ---- both programs -------------------------------------------------------------------------------------------------------- */
+/* ---- both programs
+ * -------------------------------------------------------------------------------------------------------- */
 
 enum { INTERVALS = 24 };
 static const unsigned deceleration[INTERVALS][2] = {
@@ -111,26 +115,42 @@ static const unsigned acceleration[INTERVALS][2] = {
 
 /* What differs between the two listings. */
 typedef struct {
-    const char *name;
+    const char* name;
     unsigned ready_looks;   /* before "unit never ready" */
     uint64_t ready_look_ns; /* how long one takes, beside the IN */
     uint64_t event_look_ns; /* the same in the loop that waits for an event */
     uint64_t call_ns;       /* from the return of one access to the first look for the next */
-    unsigned stretch_2;     /* positions of slope type 2: the BASIC program doubles them, the assembler program does not */
+    unsigned stretch_2; /* positions of slope type 2: the BASIC program doubles them, the assembler program does not */
     const char *left, *right, *emergency, *in_position, *fatal;
 } listing;
 
 /* WAITRDY: INP, NI, JNZS, DECD, LR, OR, JNZS are 51 T-states, so that 10000 of them are 127.5 ms. */
-static const listing assembler = {"assembler", 10000, 40 * T_STATE, 19 * T_STATE, 96 * T_STATE, 1,
-                                  "LEFT MARGIN.", "RIGHT MARGIN.", "EMERGENCY STOP.", "IN POSITION.",
+static const listing assembler = {"assembler",
+                                  10000,
+                                  40 * T_STATE,
+                                  19 * T_STATE,
+                                  96 * T_STATE,
+                                  1,
+                                  "LEFT MARGIN.",
+                                  "RIGHT MARGIN.",
+                                  "EMERGENCY STOP.",
+                                  "IN POSITION.",
                                   "FATAL ERROR, UNIT NOT READY!!!!!!"};
 /* A statement of an interpreter is taken as a millisecond. */
-static const listing basic = {"basic", 100, 2 * MS, 1 * MS, 2 * MS, 2,
-                              "LEFT MARGIN STOP.", "RIGHT MARGIN STOP.", "EMERGENCY STOP.", "IN POSITION.",
+static const listing basic = {"basic",
+                              100,
+                              2 * MS,
+                              1 * MS,
+                              2 * MS,
+                              2,
+                              "LEFT MARGIN STOP.",
+                              "RIGHT MARGIN STOP.",
+                              "EMERGENCY STOP.",
+                              "IN POSITION.",
                               "FATAL ERROR !! UNIT NEVER READY !"};
 
 /* WAITRDY; FNWaitrdy, 2840. */
-static void wait_ready(host *h, const listing *l) {
+static void wait_ready(host* h, const listing* l) {
     const uint64_t from = mr_now_ns(h->rack);
     unsigned look;
     for (look = 0; look < l->ready_looks; ++look) {
@@ -145,21 +165,21 @@ static void wait_ready(host *h, const listing *l) {
 }
 
 /* OUTSTROB; FNOut, 3760. */
-static void out_strobe(host *h, const listing *l, uint32_t port, unsigned value) {
+static void out_strobe(host* h, const listing* l, uint32_t port, unsigned value) {
     pass(h, l->call_ns);
     wait_ready(h, l);
     out(h, port, (int)(value & 0xff));
 }
 
 /* INSTROB; FNInp, 3920. */
-static uint8_t in_strobe(host *h, const listing *l, uint32_t port) {
+static uint8_t in_strobe(host* h, const listing* l, uint32_t port) {
     pass(h, l->call_ns);
     wait_ready(h, l);
     return in(h, port);
 }
 
 /* INIT; FNInitdemo, 4080. */
-static void init(host *h, const listing *l) {
+static void init(host* h, const listing* l) {
     out(h, CS, CARD);
     out_strobe(h, l, C2, 'I');
     out_strobe(h, l, C2, 'D');
@@ -169,19 +189,19 @@ static void init(host *h, const listing *l) {
 }
 
 /* MAXSPEED; FNMaxspeed, 2420. */
-static void max_speed(host *h, const listing *l, unsigned rate) {
+static void max_speed(host* h, const listing* l, unsigned rate) {
     out_strobe(h, l, C2, 'R');
     out_strobe(h, l, DATA, rate);
     out_strobe(h, l, DATA, rate / 256);
 }
 
 /* STORESLO; FNStoreslope, 3060. */
-static void store_slope(host *h, const listing *l, unsigned stretch) {
+static void store_slope(host* h, const listing* l, unsigned stretch) {
     int half, interval;
     out_strobe(h, l, C2, 'S');
     for (half = 1; half <= 2; ++half) {
         for (interval = 0; interval < INTERVALS; ++interval) {
-            const unsigned *row = half == 1 ? deceleration[interval] : acceleration[interval];
+            const unsigned* row = half == 1 ? deceleration[interval] : acceleration[interval];
             out_strobe(h, l, DATA, row[0]);
             out_strobe(h, l, DATA, row[0] / 256);
             out_strobe(h, l, DATA, 0);
@@ -193,7 +213,7 @@ static void store_slope(host *h, const listing *l, unsigned stretch) {
 }
 
 /* GOPOSIT; FNGoPosition, 1860. Gives up (which the programs do not) when nothing happens for `patience_ns`. */
-static void go_position(host *h, const listing *l, unsigned target, uint64_t patience_ns) {
+static void go_position(host* h, const listing* l, unsigned target, uint64_t patience_ns) {
     uint8_t event = 0;
     out_strobe(h, l, C2, 'P');
     out_strobe(h, l, DATA, 0);
@@ -223,7 +243,7 @@ static void go_position(host *h, const listing *l, unsigned target, uint64_t pat
 }
 
 /* QUIT; FNQuit, 2620: the user takes a second to press a key. */
-static void quit(host *h, const listing *l) {
+static void quit(host* h, const listing* l) {
     say(h, l->in_position);
     pass(h, 1000 * MS);
 }

@@ -5,19 +5,19 @@
 
 static int wrong = 0;
 
-static void expect(int good, const char *what) {
+static void expect(int good, const char* what) {
     if (good) return;
     fprintf(stderr, "wrong: %s (%s)\n", what, mr_last_error());
     ++wrong;
 }
 
 /* A line of an encoder, by hand, for 2 us. */
-static void set(mr_rack *rack, const char *wire, int level) {
+static void set(mr_rack* rack, const char* wire, int level) {
     expect(mr_wire_set(rack, wire, level) == MR_OK, wire);
     expect(mr_advance_ns(rack, 2000) == MR_OK, "time");
 }
 
-static void line_of_axis_1(mr_rack *rack) {
+static void line_of_axis_1(mr_rack* rack) {
     set(rack, "p1.a1", 1);
     set(rack, "p1.b1", 1);
     set(rack, "p1.a1", 0);
@@ -25,8 +25,8 @@ static void line_of_axis_1(mr_rack *rack) {
 }
 
 int main(void) {
-    mr_rack *rack = NULL;
-    flex2pos *flex = NULL;
+    mr_rack* rack = NULL;
+    flex2pos* flex = NULL;
     int32_t time = -1, position[4];
     int status[4], i;
     double level = 0;
@@ -67,7 +67,9 @@ int main(void) {
     expect(flex2pos_Init(NULL, 0x2300) == Flex_ErrDevice && flex2pos_ReadTime(NULL) == 0, "no object");
     flex2pos_close(flex);
     mr_rack_close(rack);
-    expect(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK && flex2pos_open(rack, &flex) == MR_BAD_CALL && flex == NULL, "another card");
+    expect(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK && flex2pos_open(rack, &flex) == MR_BAD_CALL &&
+               flex == NULL,
+           "another card");
     mr_rack_close(rack);
     return wrong != 0;
 }

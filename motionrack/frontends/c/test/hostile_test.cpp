@@ -1,5 +1,5 @@
-// Random calls of motionrack/c.h with good and bad arguments: each returns a code, an error has its sentence and changes
-// nothing, and what is copied stays the same.
+// Random calls of motionrack/c.h with good and bad arguments: each returns a code, an error has its sentence and
+// changes nothing, and what is copied stays the same.
 #include <gtest/gtest.h>
 #include <motionrack/c.h>
 
@@ -15,7 +15,8 @@ namespace {
 class Hostile {
   public:
     explicit Hostile(std::uint64_t seed) : random_(seed) {
-        EXPECT_EQ(mr_rack_open("[card.c1]\ntype = \"mcx314\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n[axis.X.switches]\nlimit_plus_mm = "
+        EXPECT_EQ(mr_rack_open("[card.c1]\ntype = \"mcx314\"\n[axis.X]\ncard = \"c1\"\nchannel = "
+                               "\"x\"\n[axis.X.switches]\nlimit_plus_mm = "
                                "301\n[axis.B]\ncard = \"c1\"\nchannel = \"y\"\n",
                                &rack_),
                   MR_OK)
@@ -38,17 +39,27 @@ class Hostile {
         std::uint64_t wide = 0;
         double value = 0;
         switch (pick(14)) {
-            case 0: return mr_advance_ns(rack_, pick(3) == 0 ? random_() : pick(2'000'000));
-            case 1: return mr_read16(rack_, card(), offset(), pick(50) == 0 ? nullptr : &word);
-            case 2: return mr_peek(rack_, card(), name(), &wide);
-            case 3: return mr_wire_get(rack_, name(), &value);
+            case 0:
+                return mr_advance_ns(rack_, pick(3) == 0 ? random_() : pick(2'000'000));
+            case 1:
+                return mr_read16(rack_, card(), offset(), pick(50) == 0 ? nullptr : &word);
+            case 2:
+                return mr_peek(rack_, card(), name(), &wide);
+            case 3:
+                return mr_wire_get(rack_, name(), &value);
             case 4:
-            case 5: return mr_wire_set(rack_, name(), number());
-            case 6: return mr_part_get(rack_, name(), &value);
-            case 7: return mr_part_set(rack_, name(), number());
-            case 8: return mr_fault(rack_, name(), name());
-            case 9: return copies();
-            default: return mr_write16(rack_, card(), offset(), static_cast<std::uint16_t>(random_()));
+            case 5:
+                return mr_wire_set(rack_, name(), number());
+            case 6:
+                return mr_part_get(rack_, name(), &value);
+            case 7:
+                return mr_part_set(rack_, name(), number());
+            case 8:
+                return mr_fault(rack_, name(), name());
+            case 9:
+                return copies();
+            default:
+                return mr_write16(rack_, card(), offset(), static_cast<std::uint16_t>(random_()));
         }
     }
 
@@ -67,25 +78,58 @@ class Hostile {
     const char* card() { return pick(50) == 0 ? nullptr : pick(20) == 0 ? "c2" : "c1"; }
     std::uint32_t offset() { return static_cast<std::uint32_t>(pick(20) == 0 ? random_() : 2 * pick(8)); }
     double number() {
-        static const double some[] = {0, 1, std::numeric_limits<double>::quiet_NaN(), 0.5, -1, 1e300,
-                                      -std::numeric_limits<double>::infinity(), 17.25, 1e6};
-        return pick(3) == 0 ? some[pick(2)] : pick(5) == 0 ? static_cast<double>(random_()) / 1e9 : some[pick(std::size(some))];
+        static const double some[] = {0,  1,     std::numeric_limits<double>::quiet_NaN(), 0.5,
+                                      -1, 1e300, -std::numeric_limits<double>::infinity(), 17.25,
+                                      1e6};
+        return pick(3) == 0   ? some[pick(2)]
+               : pick(5) == 0 ? static_cast<double>(random_()) / 1e9
+                              : some[pick(std::size(some))];
     }
     const char* name() {
-        static const char* const some[] = {
-            "c1.xlmtp",     "c1.xlmtm",  "c1.xeca",          "c1.xecb",          "c1.yeca",        "c1.yecb",         "c1.xin0",
-            "c1.emgn",      "c1.xalarm", "estop",            "X.limit_plus",     "X.enc_z",        "B.enc_z",         "X.step",
-            "c1.xpp",       "c1.int_n",  "X.position_mm",    "B.position_deg",   "X.position_pulses", "X.in_step",    "RR0",
-            "x.RR1",        "u.LP",      "X",                "B",                "motor.stall",    "motor.stall=0",   "motor.push=99",
-            "motor.lose_steps=3", "encoder.broken_a", "encoder.swapped=1", "limit_plus.stuck_closed", "encoder.broken_b=0", "home.stuck_open"};
+        static const char* const some[] = {"c1.xlmtp",
+                                           "c1.xlmtm",
+                                           "c1.xeca",
+                                           "c1.xecb",
+                                           "c1.yeca",
+                                           "c1.yecb",
+                                           "c1.xin0",
+                                           "c1.emgn",
+                                           "c1.xalarm",
+                                           "estop",
+                                           "X.limit_plus",
+                                           "X.enc_z",
+                                           "B.enc_z",
+                                           "X.step",
+                                           "c1.xpp",
+                                           "c1.int_n",
+                                           "X.position_mm",
+                                           "B.position_deg",
+                                           "X.position_pulses",
+                                           "X.in_step",
+                                           "RR0",
+                                           "x.RR1",
+                                           "u.LP",
+                                           "X",
+                                           "B",
+                                           "motor.stall",
+                                           "motor.stall=0",
+                                           "motor.push=99",
+                                           "motor.lose_steps=3",
+                                           "encoder.broken_a",
+                                           "encoder.swapped=1",
+                                           "limit_plus.stuck_closed",
+                                           "encoder.broken_b=0",
+                                           "home.stuck_open"};
         if (pick(60) == 0) return nullptr;
         if (pick(8) != 0) return some[pick(std::size(some))];
         scratch_[next_ ^= 1] = some[pick(std::size(some))];
         std::string& text = scratch_[next_];
         for (std::uint64_t i = pick(4); i-- > 0;) {
             const std::size_t at = pick(text.size() + 1);
-            if (pick(2) == 0 && at < text.size()) text.erase(at, 1);
-            else text.insert(at, 1, static_cast<char>(pick(255) + 1));
+            if (pick(2) == 0 && at < text.size())
+                text.erase(at, 1);
+            else
+                text.insert(at, 1, static_cast<char>(pick(255) + 1));
         }
         return text.c_str();
     }
@@ -115,27 +159,32 @@ TEST(CHostile, RandomCallsGiveCodesAndSentencesAndNothingElse) {
 TEST(CHostile, RacksWithRandomWiresRunOrAreRefused) {
     const std::uint64_t seed = seed_given();
     std::mt19937_64 random(seed);
-    static const char* const outputs[] = {"xpp",  "xpm",  "ypp",  "ypm", "xout0", "xout3", "xout4", "xout5", "xout6",
-                                          "xout7", "yout7", "int_n", "estop", "X.enc_a", "X.enc_b", "X.enc_z", "X.home", "open"};
-    static const char* const inputs[] = {"xin0", "xin1", "xin2", "xlmtp", "xlmtm", "xalarm", "xinpos", "xexpp", "xexpm", "xeca", "xecb",
-                                         "yin0", "yexpp", "yexpm", "yeca", "yecb", "ylmtp", "emgn", "expls_n", "X.step", "X.dir"};
+    static const char* const outputs[] = {"xpp",   "xpm",     "ypp",     "ypm",     "xout0",  "xout3",
+                                          "xout4", "xout5",   "xout6",   "xout7",   "yout7",  "int_n",
+                                          "estop", "X.enc_a", "X.enc_b", "X.enc_z", "X.home", "open"};
+    static const char* const inputs[] = {"xin0",  "xin1",  "xin2",  "xlmtp", "xlmtm",   "xalarm", "xinpos",
+                                         "xexpp", "xexpm", "xeca",  "xecb",  "yin0",    "yexpp",  "yexpm",
+                                         "yeca",  "yecb",  "ylmtp", "emgn",  "expls_n", "X.step", "X.dir"};
     const auto full = [](const char* name) {
         const std::string text = name;
         return text.find('.') != std::string::npos || text == "estop" || text == "open" ? text : "c1." + text;
     };
     int opened = 0;
     for (int world = 0; world < 300; ++world) {
-        std::string text = "[card.c1]\ntype = \"mcx314\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n[axis.X.switches]\nhome_mm = "
-                           "1\n[wires]\n";
+        std::string text =
+            "[card.c1]\ntype = \"mcx314\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n[axis.X.switches]\nhome_mm = "
+            "1\n[wires]\n";
         for (const char* input : inputs)
-            if (random() % 4 == 0) text += '"' + full(input) + "\" = \"" + full(outputs[random() % std::size(outputs)]) + "\"\n";
+            if (random() % 4 == 0)
+                text += '"' + full(input) + "\" = \"" + full(outputs[random() % std::size(outputs)]) + "\"\n";
         mr_rack* rack = nullptr;
         const int code = mr_rack_open(text.c_str(), &rack);
         ASSERT_TRUE(code == MR_OK || code == MR_BAD_INPUT) << mr_last_error();
         if (code != MR_OK) continue;
         ++opened;
         for (int i = 0; i < 300; ++i) {
-            mr_write16(rack, "c1", static_cast<std::uint32_t>(2 * (random() % 8)), static_cast<std::uint16_t>(random()));
+            mr_write16(rack, "c1", static_cast<std::uint32_t>(2 * (random() % 8)),
+                       static_cast<std::uint16_t>(random()));
             mr_write16(rack, "c1", 0, static_cast<std::uint16_t>(random() % 16 << 8 | random() % 0x40));
             if (random() % 8 == 0) mr_advance_ns(rack, random() % 200'000);
         }

@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// ---- wires ------------------------------------------------------------------------------------------------------------
+// ---- wires
 
 TEST(CWires, SwitchesLeadToTheCardUntilTheirPinIsDriven) {
     World world(with_switches);
@@ -83,7 +83,8 @@ TEST(CWires, EncoderInputsCountWhatTheyAreDrivenWithAndThenTheEncoderAgain) {
     EXPECT_EQ(world.wire("c1.xeca"), 0);  // count 1000: lines 00
     EXPECT_EQ(world.wire("X.enc_a"), 0);
     // Four counts forward by hand: A, then B, then A and B back.
-    const std::pair<const char*, int> edges[] = {{"c1.xeca", 1}, {"c1.xecb", 1}, {"c1.xeca", 0}, {"c1.xecb", 0}, {"c1.xeca", 1}};
+    const std::pair<const char*, int> edges[] = {
+        {"c1.xeca", 1}, {"c1.xecb", 1}, {"c1.xeca", 0}, {"c1.xecb", 0}, {"c1.xeca", 1}};
     std::int64_t count = 1000;
     for (const auto& [pin, level] : edges) {
         world.set(pin, level);
@@ -139,7 +140,7 @@ TEST(CWires, UpAndDownPulsesAreCountedWhereTheCardIsToldSo) {
     }
 }
 
-// ---- the machine ------------------------------------------------------------------------------------------------------
+// ---- the machine
 
 TEST(CWires, TheMachineTellsItsTruth) {
     World world(with_switches);
@@ -161,7 +162,8 @@ TEST(CWires, TheMachineTellsItsTruth) {
     EXPECT_EQ(world.part("X.speed_mm_s"), 0);
     EXPECT_NEAR(world.part("X.top_speed_mm_s"), 15.6, 0.1);
     double value = 3;
-    for (const char* name : {"X.position_deg", "X.home", "X", "X.", "", "c1.position_mm", "B.in_step", "A.position_counts"}) {
+    for (const char* name :
+         {"X.position_deg", "X.home", "X", "X.", "", "c1.position_mm", "B.in_step", "A.position_counts"}) {
         EXPECT_EQ(mr_part_get(world, name, &value), MR_BAD_CALL) << name;
         EXPECT_THAT(mr_last_error(), Not(HasSubstr("{")));
     }
@@ -236,8 +238,8 @@ TEST(CWires, UnknownFaultsListTheKnownOnes) {
         EXPECT_EQ(mr_fault(world, "motor.stall", target), MR_BAD_CALL) << target;
         EXPECT_THAT(mr_last_error(), HasSubstr("X, A"));
     }
-    for (const char* fault : {"motor.push=", "motor.push=1e99", "motor.push=nan", "motor.push=inf", "motor.push=1x", "motor.push=10000001",
-                              "home.stuck_open"})
+    for (const char* fault : {"motor.push=", "motor.push=1e99", "motor.push=nan", "motor.push=inf", "motor.push=1x",
+                              "motor.push=10000001", "home.stuck_open"})
         EXPECT_EQ(mr_fault(world, fault, "X"), MR_REFUSED) << fault;
     EXPECT_EQ(mr_fault(world, "encoder.broken_a", "A"), MR_REFUSED) << "it has no encoder";
     EXPECT_EQ(mr_fault(nullptr, "motor.stall", "X"), MR_BAD_CALL);

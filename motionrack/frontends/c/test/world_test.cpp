@@ -28,7 +28,7 @@ void begin_motion(World& world) {
     world.write(0x00, 0x0821);
 }
 
-// ---- copies and hashes ------------------------------------------------------------------------------------------------
+// ---- copies and hashes
 
 TEST(CWorld, TheSameCallsGiveTheSameWorld) {
     World a, b;
@@ -99,7 +99,8 @@ TEST(CWorld, IsTheWorldOfTheCppRack) {
         write(0x0C, value & 0xFFFF);
         write(0x00, axes << 8 | code);
     };
-    for (const auto& [code, value] : {std::pair{0x00u, 800'000u}, {0x02u, 400u}, {0x04u, 10u}, {0x05u, 2000u}}) command(0xF, code, value);
+    for (const auto& [code, value] : {std::pair{0x00u, 800'000u}, {0x02u, 400u}, {0x04u, 10u}, {0x05u, 2000u}})
+        command(0xF, code, value);
     command(1, 0x06, 0);
     command(2, 0x06, 0);
     command(1, 0x08, 3000);
@@ -123,7 +124,7 @@ TEST(CWorld, IsTheWorldOfTheCppRack) {
     EXPECT_EQ(world.peek("u.LP"), -5000);
 }
 
-// ---- registers by name ------------------------------------------------------------------------------------------------
+// ---- registers by name
 
 TEST(CWorld, EveryRegisterOfTheMapCanBePeekedOrIsRefusedByName) {
     World world;
@@ -131,8 +132,10 @@ TEST(CWorld, EveryRegisterOfTheMapCanBePeekedOrIsRefusedByName) {
     for (const RegisterInfo& reg : rack::find_card_kind("mcx314")->map().registers) {
         const std::string name = (reg.per_axis ? "y." : "") + std::string(reg.name);
         std::uint64_t value = 0;
-        if (mr_peek(world, "c1", name.c_str(), &value) == MR_OK) ++known;
-        else EXPECT_THAT(mr_last_error(), HasSubstr(name));
+        if (mr_peek(world, "c1", name.c_str(), &value) == MR_OK)
+            ++known;
+        else
+            EXPECT_THAT(mr_last_error(), HasSubstr(name));
     }
     EXPECT_GE(known, 15);
 }
@@ -161,10 +164,11 @@ TEST(CWorld, PeeksShowEachAxisWhateverTheBusShows) {
     EXPECT_EQ(value, 77u);
 }
 
-// ---- recordings -------------------------------------------------------------------------------------------------------
+// ---- recordings
 
 std::string temporary(const std::string& name) {
-    return (std::filesystem::temp_directory_path() / ("motionrack_c_" + std::to_string(::getpid()) + "_" + name)).string();
+    return (std::filesystem::temp_directory_path() / ("motionrack_c_" + std::to_string(::getpid()) + "_" + name))
+        .string();
 }
 
 std::string text_of(const std::string& path) {

@@ -1,13 +1,13 @@
-// Chips, errors, time, homing, manual operation, contours and bit patterns over the C library; what it shows to the linker.
+// Chips, errors, time, homing, manual operation, contours and bit patterns over the C library; what it shows to the
+// linker.
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
-
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
+#include <thread>
 
 namespace motionrack::mcx314lib_test {
 namespace {
@@ -30,13 +30,14 @@ home_mm = 1
 )";
 constexpr int home_input = 0x0002;  // IN0 enabled, acts at Low
 
-// ---- chips ------------------------------------------------------------------------------------------------------------
+// ---- chips
 
 TEST(Mcx314libChips, WithoutARackTheFirstFunctionSaysWhatToSet) {
     ::unsetenv("MOTIONRACK_RACK");
     mcx314_clear_error();
     SetRange(800'000);
-    EXPECT_THAT(mcx314_last_error(), HasSubstr("SetRange: No chip is open, and the environment variable MOTIONRACK_RACK is not set"));
+    EXPECT_THAT(mcx314_last_error(),
+                HasSubstr("SetRange: No chip is open, and the environment variable MOTIONRACK_RACK is not set"));
     EXPECT_EQ(mcx314_now_us(), -1);
     EXPECT_EQ(mcx314_open(nullptr, nullptr), -1);
     ::setenv("MOTIONRACK_RACK", "/no/such/rack.toml", 1);
@@ -99,14 +100,15 @@ TEST(Mcx314libChips, WhenTheSelectedOneIsClosedNoOtherIsTouched) {
     EXPECT_EQ(peek("x.R"), 0);
 }
 
-// ---- errors, time -----------------------------------------------------------------------------------------------------
+// ---- errors, time
 
 TEST(Mcx314libErrors, TheHandlerMayCallTheLibrary) {
     const Open chip;
     set_up();
     TCurve_C(x, 100, 4000, 400);
     int stopped = 0;
-    mcx314_on_error([](const char*, void* user) { *static_cast<int*>(user) += mcx314_stop_now(all) == 0 ? 1 : 100; }, &stopped);
+    mcx314_on_error([](const char*, void* user) { *static_cast<int*>(user) += mcx314_stop_now(all) == 0 ? 1 : 100; },
+                    &stopped);
     SetV(x, 9000);
     mcx314_on_error(nullptr, nullptr);
     EXPECT_EQ(stopped, 1);
@@ -118,7 +120,10 @@ TEST(Mcx314libErrors, EachThreadHasItsOwnSentence) {
     SetV(x, 9000);
     const std::string here = mcx314_last_error();
     std::string there = "?";
-    std::thread([&there] { there = mcx314_last_error(); SetA(x, 0); }).join();
+    std::thread([&there] {
+        there = mcx314_last_error();
+        SetA(x, 0);
+    }).join();
     EXPECT_EQ(there, "");
     EXPECT_EQ(mcx314_last_error(), here);
 }
@@ -175,7 +180,7 @@ TEST(Mcx314libStatus, TheEndOfADriveInterrupts) {
     EXPECT_EQ(mcx314_read_interrupt(x), 0);
 }
 
-// ---- home, manual operation -------------------------------------------------------------------------------------------
+// ---- home, manual operation
 
 TEST(Mcx314libHome, EveryTypeEndsAtHome) {
     using Home = void (*)(int, int, int, int);
@@ -231,7 +236,7 @@ TEST(Mcx314libManual, AHomingGoesOnWhileItIsRenewed) {
     EXPECT_GT(mcx314_now_us(), 1'000'000);
 }
 
-// ---- contours, patterns -----------------------------------------------------------------------------------------------
+// ---- contours, patterns
 
 TEST(Mcx314libContour, LinesAndArcsEndWhereTheyShould) {
     const Open chip;
@@ -260,7 +265,7 @@ TEST(Mcx314libPattern, ThePulsesAreThoseOfTheBits) {
     EXPECT_EQ(static_cast<int>(ReadLPS(y)), 6);
 }
 
-// ---- the library's names ----------------------------------------------------------------------------------------------
+// ---- the library's names
 
 TEST(Mcx314lib, ShowsTheFunctionsOfItsHeaderAndNothingElse) {
     const std::set<std::string> declared = declared_functions();

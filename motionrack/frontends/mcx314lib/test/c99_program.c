@@ -5,12 +5,12 @@
 
 static int failures = 0;
 
-#define CHECK(condition)                                                                        \
-    do {                                                                                        \
-        if (!(condition)) {                                                                     \
-            fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, mcx314_last_error());    \
-            ++failures;                                                                         \
-        }                                                                                       \
+#define CHECK(condition)                                                                      \
+    do {                                                                                      \
+        if (!(condition)) {                                                                   \
+            fprintf(stderr, "line %d: %s (%s)\n", __LINE__, #condition, mcx314_last_error()); \
+            ++failures;                                                                       \
+        }                                                                                     \
     } while (0)
 
 typedef void (*one_int)(int);
@@ -18,17 +18,17 @@ typedef void (*two_ints)(int, int);
 typedef void (*four_ints)(int, int, int, int);
 typedef void (*five_ints)(int, int, int, int, int);
 typedef void (*six_ints)(int, int, int, int, int, int);
-typedef void (*line)(LINEDATA *, int);
-typedef void (*circle)(CIRCLEDATA *, int);
+typedef void (*line)(LINEDATA*, int);
+typedef void (*circle)(CIRCLEDATA*, int);
 typedef void (*set_counter)(int, unsigned);
 typedef unsigned (*read_counter)(int);
 typedef void (*nothing)(void);
 
 /* The argument lists of the source; what differs does not compile. */
 const one_int one[] = {SetRange, SetMaxSpeed, SLMTP, SLMTM, SLMTSig, EnableALM, EnableInPos};
-const two_ints two[] = {SetPulseMode, SetMultiple, SetSV, SetV, SetA, SetD, SetAA, SetAO, Pulse, ManualDec, ManDec,
-                               SetC, SetCP, SetP, SetFP, HLMTP, HLMTM, HLMTSig, EncoderMode, EncoderCWCCW, ALMSig, InPosSig,
-                               SetCompP, SetCompM};
+const two_ints two[] = {SetPulseMode, SetMultiple, SetSV,       SetV,         SetA,   SetD,     SetAA,    SetAO,
+                        Pulse,        ManualDec,   ManDec,      SetC,         SetCP,  SetP,     SetFP,    HLMTP,
+                        HLMTM,        HLMTSig,     EncoderMode, EncoderCWCCW, ALMSig, InPosSig, SetCompP, SetCompM};
 const four_ints four[] = {TCurve_C, HomeType1, HomeType2, HomeType3, HomeType4};
 const five_ints five[] = {TCurve_F, SCurve_C};
 const six_ints six[] = {SCurve_F};
@@ -40,13 +40,13 @@ const nothing none[] = {AutoDec, RESET};
 #define COUNT(table) (sizeof(table) / sizeof(table)[0])
 
 static void every_function_of_the_source_is_there(void) {
-    CHECK(COUNT(one) + COUNT(two) + COUNT(four) + COUNT(five) + COUNT(six) + COUNT(lines) + COUNT(circles) + COUNT(setters) +
-              COUNT(readers) + COUNT(none) ==
+    CHECK(COUNT(one) + COUNT(two) + COUNT(four) + COUNT(five) + COUNT(six) + COUNT(lines) + COUNT(circles) +
+              COUNT(setters) + COUNT(readers) + COUNT(none) ==
           57);
 }
 
-static void keep(const char *sentence, void *user) {
-    strncat((char *)user, sentence, 200);
+static void keep(const char* sentence, void* user) {
+    strncat((char*)user, sentence, 200);
 }
 
 static void a_line_ends_where_it_should(void) {

@@ -1,5 +1,6 @@
 // Cards, time, errors, files, what comes to a card, and the names over the C library.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -12,8 +13,6 @@
 #include <regex>
 #include <set>
 #include <thread>
-
-#include <unistd.h>
 
 namespace motionrack::rtc5sim_test {
 namespace {
@@ -34,7 +33,7 @@ int output_x(UINT card = 1) {
     return x;
 }
 
-// ---- cards --------------------------------------------------------------------------------------
+// ---- cards
 
 TEST(Rtc5simCards, CommandsGoToTheirCard) {
     const Session session("3");
@@ -72,7 +71,7 @@ TEST(Rtc5simCards, AWrongNumberOfCardsIsRefused) {
     EXPECT_EQ(rtc5sim_now_us(), 0);
 }
 
-// ---- time ---------------------------------------------------------------------------------------
+// ---- time
 
 TEST(Rtc5simTime, ALoopThatAsksForTheStatusComesToAnEnd) {
     const Session session;
@@ -95,7 +94,8 @@ TEST(Rtc5simTime, AQuestionTakesWhatIsSaid) {
     jump_abs(1, 2);
     EXPECT_EQ(rtc5sim_now_us(), 1000) << "a command takes none";
     EXPECT_EQ(rtc5sim_question_us(15), -1);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("the time is 15 us, but it is 0 to 1000000000 us, a multiple of 10 us"));
+    EXPECT_THAT(rtc5sim_last_error(),
+                HasSubstr("the time is 15 us, but it is 0 to 1000000000 us, a multiple of 10 us"));
     EXPECT_EQ(rtc5sim_advance_us(-10), -1);
     EXPECT_EQ(rtc5sim_advance_us(std::numeric_limits<std::int64_t>::max() / 10 * 10), -1);
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("the end of time"));
@@ -111,7 +111,7 @@ TEST(Rtc5simTime, RunningToRestSaysWhetherItRests) {
     EXPECT_EQ(output_x(), 10'000);
 }
 
-// ---- errors -------------------------------------------------------------------------------------
+// ---- errors
 
 TEST(Rtc5simErrors, WhatIsRefusedIsSaidAndKeptInTheBits) {
     const Session session;
@@ -182,7 +182,7 @@ TEST(Rtc5simErrors, ASamplesHandlerCannotDisturbTheRun) {
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("stop_execution: it was called by the samples handler"));
 }
 
-// ---- files --------------------------------------------------------------------------------------
+// ---- files
 
 class Rtc5simFiles : public testing::Test {
   protected:
@@ -232,7 +232,7 @@ TEST_F(Rtc5simFiles, ACompensationTableIsUsed) {
     EXPECT_EQ(output_x(), 100);
 }
 
-// ---- what comes to a card -----------------------------------------------------------------------
+// ---- what comes to a card
 
 TEST(Rtc5simInputs, TheBeltMovesTheOutput) {
     const Session session;
@@ -281,7 +281,7 @@ TEST(Rtc5simInputs, FlagsHaveWords) {
                  "FLY_X_OVERFLOW: the corrected X was above 524287\nLIMIT_Y_MIN: the corrected Y was below Ymin\n");
 }
 
-// ---- names --------------------------------------------------------------------------------------
+// ---- names
 
 constexpr const char* header = MOTIONRACK_SOURCE_DIR "/motionrack/frontends/rtc5sim/rtc5sim.h";
 

@@ -1,4 +1,5 @@
 // Senders at the TCP port and at the pseudo-terminal of a machine that runs as fast as it can.
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +8,6 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <arpa/inet.h>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -36,9 +36,13 @@ class Client {
         EXPECT_EQ(::connect(out.file_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
         return out;
     }
-    static Client terminal(const std::string& path) { return Client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)); }
+    static Client terminal(const std::string& path) {
+        return Client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+    }
 
-    void say(const std::string& text) { ASSERT_EQ(::write(file_.number(), text.data(), text.size()), static_cast<ssize_t>(text.size())); }
+    void say(const std::string& text) {
+        ASSERT_EQ(::write(file_.number(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    }
     /// Up to and with `end`; what comes behind it is kept.
     std::string hear(const std::string& end) {
         const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
@@ -64,7 +68,8 @@ class Client {
     std::string until(const std::string& state) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         std::string report;
-        while (report.find("<" + state) == std::string::npos && std::chrono::steady_clock::now() < end) report = ask("?", ">\r\n");
+        while (report.find("<" + state) == std::string::npos && std::chrono::steady_clock::now() < end)
+            report = ask("?", ">\r\n");
         return report;
     }
     int file() const { return file_.number(); }
@@ -78,12 +83,17 @@ class Client {
 class SenderPorts : public testing::Test {
   protected:
     void SetUp() override {
-        if (OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)).number() < 0) GTEST_SKIP() << "There are no pseudo-terminals here: /dev/pts is not mounted.";
-        const std::string axes = "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n";
+        if (OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)).number() < 0)
+            GTEST_SKIP() << "There are no pseudo-terminals here: /dev/pts is not mounted.";
+        const std::string axes =
+            "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = "
+            "\"y\"\n";
         machine_ = *operate::Machine::make(*rack::read_rack_text(axes).config, {});
         settings_.port = 0;
         settings_.link = (folder_ / "grbl").string();
-        settings_.on_setting = [this](const std::string& sender, const std::string& text) { told_ = sender + ": " + text; };
+        settings_.on_setting = [this](const std::string& sender, const std::string& text) {
+            told_ = sender + ": " + text;
+        };
         std::filesystem::create_directories(folder_);
     }
     void TearDown() override {
@@ -102,7 +112,8 @@ class SenderPorts : public testing::Test {
     Client tcp() { return Client::tcp(ports_->port()); }
     Client terminal() { return Client::terminal(settings_.link); }
 
-    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
+    const std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
     GrblPortSettings settings_;
     authority::ControlLease lease_;
     std::unique_ptr<operate::Machine> machine_;
@@ -141,7 +152,10 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
 
 TEST_F(SenderPorts, HearALineOfWhoHasGoneAtOnce) {
     start();
-    { Client client = terminal(); client.say("G1 X7 F600\n"); }
+    {
+        Client client = terminal();
+        client.say("G1 X7 F600\n");
+    }
     Client client = tcp();
     EXPECT_THAT(client.until("Idle|MPos:7.000"), HasSubstr("7.000"));
 }
@@ -174,7 +188,10 @@ TEST_F(SenderPorts, LetOthersLookOnAndStopButNotWrite) {
 
 TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
     start();
-    { Client first = tcp(); first.hear(banner); }
+    {
+        Client first = tcp();
+        first.hear(banner);
+    }
     std::string greeting;
     for (int i = 0; i < 100 && greeting != banner; ++i) {
         Client next = tcp();
@@ -241,7 +258,8 @@ TEST_F(SenderPorts, SayThatThePortIsTaken) {
     start();
     GrblPortSettings same;
     same.port = ports_->port();
-    auto machine = *operate::Machine::make(*rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n").config, {});
+    auto machine = *operate::Machine::make(
+        *rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n").config, {});
     const auto opened = GrblPorts::open(same, *machine, lease_);
     ASSERT_FALSE(opened);
     EXPECT_THAT(opened.error().message, HasSubstr("Give another port"));

@@ -20,13 +20,16 @@ TEST(AHostileRequest, IsRefusedWithAReason) {
     };
     const std::string long_head = "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(9000, 'x') + "\r\n\r\n";
     const std::string long_line = "GET /" + std::string(9000, 'x') + " HTTP/1.1\r\n\r\n";
-    for (const Case& one : {Case{"\r\n\r\n\r\n", 400}, Case{"HELLO\r\n\r\n", 400}, Case{"GET / HTTP/9.9\r\n\r\n", 400}, Case{"GET / HTTP/1.1\r\nHost localhost\r\n\r\n", 400},
-                            Case{"GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n", 400},
-                            Case{"POST /api/pair HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n", 400},
-                            Case{"POST /api/pair HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", 400}, Case{"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 400},
-                            Case{"GET / HTTP/1.1\r\n\r\n", 403}, Case{"GET / HTTP/1.1\r\nHost: localhost\r\nHost: localhost\r\n\r\n", 403}, Case{long_head.c_str(), 431},
-                            Case{long_line.c_str(), 431}, Case{"BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n", 405},
-                            Case{"POST /api/pair HTTP/1.1\r\nHost: localhost\r\nContent-Length: 999999999999\r\n\r\n", 413}}) {
+    for (const Case& one :
+         {Case{"\r\n\r\n\r\n", 400}, Case{"HELLO\r\n\r\n", 400}, Case{"GET / HTTP/9.9\r\n\r\n", 400},
+          Case{"GET / HTTP/1.1\r\nHost localhost\r\n\r\n", 400},
+          Case{"GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n", 400},
+          Case{"POST /api/pair HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n", 400},
+          Case{"POST /api/pair HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", 400},
+          Case{"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 400}, Case{"GET / HTTP/1.1\r\n\r\n", 403},
+          Case{"GET / HTTP/1.1\r\nHost: localhost\r\nHost: localhost\r\n\r\n", 403}, Case{long_head.c_str(), 431},
+          Case{long_line.c_str(), 431}, Case{"BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n", 405},
+          Case{"POST /api/pair HTTP/1.1\r\nHost: localhost\r\nContent-Length: 999999999999\r\n\r\n", 413}}) {
         WebClient client = running.client();
         client.send(one.text);
         const WebAnswer answer = client.answer();
@@ -50,7 +53,9 @@ TEST(AHostileRequest, ThatIsTooLongIsToldSoWhileItStillComes) {
 }
 
 TEST(AHostileRequest, ThatDoesNotEndIsEndedByTheServer) {
-    Running running([](ServerSettings& settings) { settings.limits.header = settings.limits.body = settings.limits.idle = std::chrono::milliseconds(20); });
+    Running running([](ServerSettings& settings) {
+        settings.limits.header = settings.limits.body = settings.limits.idle = std::chrono::milliseconds(20);
+    });
     WebClient silent = running.client(), slow = running.client(), half = running.client(), idle = running.client();
     slow.send("GET / HT");
     half.send("POST /api/pair HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{");
@@ -89,16 +94,24 @@ TEST(AHostileStream, IsRefusedOrEndedWithAReason) {
     EXPECT_EQ(code_after([](WebClient& c) {
                   for (int i = 0; i < 20; ++i) c.send_frame(i == 0 ? 1 : 0, std::string(8'000, 'x'), true, false);
               }),
-              1009) << "too long in pieces";
+              1009)
+        << "too long in pieces";
     EXPECT_EQ(code_after([](WebClient& c) { c.send_frame(1, "\xff\xfe"); }), 1007) << "no UTF-8";
     EXPECT_EQ(code_after([](WebClient& c) { c.send_frame(1, "{}", false); }), 1002) << "not masked";
     EXPECT_EQ(code_after([](WebClient& c) { c.send_frame(3, "{}"); }), 1002) << "no such kind";
     EXPECT_EQ(code_after([](WebClient& c) { c.send_frame(0, "{}"); }), 1002) << "goes on with nothing";
     WebClient binary = running.stream("");
     binary.send_frame(2, "\x01\x02");
-    EXPECT_THAT(binary.receive_until([](const json& m) { return m.contains("error"); })["error"]["message"].get<std::string>(), HasSubstr("binary"));
+    EXPECT_THAT(
+        binary.receive_until([](const json& m) { return m.contains("error"); })["error"]["message"].get<std::string>(),
+        HasSubstr("binary"));
     EXPECT_EQ(running.client().upgrade("", "/api/other").status, 404);
-    EXPECT_EQ(running.client().ask("GET", "/api/stream", "", "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 12\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n").status, 426);
+    EXPECT_EQ(running.client()
+                  .ask("GET", "/api/stream", "",
+                       "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 12\r\nSec-WebSocket-Key: "
+                       "AAAAAAAAAAAAAAAAAAAAAA==\r\n")
+                  .status,
+              426);
 }
 
 TEST(AHostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
@@ -123,7 +136,8 @@ TEST(AHostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
     WebClient one = running.client(), other = running.client();
     ASSERT_EQ(one.upgrade().status, 101);
     ASSERT_EQ(other.upgrade().status, 101);
-    for (WebClient* client : {&one, &other, &one, &other}) EXPECT_TRUE(client->order({{"query", "status"}}).value("done", false));
+    for (WebClient* client : {&one, &other, &one, &other})
+        EXPECT_TRUE(client->order({{"query", "status"}}).value("done", false));
     EXPECT_EQ(other.order({{"query", "status"}})["error"]["trouble"], "limit");
     EXPECT_TRUE(one.order({{"order", "stop"}}).value("done", false));
 }
@@ -176,7 +190,8 @@ TEST(AThousandConnections, AreRefusedAboveTheLimitAndDisturbNoMotion) {
     ::getrlimit(RLIMIT_NOFILE, &files);
     files.rlim_cur = std::min<rlim_t>(files.rlim_max, 8192);
     ::setrlimit(RLIMIT_NOFILE, &files);
-    if (files.rlim_cur < 2500) GTEST_SKIP() << "this process may have " << files.rlim_cur << " files open; 2500 are needed";
+    if (files.rlim_cur < 2500)
+        GTEST_SKIP() << "this process may have " << files.rlim_cur << " files open; 2500 are needed";
     int refused = 0, none = 0;
     const auto crowded = path_of_the_job(1000, refused);
     EXPECT_GT(refused, 100);

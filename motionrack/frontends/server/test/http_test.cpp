@@ -10,7 +10,9 @@ using authority::Role;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-std::string bearer(const std::string& token) { return "Authorization: Bearer " + token + "\r\n"; }
+std::string bearer(const std::string& token) {
+    return "Authorization: Bearer " + token + "\r\n";
+}
 
 class AServer : public testing::Test {
   protected:
@@ -24,7 +26,8 @@ TEST_F(AServer, GivesAPageThatRunsNothingFromElsewhere) {
     EXPECT_THAT(page.body, HasSubstr("its page has not been built"));
     const auto fields = page.fields;
     EXPECT_EQ(fields.at("content-type"), "text/html; charset=utf-8");
-    EXPECT_EQ(fields.at("content-security-policy"), "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+    EXPECT_EQ(fields.at("content-security-policy"),
+              "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     EXPECT_EQ(fields.at("x-content-type-options"), "nosniff");
     EXPECT_EQ(fields.at("referrer-policy"), "no-referrer");
     const WebAnswer head = client.ask("HEAD", "/missing");
@@ -91,7 +94,8 @@ TEST_F(AServer, InvitesWithTheRoleThatWasAskedFor) {
     const std::string anna = running.token("anna");
     const WebAnswer invited = client.ask("POST", "/api/invite", "{\"role\":\"operate\"}", bearer(anna));
     ASSERT_EQ(invited.status, 200) << invited.body;
-    const WebAnswer paired = client.ask("POST", "/api/pair", nlohmann::json{{"code", invited.json()["code"]}, {"name", "bert"}}.dump());
+    const WebAnswer paired =
+        client.ask("POST", "/api/pair", nlohmann::json{{"code", invited.json()["code"]}, {"name", "bert"}}.dump());
     EXPECT_EQ(paired.json()["role"], "operate");
     EXPECT_EQ(client.ask("POST", "/api/invite", "{\"role\":\"operate\"}", bearer(paired.json()["token"])).status, 403);
 }
@@ -117,7 +121,8 @@ TEST_F(AServer, SaysWhatIsWrongWithARequest) {
     EXPECT_EQ(wrong.json()["error"]["line"], 2);
     EXPECT_EQ(client.ask("POST", "/api/enable", "[1]", anna).status, 400);
     EXPECT_EQ(client.ask("POST", "/api/enable", "{\"on\":1e999}", anna).status, 400);
-    EXPECT_THAT(client.ask("POST", "/api/enable", std::string(40'000, '['), anna).message(), HasSubstr("nested deeper"));
+    EXPECT_THAT(client.ask("POST", "/api/enable", std::string(40'000, '['), anna).message(),
+                HasSubstr("nested deeper"));
 }
 
 TEST_F(AServer, IsAskedByItsOwnPagesOnly) {
@@ -137,7 +142,8 @@ TEST_F(AServer, IsAskedByItsOwnPagesOnly) {
     EXPECT_EQ(with(own, "https://" + own), 403);
     EXPECT_EQ(with(own, "null"), 403);
     client.host = own;
-    EXPECT_EQ(client.ask("POST", "/api/stop", "", "Origin: http://rack.example\r\n").status, 403) << "it holds for STOP, too";
+    EXPECT_EQ(client.ask("POST", "/api/stop", "", "Origin: http://rack.example\r\n").status, 403)
+        << "it holds for STOP, too";
     EXPECT_EQ(client.ask("POST", "/api/stop", "", "Origin: http://" + own + "\r\n").status, 200);
     WebClient stranger = running.client();
     EXPECT_EQ(stranger.upgrade("Origin: http://rack.example\r\n").status, 403);
@@ -180,8 +186,9 @@ TEST_F(APageFolder, IsServedFromMemoryByWholeNames) {
     const WebAnswer head = client.ask("HEAD", "/api/status");
     EXPECT_EQ(head.status, 405);
     WebClient other = running.client();
-    for (const char* path : {"/../secret.txt", "/assets/../../secret.txt", "/%2e%2e/secret.txt", "/assets/..%2f..%2fsecret.txt", "//etc/passwd", "/assets/link.txt",
-                             "/assets/", "/index.html/", "/assets\\a.js", "/secret.txt"})
+    for (const char* path :
+         {"/../secret.txt", "/assets/../../secret.txt", "/%2e%2e/secret.txt", "/assets/..%2f..%2fsecret.txt",
+          "//etc/passwd", "/assets/link.txt", "/assets/", "/index.html/", "/assets\\a.js", "/secret.txt"})
         EXPECT_EQ(other.ask("GET", path).status, 404) << path;
 }
 

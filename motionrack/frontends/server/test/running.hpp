@@ -23,8 +23,9 @@ class Running {
   public:
     using Change = std::function<void(ServerSettings&)>;
     explicit Running(const Change& change = {}, Page page = {}) {
-        const rack::RackReading reading = rack::read_rack_text("[rack]\nname = \"two\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
-                                                               "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
+        const rack::RackReading reading = rack::read_rack_text(
+            "[rack]\nname = \"two\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
+            "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
         ServedSettings settings;
         settings.factor = 20;
         settings.version = "0.1.0";
@@ -59,7 +60,8 @@ class Running {
     /// A token of this role for a name.
     std::string token(const std::string& name, authority::Role role = authority::Role::maintain) {
         const authority::Now now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
-        const std::string code = role == authority::Role::maintain ? served->door().start_code() : *served->door().invite(role, now);
+        const std::string code =
+            role == authority::Role::maintain ? served->door().start_code() : *served->door().invite(role, now);
         return served->door().pair(code, name, "127.0.0.1", now)->token;
     }
     /// A WebSocket with this token, past hello.
@@ -117,7 +119,8 @@ inline bool state_is(const nlohmann::json& message, const std::string& state) {
 }
 
 inline bool job_is_over(const nlohmann::json& message) {
-    return state_is(message, "standstill") && message["status"]["program"]["name"] == "job" && !message["status"]["program"]["runs"];
+    return state_is(message, "standstill") && message["status"]["program"]["name"] == "job" &&
+           !message["status"]["program"]["runs"];
 }
 
 /// A job of a few seconds of the rack's time.

@@ -10,8 +10,12 @@ using authority::Role;
 using nlohmann::json;
 using testing::HasSubstr;
 
-bool is_picture(const json& message) { return message.contains("seq"); }
-std::string error_of(const json& answer) { return answer.contains("error") ? answer["error"]["message"].get<std::string>() : ""; }
+bool is_picture(const json& message) {
+    return message.contains("seq");
+}
+std::string error_of(const json& answer) {
+    return answer.contains("error") ? answer["error"]["message"].get<std::string>() : "";
+}
 
 TEST(AStream, BeginsWithHelloAndGivesPictures) {
     Running running;
@@ -32,12 +36,16 @@ TEST(AStream, BeginsWithHelloAndGivesPictures) {
 TEST(AStream, GivesTheChannelsThatWereAskedForInTheirOrder) {
     Running running;
     WebClient client = running.stream("");
-    EXPECT_TRUE(client.order({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}}).value("done", false));
-    const json picture = client.receive_until([](const json& message) { return is_picture(message) && !message["values"].empty(); });
+    EXPECT_TRUE(client.order({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}})
+                    .value("done", false));
+    const json picture =
+        client.receive_until([](const json& message) { return is_picture(message) && !message["values"].empty(); });
     EXPECT_EQ(picture["values"], json({0, 0}));
     EXPECT_THAT(error_of(client.order({{"subscribe", {{"channels", {"X.nothing"}}}}})), HasSubstr("X.nothing"));
     EXPECT_THAT(error_of(client.order({{"subscribe", {{"rate_hz", 101}}}})), HasSubstr("1 to 100"));
-    EXPECT_THAT(error_of(client.order({{"subscribe", {{"channels", json(std::vector<std::string>(65, "X.commanded"))}}}})), HasSubstr("65 channels"));
+    EXPECT_THAT(
+        error_of(client.order({{"subscribe", {{"channels", json(std::vector<std::string>(65, "X.commanded"))}}}})),
+        HasSubstr("65 channels"));
     EXPECT_THAT(error_of(client.order({{"subscribe", {{"rates", 1}}}})), HasSubstr("nothing else"));
     EXPECT_THAT(error_of(client.order({{"subscribe", 1}})), HasSubstr("takes"));
     EXPECT_FALSE(client.receive_until(is_picture)["values"].empty()) << "what was refused changed nothing";
@@ -47,7 +55,8 @@ TEST(AStream, TellsEventsToEverybody) {
     Running running;
     WebClient watcher = running.stream("");
     WebClient anna = running.master("anna");
-    const json event = watcher.receive_until([](const json& message) { return message.contains("event") && message["event"]["kind"] == "order"; });
+    const json event = watcher.receive_until(
+        [](const json& message) { return message.contains("event") && message["event"]["kind"] == "order"; });
     EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
@@ -90,7 +99,8 @@ TEST(AStream, HasOneMasterAtATime) {
     Running running;
     WebClient anna = running.master("anna");
     WebClient bert = running.stream(running.token("bert"));
-    EXPECT_THAT(error_of(bert.order({{"order", "jog"}, {"axis", "X"}, {"speed", 5}})), HasSubstr("Control is with anna"));
+    EXPECT_THAT(error_of(bert.order({{"order", "jog"}, {"axis", "X"}, {"speed", 5}})),
+                HasSubstr("Control is with anna"));
     EXPECT_THAT(error_of(bert.order({{"order", "take_control"}})), HasSubstr("anna has it"));
     ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
     EXPECT_THAT(error_of(bert.order({{"order", "take_control"}, {"force", true}})), HasSubstr("does not stand still"));
@@ -108,7 +118,8 @@ class AStreamWhile : public testing::TestWithParam<bool> {
     static bool moving() { return GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(), [](const auto& each) { return each.param ? "moving" : "standing"; });
+INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(),
+                         [](const auto& each) { return each.param ? "moving" : "standing"; });
 
 /// The path of a job that nobody disturbs.
 std::vector<std::array<std::int64_t, 3>> quiet_path() {
@@ -132,7 +143,8 @@ TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
     }
     WebClient again = running.stream(token);
     if (moving()) again.receive_until(job_is_over);
-    EXPECT_TRUE(again.receive_until([](const json& message) { return state_is(message, "standstill"); }).is_object()) << "it is still enabled";
+    EXPECT_TRUE(again.receive_until([](const json& message) { return state_is(message, "standstill"); }).is_object())
+        << "it is still enabled";
     EXPECT_TRUE(again.order({{"order", "take_control"}}).value("done", false)) << "control comes back without force";
     EXPECT_EQ(running.path(), moving() ? quiet_path() : decltype(quiet_path())());
 }

@@ -23,7 +23,8 @@ void make_certificate(const fs::path& certificate_file, const fs::path& key_file
     ::X509_gmtime_adj(::X509_getm_notAfter(certificate), 3600);
     ::X509_set_pubkey(certificate, key);
     X509_NAME* name = ::X509_get_subject_name(certificate);
-    ::X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>("localhost"), -1, -1, 0);
+    ::X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>("localhost"), -1, -1,
+                                 0);
     ::X509_set_issuer_name(certificate, name);
     ::X509_sign(certificate, key, ::EVP_sha256());
     FILE* file = std::fopen(certificate_file.c_str(), "w");
@@ -94,7 +95,8 @@ TEST_F(ATlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
 /// Who comes from another computer: its address is none of loopback.
 TEST_F(ATlsServer, GivesNothingButThePageAndStopToStrangers) {
     Running running(tls());
-    Service service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(), std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
+    Service service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
+                    std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
     Head head;
     head.peer = {"192.0.2.7", "192.0.2.1", false, true, false};
     head.host = "192.0.2.1";

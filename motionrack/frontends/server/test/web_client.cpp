@@ -19,7 +19,8 @@ std::string WebAnswer::message() const {
     return value.is_object() && value.contains("error") ? value["error"].value("message", "") : "";
 }
 
-WebClient::WebClient(std::uint16_t port, bool tls, bool small_window) : host(fmt::format("127.0.0.1:{}", port)), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+WebClient::WebClient(std::uint16_t port, bool tls, bool small_window)
+    : host(fmt::format("127.0.0.1:{}", port)), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     const timeval half_a_minute{30, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &half_a_minute, sizeof half_a_minute);
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &half_a_minute, sizeof half_a_minute);
@@ -58,7 +59,8 @@ WebClient::~WebClient() {
 
 void WebClient::send(std::string_view bytes) {
     while (!bytes.empty() && socket_ >= 0) {
-        const ssize_t some = tls_ != nullptr ? ::SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size())) : ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        const ssize_t some = tls_ != nullptr ? ::SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size()))
+                                             : ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (some <= 0) return;  // what was said is seen from the answer
         bytes.remove_prefix(static_cast<std::size_t>(some));
     }
@@ -67,7 +69,8 @@ void WebClient::send(std::string_view bytes) {
 bool WebClient::read_more() {
     char bytes[16384];
     if (socket_ < 0) return false;
-    const ssize_t some = tls_ != nullptr ? ::SSL_read(tls_, bytes, sizeof bytes) : ::recv(socket_, bytes, sizeof bytes, 0);
+    const ssize_t some =
+        tls_ != nullptr ? ::SSL_read(tls_, bytes, sizeof bytes) : ::recv(socket_, bytes, sizeof bytes, 0);
     if (some <= 0) return false;
     buffer_.append(bytes, static_cast<std::size_t>(some));
     return true;
@@ -87,7 +90,8 @@ bool WebClient::ended() {
     return true;
 }
 
-WebAnswer WebClient::ask(const std::string& method, const std::string& target, const std::string& body, const std::string& fields) {
+WebAnswer WebClient::ask(const std::string& method, const std::string& target, const std::string& body,
+                         const std::string& fields) {
     std::string text = fmt::format("{} {} HTTP/1.1\r\nHost: {}\r\n{}", method, target, host, fields);
     if (!body.empty()) text += fmt::format("Content-Length: {}\r\n", body.size());
     send(text + "\r\n" + body);
@@ -104,16 +108,21 @@ WebAnswer WebClient::answer(bool head_only) {
     for (std::size_t at = head.find("\r\n") + 2; at < head.size() - 2;) {
         const std::size_t stop = head.find("\r\n", at), colon = head.find(':', at);
         std::string name = head.substr(at, colon - at);
-        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
         out.fields[name] = head.substr(colon + 2, stop - colon - 2);
         at = stop + 2;
     }
-    if (!head_only && out.fields.count("content-length") != 0) out.body = take(std::stoul(out.fields["content-length"]));
+    if (!head_only && out.fields.count("content-length") != 0)
+        out.body = take(std::stoul(out.fields["content-length"]));
     return out;
 }
 
 WebAnswer WebClient::upgrade(const std::string& fields, const std::string& target) {
-    return ask("GET", target, "", "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n" + fields);
+    return ask("GET", target, "",
+               "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+               "AAAAAAAAAAAAAAAAAAAAAA==\r\n" +
+                   fields);
 }
 
 void WebClient::send_frame(int kind, std::string_view payload, bool masked, bool last) {
@@ -128,7 +137,8 @@ void WebClient::send_frame(int kind, std::string_view payload, bool masked, bool
     }
     const char key[4] = {'r', 'a', 'c', 'k'};
     if (masked) out.append(key, 4);
-    for (std::size_t i = 0; i < payload.size(); ++i) out += masked ? static_cast<char>(payload[i] ^ key[i % 4]) : payload[i];
+    for (std::size_t i = 0; i < payload.size(); ++i)
+        out += masked ? static_cast<char>(payload[i] ^ key[i % 4]) : payload[i];
     send(out);
 }
 
@@ -169,7 +179,8 @@ WebFrame WebClient::receive() {
         if (frame.kind == 9) {
             send_frame(10, frame.text);
         } else if (frame.kind == 8) {
-            if (size >= 2) frame.code = static_cast<unsigned char>(frame.text[0]) << 8 | static_cast<unsigned char>(frame.text[1]);
+            if (size >= 2)
+                frame.code = static_cast<unsigned char>(frame.text[0]) << 8 | static_cast<unsigned char>(frame.text[1]);
             frame.text = size > 2 ? frame.text.substr(2) : "";
             return frame;
         } else if (frame.kind != 10) {

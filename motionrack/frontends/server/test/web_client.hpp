@@ -14,7 +14,7 @@
 namespace motionrack::server {
 
 struct WebAnswer {
-    int status = 0;  ///< 0: the connection ended before an answer
+    int status = 0;                             ///< 0: the connection ended before an answer
     std::map<std::string, std::string> fields;  ///< names in lower case
     std::string body;
     nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
@@ -38,7 +38,8 @@ class WebClient {
     bool connected() const { return socket_ >= 0; }
     void send(std::string_view bytes);
     /// A whole request; `fields` as "Name: value\r\n".
-    WebAnswer ask(const std::string& method, const std::string& target, const std::string& body = "", const std::string& fields = "");
+    WebAnswer ask(const std::string& method, const std::string& target, const std::string& body = "",
+                  const std::string& fields = "");
     WebAnswer answer(bool head_only = false);
     /// True: the other end has closed.
     bool ended();

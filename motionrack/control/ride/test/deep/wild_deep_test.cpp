@@ -15,7 +15,8 @@ TEST_P(ARideOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     for (std::uint64_t seed = GetParam() * in_a_test + 1; seed <= (GetParam() + 1) * in_a_test && faults < 5; ++seed) {
         const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
         const ride_test::Fault fault = ride_test::fault_of(program);
-        EXPECT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n" << ride_test::text_of(ride_test::reduced(program));
+        EXPECT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n"
+                                  << ride_test::text_of(ride_test::reduced(program));
         faults += !fault.name.empty();
     }
 }
