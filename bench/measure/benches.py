@@ -6,8 +6,9 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from kinds import Bench, Program, bench_of, plain_name
 from running import Progress, Trouble, run, say
-from table import PROGRAMS, Bench, Program, bench_of, plain_name
+from table import PROGRAMS
 
 #: Counters that are kept as they are, where a bench has them.
 KEPT = ("ratio", "sim_s/s", "real time", "p50_us", "p99_us", "p999_us", "p99.9_us", "max_us", "most_us", "lost", "dropped", "snapshot_bytes")

@@ -1,5 +1,6 @@
 """The page's tables of whole programs, and of what grows with what."""
-from table import PROGRAMS, belongs
+from kinds import belongs
+from table import PROGRAMS
 from text import bytes_of, count, digits, not_measured, table, time_of
 
 

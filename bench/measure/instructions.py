@@ -13,8 +13,8 @@ import tempfile
 from pathlib import Path
 
 from benches import SECONDS, names_of, nanoseconds_each
+from kinds import Program, bench_of, plain_name
 from running import Progress, Trouble, run, say
-from table import Program, bench_of, plain_name
 
 _SWITCHES = ["--dump-after=benchmark::State::StartKeepRunning*", "--dump-before=benchmark::State::PauseTiming*",
              "--dump-after=benchmark::State::ResumeTiming*", "--dump-before=benchmark::State::FinishKeepRunning*"]

@@ -6,7 +6,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from table import ROOT
+from kinds import ROOT
 
 
 def _said(*argv: str) -> str:

@@ -11,10 +11,11 @@ import benches
 import instructions
 import peers
 import whole
+from kinds import ROOT
 from machine import machine
 from page import page
 from running import Progress, Trouble, say
-from table import PROGRAMS, ROOT
+from table import PROGRAMS
 
 STORED = ROOT / "bench/measured.json"
 PAGE = ROOT / "docs/reference/performance.md"

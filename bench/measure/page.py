@@ -1,8 +1,9 @@
 """Writes the page from the results of a run."""
 from aims import verdicts
 from growth_page import growth, whole_programs
+from kinds import Bench, Program, bench_of
 from peers_page import peers
-from table import PROGRAMS, Bench, Program, bench_of
+from table import PROGRAMS
 from text import count, ratio, table, time_of
 
 

@@ -10,10 +10,11 @@ import benches
 import instructions
 import peers
 import whole
+from kinds import ROOT, Bench, Unit, bench_of, names_in_sources, plain_name
 from main import PAGE, STORED, stored_text
 from page import page
 from running import Trouble, peak_of, run
-from table import PROGRAMS, ROOT, Bench, Unit, bench_of, names_in_sources, plain_name
+from table import PROGRAMS
 from text import bytes_of, digits, time_of
 
 _MACHINE = {"cpu": "C", "virtual": False, "cores": 2, "memory_gb": 4, "system": "S", "kernel": "6.1", "compiler": "c++", "load": 0.0, "day": "2000-01-01", "version": "1", "peers": {"verilator": "5"}}
