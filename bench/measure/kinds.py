@@ -7,8 +7,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class Unit(NamedTuple):
-    """`thing`: one of it is what a bench's time is of. `counter`: counts it, as a rate ("pulses/s") or a time of one ("each"); "": one call of the
-    bench is one thing."""
+    """`thing`: one of it is what a bench's time is of. `counter`: counts it, as a rate ("pulses/s") or a time of one
+    ("each"); "": one call of the bench is one thing."""
 
     thing: str
     counter: str = ""
@@ -42,7 +42,9 @@ def names_in_sources() -> dict[str, set[str]]:
         text = path.read_text(encoding="utf-8")
         names = set(re.findall(r"\bBENCHMARK\((\w+)\)", text))
         names |= {f"{family}/{case}" for family, case in re.findall(r"\bBENCHMARK_CAPTURE\((\w+),\s*(\w+)", text)}
-        names |= {f"{family}<{kind}>" for family, kind in re.findall(r"\bBENCHMARK_TEMPLATE\((\w+),\s*([\w:]+)\)", text)}
+        names |= {
+            f"{family}<{kind}>" for family, kind in re.findall(r"\bBENCHMARK_TEMPLATE\((\w+),\s*([\w:]+)\)", text)
+        }
         names |= set(re.findall(r'\badd\("(\w+)"', text))
         if names:
             out[path.name.removesuffix("_bench.cpp")] = names

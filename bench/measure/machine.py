@@ -45,5 +45,7 @@ def machine(folder: Path) -> dict:
         "load": os.getloadavg()[0],
         "day": time.strftime("%Y-%m-%d"),
         "version": _from(str(ROOT / "CMakeLists.txt"), r"project\(motionrack VERSION ([\d.]+)"),
-        "peers": {package: version_of(package) for package in ("verilator", "linuxcnc-uspace", "sigrok-cli", "valgrind")},
+        "peers": {
+            package: version_of(package) for package in ("verilator", "linuxcnc-uspace", "sigrok-cli", "valgrind")
+        },
     }

@@ -44,6 +44,8 @@ def not_measured(got: dict) -> str:
 
 def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
     """A Markdown table. Bars inside cells are escaped."""
+
     def line(cells: tuple[str, ...]) -> str:
         return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
     return [line(heads), "|" + "---|" * len(heads), *(line(row) for row in rows)]

@@ -1,4 +1,5 @@
-"""A transfer carriage as a part program, from Python: as it should be, with an end stop that opens, with the emergency button, and homed."""
+"""A transfer carriage as a part program, from Python: as it should be, with an end stop that opens,
+with the emergency button, and homed."""
 
 import sys
 

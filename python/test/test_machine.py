@@ -22,7 +22,9 @@ def ready() -> Machine:
     for letter, axis in machine.wait("standstill", timeout=1).axes.items():
         if not axis.trusted:
             machine.declare_position(letter, axis.commanded)
-    machine.wait(lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=1)
+    machine.wait(
+        lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=1
+    )
     return machine
 
 
@@ -62,7 +64,13 @@ class Operating(unittest.TestCase):
 
     def test_orders_that_do_not_fit_are_refused(self) -> None:
         machine = Machine.template("router")
-        for act in (lambda: machine.begin(TEXT), lambda: machine.resume(), lambda: machine.jog("X", 5), lambda: machine.set_overrides(9), lambda: machine.jog_by("XY", 1, 1)):
+        for act in (
+            lambda: machine.begin(TEXT),
+            lambda: machine.resume(),
+            lambda: machine.jog("X", 5),
+            lambda: machine.set_overrides(9),
+            lambda: machine.jog_by("XY", 1, 1),
+        ):
             with self.assertRaises(Refused):
                 act()
         machine = ready()
@@ -89,7 +97,10 @@ class Operating(unittest.TestCase):
             self.assertFalse(all(axis.trusted for axis in machine.status.axes.values()))
             machine.enable()
             machine.home()
-            machine.wait(lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=60)
+            machine.wait(
+                lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()),
+                timeout=60,
+            )
 
     def test_a_machine_may_end_in_the_midst_of_a_drive(self) -> None:
         machine = ready()

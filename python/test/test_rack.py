@@ -57,7 +57,13 @@ class Making(unittest.TestCase):
         driver = rack.cards["c1"].driver
         rack.close()
         rack.close()
-        for act in (lambda: rack.advance(1), lambda: rack.time, lambda: rack.wires["estop"], driver.RESET, lambda: rack.cards["c1"].peek("RR0")):
+        for act in (
+            lambda: rack.advance(1),
+            lambda: rack.time,
+            lambda: rack.wires["estop"],
+            driver.RESET,
+            lambda: rack.cards["c1"].peek("RR0"),
+        ):
             with self.assertRaises(Refused):
                 act()
         self.assertIn("closed", repr(rack))
@@ -163,13 +169,22 @@ class Registers(unittest.TestCase):
 
     def test_what_is_not_in_the_map_is_no_attribute(self) -> None:
         card = Rack.from_text(CARD).cards["c1"]
-        for act in (lambda: card.WR99, lambda: card.RR0.NOPE, lambda: card.x.NOPE, lambda: setattr(card, "WR99", 1), lambda: setattr(card.RR0, "DRV", 1)):
+        for act in (
+            lambda: card.WR99,
+            lambda: card.RR0.NOPE,
+            lambda: card.x.NOPE,
+            lambda: setattr(card, "WR99", 1),
+            lambda: setattr(card.RR0, "DRV", 1),
+        ):
             with self.assertRaises(AttributeError):
                 act()
 
     def test_every_kind_of_card_has_its_map_and_every_register_can_be_shown(self) -> None:
         rack = Rack.from_file(Path(__file__).parents[2] / "examples" / "15_panel" / "demonstration.toml")
-        self.assertEqual({card.type for card in rack.cards.values()}, {"mcx314", "databoard4002", "ioflex02", "grating_bus", "grating_decoder", "rtc5"})
+        self.assertEqual(
+            {card.type for card in rack.cards.values()},
+            {"mcx314", "databoard4002", "ioflex02", "grating_bus", "grating_decoder", "rtc5"},
+        )
         for card in rack.cards.values():
             with self.subTest(card.type):
                 self.assertIn(card.name, repr(card))
@@ -215,7 +230,7 @@ class Machine(unittest.TestCase):
         self.assertEqual(x.position_mm, 0)
         x.position_mm = 5
         self.assertAlmostEqual(x.position_mm, 5, delta=0.5)
-        self.assertGreater(x.lost_pulses ** 2, 0)
+        self.assertGreater(x.lost_pulses**2, 0)
         self.assertEqual(x.position_mm, rack.get("X.position_mm"))
         with self.assertRaises(Refused):
             x.top_speed_mm_s = 1

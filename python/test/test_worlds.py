@@ -86,7 +86,9 @@ class Threads(unittest.TestCase):
         program = "G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG0 X0 Y0\nM2\n"
         alone = Rack.template().run(program).trace_hash
         found: list[str] = []
-        threads = [threading.Thread(target=lambda: found.append(Rack.template().run(program).trace_hash)) for _ in range(4)]
+        threads = [
+            threading.Thread(target=lambda: found.append(Rack.template().run(program).trace_hash)) for _ in range(4)
+        ]
         for thread in threads:
             thread.start()
         for thread in threads:
@@ -119,7 +121,11 @@ rack.advance(ms=1)
 print(rack.ticks - before)
 """
         ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
-        self.assertEqual(ran.stdout.splitlines(), ["interrupted in a program", "interrupted while time passed True", "10000000"], ran.stderr)
+        self.assertEqual(
+            ran.stdout.splitlines(),
+            ["interrupted in a program", "interrupted while time passed True", "10000000"],
+            ran.stderr,
+        )
 
 
 if __name__ == "__main__":

@@ -58,8 +58,23 @@ class Served:
             with open(path, "w") as file:
                 file.write(text)
         self.process = subprocess.Popen(
-            [program, "serve", self.rack, "--port", "0", "--grbl-port", "0", "--grbl-pty", self.link, "--no-pairing",
-             "--users", os.path.join(self.folder, "users.json")], stdout=subprocess.PIPE, text=True)
+            [
+                program,
+                "serve",
+                self.rack,
+                "--port",
+                "0",
+                "--grbl-port",
+                "0",
+                "--grbl-pty",
+                self.link,
+                "--no-pairing",
+                "--users",
+                os.path.join(self.folder, "users.json"),
+            ],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
         self.port = None
         for line in self.process.stdout:
             found = re.search(r"senders +127\.0\.0\.1:(\d+)", line)
@@ -81,14 +96,19 @@ class Served:
     def driven_by_run(self, from_first_corner=False):
         """Where `motionrack run` really was, every millisecond; or the part of it from its first corner on."""
         table = os.path.join(self.folder, "run.csv")
-        subprocess.run([self.motionrack, "run", self.part, "--rack", self.rack, "--csv", table, "--no-report", "-q"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [self.motionrack, "run", self.part, "--rack", self.rack, "--csv", table, "--no-report", "-q"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
         with open(table) as file:
             path = [tuple(float(row[f"{axis}_position_mm"]) for axis in "xyz") for row in csv.DictReader(file)]
-        return path[next(i for i, place in enumerate(path) if near_first(place)):] if from_first_corner else path
+        return path[next(i for i, place in enumerate(path) if near_first(place)) :] if from_first_corner else path
 
 
 def sender_comes(port, patience=60):
-    """Waits until somebody is connected to the port. Trying to connect would take the sender's place, so the kernel is asked."""
+    """Waits until somebody is connected to the port. Trying to connect would take the sender's place,
+    so the kernel is asked."""
     until = time.time() + patience
     while time.time() < until:
         with open("/proc/net/tcp") as file:
@@ -145,7 +165,11 @@ class Onlooker:
         return [state for i, (state, _) in enumerate(self.seen) if i == 0 or self.seen[i - 1][0] != state]
 
     def stands_at(self, place):
-        return bool(self.seen) and self.seen[-1][0] == "Idle" and all(abs(a - b) < 0.002 for a, b in zip(self.seen[-1][1], place))
+        return (
+            bool(self.seen)
+            and self.seen[-1][0] == "Idle"
+            and all(abs(a - b) < 0.002 for a, b in zip(self.seen[-1][1], place))
+        )
 
 
 def distance_to_path(place, path):
