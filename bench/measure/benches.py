@@ -89,7 +89,7 @@ def _follow(argv: list[str], expected: int) -> None:
     with subprocess.Popen(argv, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         done: set[str] = set()
         said = []
-        for line in process.stdout:
+        for line in process.stdout or ():
             said.append(line)
             name = line.split(" ")[0]
             if " ns " in line or " ms " in line or " us " in line:

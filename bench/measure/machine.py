@@ -39,7 +39,7 @@ def machine(folder: Path) -> dict:
         "virtual": bool(re.search(r"\bhypervisor\b", _from("/proc/cpuinfo", r"^flags\s*:\s*(.*)$"))),
         "cores": os.cpu_count(),
         "memory_gb": round(kilobytes / 1e6),
-        "kernel": re.match(r"[\d.]+", platform.release())[0].rstrip("."),
+        "kernel": re.sub(r"[^\d.].*", "", platform.release()).rstrip("."),
         "system": _from("/etc/os-release", r'^PRETTY_NAME="(.*)"$'),
         "compiler": _said(compiler, "--version"),
         "load": os.getloadavg()[0],

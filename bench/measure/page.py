@@ -64,7 +64,7 @@ def _compared(bench: Bench, row: dict, rows: dict[str, dict]) -> str:
 
 def _bench_rows(program: Program, measured: dict[str, dict]) -> list[tuple[str, ...]]:
     """A row for each bench of the table, measured or not, with what it was measured with."""
-    out = []
+    out: list[tuple[str, ...]] = []
     for bench in program.benches:
         names = [name for name in measured if bench_of(program, name) is bench]
         if not names:

@@ -176,7 +176,10 @@ def sigrok(program: Path, scratch: Path, progress: Progress, quick: bool) -> dic
     )  # Debian's aborts when its Python ends, after it has told everything
     ours = best_of(1 if quick else 5, [str(program), "decode", str(waves), "-q"], cwd=scratch)
     counts = counts_decoded(ours.out)
-    end = int(re.search(r"_enc_b\s+(-?\d+)", ours.out)[1])
+    told = re.search(r"_enc_b\s+(-?\d+)", ours.out)
+    if not told:
+        raise Trouble(f"motionrack decode told no place of X:\n{ours.out[-2000:]}")
+    end = int(told[1])
     # sigrok tells each place when it is left.
     if abs(last_number(theirs.out) - end) > 1:
         raise Trouble(f"sigrok-cli counted {last_number(theirs.out)}, motionrack decode {end}.")

@@ -78,6 +78,7 @@ def run(
     with subprocess.Popen(
         argv, cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=env
     ) as process:
+        assert process.stdout
         os.set_blocking(process.stdout.fileno(), False)
         parts: list[bytes] = []
         peak = 0

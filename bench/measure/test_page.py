@@ -172,7 +172,9 @@ class Results(unittest.TestCase):
             plain_name("network/period_us:200/scales:8/min_time:20.000/real_time"), "network/period_us:200/scales:8"
         )
         program = next(program for program in PROGRAMS if program.name == "dds")
-        self.assertEqual(bench_of(program, "network/period_us:200/scales:8").name, "network")
+        bench = bench_of(program, "network/period_us:200/scales:8")
+        assert bench
+        self.assertEqual(bench.name, "network")
 
     def test_take_real_time_where_the_bench_does(self):
         self.assertEqual(benches.nanoseconds_each(google("a", 5), ""), 5)

@@ -5,7 +5,7 @@ import sys
 
 import motionrack
 
-for faults in ([], ["X.limit_plus=0@2s"], ["estop=0@9s"]):
+for faults in ((), ("X.limit_plus=0@2s",), ("estop=0@9s",)):
     with motionrack.Rack.from_file("machine.toml") as rack:
         outcome = rack.run(path="carriage.ngc", faults=faults)
         print(outcome)

@@ -63,7 +63,7 @@ def run(trial: Trial) -> None:
             f"step_x {length(wafer.following_peak_nm)}"
         )
         print(
-            f"  scan_x - 4 step_x in truth, while scanning: at most {length(max(map(abs, apart)))}, "
+            f"  scan_x - 4 step_x in truth, while scanning: at most {length(max(abs(nm) for nm in apart))}, "
             f"rms {length(math.sqrt(sum(nm * nm for nm in apart) / len(apart)))}"
         )
         step = rack.cards["step"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import motionrack
@@ -11,6 +12,7 @@ from motionrack import MachineFault, Rack, Refused, Timeout
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 X, Y, Z, U = 1, 2, 4, 8
+Acts = tuple[Callable[[], object], ...]
 
 
 class Mcx314(unittest.TestCase):
@@ -52,7 +54,7 @@ class Mcx314(unittest.TestCase):
 
     def test_refusals_write_nothing(self) -> None:
         before = self.rack.state_hash()
-        for act in (
+        acts: Acts = (
             lambda: self.card.SetV(X, 9000),
             lambda: self.card.SetV(16, 1),
             lambda: self.card.SetV(0, 1),
@@ -63,7 +65,8 @@ class Mcx314(unittest.TestCase):
             lambda: self.card.wait(X, timeout=-1),
             lambda: self.card.wait(X, timeout=float("nan")),
             lambda: self.card.moving(99),
-        ):
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
         self.assertEqual(self.rack.state_hash(), before)
@@ -119,13 +122,14 @@ class DataBoard(unittest.TestCase):
             board.move_to(100000, timeout=60)
         self.assertNotIsInstance(caught.exception, Timeout)
         self.assertIn("right end stop", board.stops())
-        for act in (
+        acts: Acts = (
             lambda: board.set_rate(20000),
             lambda: board.set_target(1 << 24),
             lambda: motionrack.SlopeTable([(0, 0)]),
             lambda: motionrack.SpeedScale(),
             lambda: rack.cards["c1"].open(counts_per_mm=0),
-        ):
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
 
@@ -200,13 +204,14 @@ class Laser(unittest.TestCase):
     def test_parameters_are_looked_through(self) -> None:
         rtc = Rack.from_file(EXAMPLES / "14_line" / "line.toml").cards["scan"].driver
         rtc.set_start_list(1)
-        for act in (
+        acts: Acts = (
             lambda: rtc.mark_abs(1),
             lambda: rtc.mark_abs(1.5, 0),
             lambda: rtc.mark_abs(float("nan"), 0),
             lambda: rtc.set_start_list(1, -1),
             lambda: rtc.execute_list(1, -5),
-        ):
+        )
+        for act in acts:
             with self.assertRaises(motionrack.Error):
                 act()
 

@@ -7,11 +7,13 @@ import os
 import signal
 import threading
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import motionrack
 from motionrack import Machine, Refused, Timeout
 
+Acts = tuple[Callable[[], object], ...]
 TEXT = "G21 G90\nG1 X40 F2400\nG1 X0\nM2\n"
 HOMING = Path(__file__).resolve().parents[2] / "examples" / "08_homing" / "machine.toml"
 
@@ -64,13 +66,14 @@ class Operating(unittest.TestCase):
 
     def test_orders_that_do_not_fit_are_refused(self) -> None:
         machine = Machine.template("router")
-        for act in (
+        acts: Acts = (
             lambda: machine.begin(TEXT),
             lambda: machine.resume(),
             lambda: machine.jog("X", 5),
             lambda: machine.set_overrides(9),
             lambda: machine.jog_by("XY", 1, 1),
-        ):
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
         machine = ready()

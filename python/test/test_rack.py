@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import motionrack
 from motionrack import BadInput, MachineFault, Rack, Refused, Timeout
 
 CARD = 'card.c1 = "mcx314"'
+Acts = tuple[Callable[[], object], ...]
 
 
 def command(card: motionrack.Card, axes: int, code: int, value: int = 0) -> None:
@@ -52,22 +54,25 @@ class Making(unittest.TestCase):
             self.assertTrue(issubclass(kind, motionrack.Error))
         self.assertTrue(issubclass(Timeout, TimeoutError))
 
-    def test_a_closed_rack_refuses_everything_and_its_drivers_too(self) -> None:
+    def refuse_everything(self) -> None:
         rack = Rack.from_text(CARD)
         driver = rack.cards["c1"].driver
         rack.close()
         rack.close()
-        for act in (
+        acts: Acts = (
             lambda: rack.advance(1),
             lambda: rack.time,
             lambda: rack.wires["estop"],
             driver.RESET,
             lambda: rack.cards["c1"].peek("RR0"),
-        ):
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
         self.assertIn("closed", repr(rack))
-        del driver, rack
+
+    def test_a_closed_rack_refuses_everything_and_its_drivers_too(self) -> None:
+        self.refuse_everything()
         gc.collect()
 
 
@@ -169,13 +174,14 @@ class Registers(unittest.TestCase):
 
     def test_what_is_not_in_the_map_is_no_attribute(self) -> None:
         card = Rack.from_text(CARD).cards["c1"]
-        for act in (
+        acts: Acts = (
             lambda: card.WR99,
             lambda: card.RR0.NOPE,
             lambda: card.x.NOPE,
             lambda: setattr(card, "WR99", 1),
             lambda: setattr(card.RR0, "DRV", 1),
-        ):
+        )
+        for act in acts:
             with self.assertRaises(AttributeError):
                 act()
 
@@ -259,7 +265,7 @@ class Machine(unittest.TestCase):
 
     def test_planned_faults_happen_at_their_instant(self) -> None:
         rack = Rack.template("router")
-        rack.plan_fault("X.limit_plus", np.int64(0), at=np.float64(0.5))
+        rack.plan_fault("X.limit_plus", np.int64(0), at=np.float64(0.5))  # type: ignore[arg-type]  # NumPy's, too
         rack.plan_fault("X.limit_plus=release@600ms")
         rack.advance(ms=499)
         self.assertEqual(rack.wires["X.limit_plus"], 1)

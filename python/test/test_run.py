@@ -152,9 +152,9 @@ class Mistakes(unittest.TestCase):
             Rack.from_text('card.c1 = "ioflex02"').run(TEXT)
 
     def test_text_or_path_one_of_the_two(self) -> None:
-        for words in ({}, {"program": "M2", "path": "x.ngc"}):
+        for program, path in ((None, None), ("M2", "x.ngc")):
             with self.assertRaises(BadInput):
-                Rack.template().run(**words)
+                Rack.template().run(program, path=path)
         with self.assertRaises(motionrack.FileTrouble):
             Rack.template().run(path="/no/such.ngc")
 
@@ -163,7 +163,7 @@ class Mistakes(unittest.TestCase):
             "G21 G90\nG1 X100 F3000\nM2\n", faults=["X.limit_plus=0@500ms", "X.limit_minus=0@100s"]
         )
         self.assertFalse(outcome.ok)
-        self.assertIsInstance(outcome.error, MachineFault)
+        assert isinstance(outcome.error, MachineFault)
         self.assertEqual(outcome.error.line, 2)
         self.assertEqual(len(outcome.faults_not_done), 1)
         rack = Rack.template()

@@ -76,7 +76,7 @@ class Served:
             text=True,
         )
         self.port = None
-        for line in self.process.stdout:
+        for line in self.process.stdout or ():
             found = re.search(r"senders +127\.0\.0\.1:(\d+)", line)
             if found:
                 self.port = int(found[1])
@@ -127,7 +127,7 @@ class Onlooker:
         self.socket.settimeout(5)
         first = self.socket.recv(4096)
         if must_be_second and b"Another sender" not in first:
-            fail(f"a sender was connected, and yet a second one was taken as the first: {first}")
+            fail(f"a sender was connected, and yet a second one was taken as the first: {first!r}")
         self.socket.settimeout(0.02)
         self.rest = ""
         self.seen, self.lines = [], []  # (state, place), whenever one of them was another
