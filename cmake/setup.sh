@@ -40,12 +40,17 @@ need_packages() {
     rm -f "$log"
 }
 
-# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long.
+# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long. A folder that has
+# the tests too does for what is asked without them, so ./run and ./test share one.
 build_in() {
     local folder=$1 targets=$2
     shift 2
-    local stamp="$folder/.configured-with" want="$*"
-    if [ ! -e "$folder/build.ninja" ] || [ "$(cat "$stamp" 2>/dev/null)" != "$want" ]; then
+    if command -v ccache >/dev/null 2>&1; then
+        set -- "$@" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+    fi
+    local stamp="$folder/.configured-with" want="$*" is
+    is=$(cat "$stamp" 2>/dev/null) || is=""
+    if [ ! -e "$folder/build.ninja" ] || { [ "$is" != "$want" ] && [ "$is" != "${want/MOTIONRACK_TESTS=OFF/MOTIONRACK_TESTS=ON}" ]; }; then
         need_tools "$@" || return 1
         say "configuring in $folder"
         rm -f "$folder/CMakeCache.txt"
@@ -58,7 +63,7 @@ build_in() {
     fi
     # shellcheck disable=SC2086  # the targets are words
     if ! ninja -C "$folder" -n $targets 2>&1 | grep 'no work to do' >/dev/null; then
-        say "building (the first time takes a few minutes)"
+        say "building in $folder (the first time takes about four minutes on two cores)"
         # shellcheck disable=SC2086  # the targets are words
         ninja -C "$folder" $targets >&2 || {
             no_room "$folder" || say "the build failed; see above"
@@ -88,7 +93,11 @@ build_page() {
     printf '%s' "$want" >"$stamp"
 }
 
-run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
+# What ./run and ./test configure build/release with, besides MOTIONRACK_TESTS.
+# shellcheck disable=SC2034  # both use it
+release_options=(-DCMAKE_BUILD_TYPE=Release -DMOTIONRACK_WERROR=ON -DCMAKE_INSTALL_PREFIX=/usr)
+
+run_packages=(g++ cmake ninja-build ccache libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
