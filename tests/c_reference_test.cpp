@@ -10,14 +10,14 @@
 #include <motionrack/rack/toml_reader.hpp>
 #include <sstream>
 #include <string>
+#include <tests/source_root.hpp>
+#include <tests/text_of.hpp>
 #include <vector>
 
 namespace motionrack {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = MOTIONRACK_SOURCE_DIR;
-
 std::string contents(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -95,9 +95,9 @@ class Page {
 /// A page of docs/reference is what the header makes of it.
 void is_made_from(const std::string& page, const std::string& header, const std::string& title,
                   const std::string& api) {
-    std::string text = Page(contents(root / header), title, api).text();
+    std::string text = Page(contents(source_root / header), title, api).text();
     while (text.size() > 1 && text[text.size() - 2] == '\n') text.pop_back();
-    if (text == contents(root / "docs/reference" / page)) return;
+    if (text == contents(source_root / "docs/reference" / page)) return;
     const fs::path made = fs::temp_directory_path() / ("motionrack_" + page);
     std::ofstream(made, std::ios::binary) << text;
     ADD_FAILURE() << "docs/reference/" << page << " is not what " << header << " says; take " << made;
@@ -118,7 +118,7 @@ TEST(CReference, ThePagesAreMadeFromTheHeaders) {
 }
 
 TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {
-    const std::string header = contents(root / "motionrack/c.h");
+    const std::string header = contents(source_root / "motionrack/c.h");
     const auto has = [&](rack::PartKind kind, std::size_t begin) {
         for (const auto& [name, doc] : rack::declared_quantities(kind)) {
             const std::size_t at = header.find(" *   " + rack::with_unit(name, "mm") + " ", begin);

@@ -8,17 +8,13 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <tests/ran.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Ran {
-    std::string out;
-    int code = -1;
-};
 
 /// A folder that commands run in, gone afterwards.
 class Decode : public testing::Test {
@@ -29,17 +25,7 @@ class Decode : public testing::Test {
     ~Decode() override { fs::remove_all(folder_); }
 
     /// What `command` prints, errors and warnings too.
-    Ran run(const std::string& command) const {
-        Ran ran;
-        std::FILE* pipe = ::popen(("cd '" + folder_.string() + "' && ( " + command + " ) 2>&1").c_str(), "r");
-        if (!pipe) return ran;
-        std::array<char, 4096> buffer{};
-        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-            ran.out.append(buffer.data(), got);
-        const int status = ::pclose(pipe);
-        ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        return ran;
-    }
+    Ran run(const std::string& command) const { return run_in(folder_, command); }
     Ran motionrack(const std::string& arguments) const { return run(MOTIONRACK_PROGRAM " " + arguments); }
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;

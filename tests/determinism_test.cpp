@@ -11,6 +11,7 @@
 #include <motionrack/rack/wave_recorder.hpp>
 #include <string>
 #include <tests/determinism/histories.hpp>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 #include <thread>
 #include <vector>
@@ -19,8 +20,6 @@ namespace motionrack::rack {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = MOTIONRACK_SOURCE_DIR;
-
 struct History {
     JobOutcome outcome;
     std::uint64_t state_hash = 0;
@@ -49,13 +48,13 @@ History run(const std::string& program, const std::string& vcd = {}) {
 
 // tests/determinism/matrix asks the same of other compilers, levels and CPUs.
 TEST(Determinism, ExamplesHaveTheHistoryOfEveryOtherBuild) {
-    EXPECT_EQ(example_histories(root), text_of(root / "tests/golden/trace/examples.txt"))
+    EXPECT_EQ(example_histories(source_root), text_of(source_root / "tests/golden/trace/examples.txt"))
         << "If the machine was meant to do something else than before, put the new lines into "
            "tests/golden/trace/examples.txt.";
 }
 
 TEST(Determinism, RacksHaveTheHistoryOfEveryOtherBuild) {
-    EXPECT_EQ(rack_histories(root), text_of(root / "tests/golden/trace/racks.txt"))
+    EXPECT_EQ(rack_histories(source_root), text_of(source_root / "tests/golden/trace/racks.txt"))
         << "If the machine was meant to do something else than before, put the new lines into "
            "tests/golden/trace/racks.txt.";
 }

@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 #include <vector>
 
@@ -17,8 +18,6 @@ namespace motionrack {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = MOTIONRACK_SOURCE_DIR;
-
 std::string trimmed(const std::string& line) {
     const std::size_t begin = line.find_first_not_of(' '), end = line.find_last_not_of(" \r");
     return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
@@ -47,9 +46,9 @@ std::vector<std::string> code_in_page(const fs::path& page, const std::string& l
 }
 
 std::vector<fs::path> pages() {
-    std::vector<fs::path> out = {root / "README.md", root / "CHANGELOG.md"};
+    std::vector<fs::path> out = {source_root / "README.md", source_root / "CHANGELOG.md"};
     for (const char* folder : {"docs", "examples", "motionrack"})
-        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+        for (const auto& entry : fs::recursive_directory_iterator(source_root / folder))
             if (entry.path().extension() == ".md") out.push_back(entry.path());
     return out;
 }
@@ -74,17 +73,17 @@ bool has_heading(const fs::path& page, const std::string& anchor) {
 }
 
 TEST(Docs, TheRackFilePageIsCurrent) {
-    EXPECT_EQ(text_of(root / "docs/reference/rack-file.md"), rack::rack_file_reference())
+    EXPECT_EQ(text_of(source_root / "docs/reference/rack-file.md"), rack::rack_file_reference())
         << "make it anew: motionrack describe rack-file > docs/reference/rack-file.md";
 }
 
 TEST(Docs, TheMarkingJobPageIsCurrent) {
-    EXPECT_EQ(text_of(root / "docs/reference/marking-job.md"), mark::job_file_reference())
+    EXPECT_EQ(text_of(source_root / "docs/reference/marking-job.md"), mark::job_file_reference())
         << "make it anew: motionrack describe marking-job > docs/reference/marking-job.md";
 }
 
 TEST(Docs, TheSweepFilePageIsCurrent) {
-    EXPECT_EQ(text_of(root / "docs/reference/sweep-file.md"), sweep::sweep_file_reference())
+    EXPECT_EQ(text_of(source_root / "docs/reference/sweep-file.md"), sweep::sweep_file_reference())
         << "make it anew: motionrack describe sweep-file > docs/reference/sweep-file.md";
 }
 
@@ -107,8 +106,8 @@ TEST(Docs, LinksLeadSomewhere) {
 }
 
 TEST(Docs, TheCppOfTheReadmeIsTheLibraryExample) {
-    const std::string example = text_of(root / "examples/06_library/main.cpp");
-    const auto shown = code_in_page(root / "README.md", "cpp");
+    const std::string example = text_of(source_root / "examples/06_library/main.cpp");
+    const auto shown = code_in_page(source_root / "README.md", "cpp");
     ASSERT_EQ(shown.size(), 1u);
     for (const std::string& line : lines_in(shown[0]))
         EXPECT_NE(example.find("\n    " + trimmed(line) + "\n"), std::string::npos) << line;
@@ -133,9 +132,9 @@ TEST(Docs, GcodeOfThePagesRuns) {
 }
 
 TEST(Docs, EveryExampleFolderIsInTheIndexAndComplete) {
-    const std::string index = text_of(root / "examples/README.md");
+    const std::string index = text_of(source_root / "examples/README.md");
     int folders = 0;
-    for (const auto& entry : fs::directory_iterator(root / "examples")) {
+    for (const auto& entry : fs::directory_iterator(source_root / "examples")) {
         const std::string name = entry.path().filename().string();
         if (!entry.is_directory() || name[0] != '0') continue;
         EXPECT_NE(index.find("(" + name + "/README.md)"), std::string::npos) << name;

@@ -8,27 +8,17 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <tests/ran.hpp>
 #include <tests/text_of.hpp>
 
+using motionrack::Ran;
+using motionrack::run_in;
 using motionrack::text_of;
 
 namespace {
 
-struct Ran {
-    std::string out;
-    int code = -1;
-};
-
 Ran run(const std::filesystem::path& folder, const std::string& command) {
-    Ran ran;
-    std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && ( " + command + " ) 2>/dev/null").c_str(), "r");
-    if (!pipe) return ran;
-    std::array<char, 4096> buffer{};
-    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        ran.out.append(buffer.data(), got);
-    const int status = ::pclose(pipe);
-    ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return ran;
+    return run_in(folder, command, "/dev/null");
 }
 
 const std::filesystem::path examples = std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "examples";

@@ -17,10 +17,10 @@ TEST_F(FramesPage, ShowsWhatItsCommandsPrint) {
     std::map<std::string, int> codes = run_page("docs/howto/grating_bus/frames.md");
     ASSERT_GE(codes.size(), 4u);
     EXPECT_EQ(codes["frames examples/grating_bus/crate.toml --for 0.05 --picture frame.svg"], 0);
-    EXPECT_EQ(text_of(folder / "frame.svg"), text_of(root / "docs/pictures/grating_frame.svg"))
+    EXPECT_EQ(text_of(folder / "frame.svg"), text_of(source_root / "docs/pictures/grating_frame.svg"))
         << "make it anew: motionrack frames examples/grating_bus/crate.toml --for 0.05 --picture "
            "docs/pictures/grating_frame.svg";
-    EXPECT_EQ(text_of(folder / "three.svg"), text_of(root / "docs/pictures/grating_three_hosts.svg"))
+    EXPECT_EQ(text_of(folder / "three.svg"), text_of(source_root / "docs/pictures/grating_three_hosts.svg"))
         << "make it anew: motionrack frames examples/grating_bus/three_hosts.toml --for 0.05 --picture "
            "docs/pictures/grating_three_hosts.svg";
 }

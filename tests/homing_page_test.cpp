@@ -6,16 +6,15 @@
 #include <motionrack/cards/mcx314/driver/manual.hpp>
 #include <motionrack/cards/mcx314/test/home_rig.hpp>
 #include <motionrack/rack/homing.hpp>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = MOTIONRACK_SOURCE_DIR;
-
 std::string page() {
-    return text_of(root / "docs/howto/homing.md");
+    return text_of(source_root / "docs/howto/homing.md");
 }
 
 /// Homes X with type 4 and tells what was found.
@@ -72,7 +71,7 @@ TEST(HomingPage, ItsProgramsRun) {
 }
 
 TEST(HomingPage, ShowsTheseProgramsAndNoOthers) {
-    const std::string own = text_of(root / "tests/homing_page_test.cpp");
+    const std::string own = text_of(source_root / "tests/homing_page_test.cpp");
     int blocks = 0;
     const std::string text = page();
     for (std::size_t at = text.find("```cpp\n"); at != std::string::npos;
@@ -95,19 +94,19 @@ TEST(HomingPage, NamesEveryStateWithItsMeaning) {
 }
 
 TEST(HomingPage, ItsPictureIsThatOfTheExample) {
-    rack::Rack rack(*rack::read_rack_file(root / "examples/08_homing/machine.toml").config);
+    rack::Rack rack(*rack::read_rack_file(source_root / "examples/08_homing/machine.toml").config);
     rack.start();
     rack::HomingSettings settings;
     settings.axes = "X";
     const rack::HomingOutcome outcome = rack::home_axes(rack, settings);
     ASSERT_TRUE(outcome.ended);
-    EXPECT_EQ(text_of(root / "docs/pictures/homing.svg"), rack::homing_picture(outcome.axes[0]))
+    EXPECT_EQ(text_of(source_root / "docs/pictures/homing.svg"), rack::homing_picture(outcome.axes[0]))
         << "make it anew: motionrack home X --rack examples/08_homing/machine.toml --picture docs/pictures/homing.svg";
     EXPECT_NE(page().find("../pictures/homing.svg"), std::string::npos);
 }
 
 TEST(HomingPage, WhatItSaysTheCommandPrintsIsPrinted) {
-    const std::string printed = text_of(root / "examples/08_homing/expected.txt"), text = page();
+    const std::string printed = text_of(source_root / "examples/08_homing/expected.txt"), text = page();
     const std::size_t at = text.find("    axis X  type 4");
     ASSERT_NE(at, std::string::npos);
     std::istringstream shown(text.substr(at, text.find("\n\n[", at) - at));

@@ -4,14 +4,13 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = MOTIONRACK_SOURCE_DIR;
-
 std::string printed_by(const std::string& command) {
     std::string out;
     std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -39,17 +38,17 @@ std::string code_of(const std::string& page) {
 class HowTo : public testing::TestWithParam<const char*> {};
 
 TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
-    const std::string name = GetParam(), page = text_of(root / "docs/howto/mcx314" / (name + ".md"));
+    const std::string name = GetParam(), page = text_of(source_root / "docs/howto/mcx314" / (name + ".md"));
     ASSERT_FALSE(page.empty());
     const fs::path picture = fs::temp_directory_path() / ("motionrack_howto_" + name + ".svg");
     const std::string printed = printed_by(MOTIONRACK_MCX314_EXAMPLE " " + name + " '" + picture.string() + "'");
     EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
-    EXPECT_NE(text_of(root / "examples/mcx314" / (name + ".cpp")).find(indented(code_of(page), "    ")),
+    EXPECT_NE(text_of(source_root / "examples/mcx314" / (name + ".cpp")).find(indented(code_of(page), "    ")),
               std::string::npos)
         << "the page's program is not that of examples/mcx314/" << name << ".cpp";
     EXPECT_NE(page.find("](../../pictures/mcx314_" + name + ".svg)"), std::string::npos)
         << "the page does not show its picture";
-    EXPECT_EQ(text_of(root / "docs/pictures" / ("mcx314_" + name + ".svg")), text_of(picture))
+    EXPECT_EQ(text_of(source_root / "docs/pictures" / ("mcx314_" + name + ".svg")), text_of(picture))
         << "make it anew: example_mcx314 " << name << " docs/pictures/mcx314_" << name << ".svg";
     fs::remove(picture);
 }
@@ -63,11 +62,11 @@ INSTANTIATE_TEST_SUITE_P(Pages, HowTo,
 class Ioflex02HowTo : public testing::TestWithParam<const char*> {};
 
 TEST_P(Ioflex02HowTo, ShowsTheProgramAndItsOutput) {
-    const std::string name = GetParam(), page = text_of(root / "docs/howto/ioflex02" / (name + ".md"));
+    const std::string name = GetParam(), page = text_of(source_root / "docs/howto/ioflex02" / (name + ".md"));
     ASSERT_FALSE(page.empty());
     const std::string printed = printed_by(MOTIONRACK_IOFLEX02_EXAMPLE " " + name);
     EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
-    EXPECT_NE(text_of(root / "examples/ioflex02" / (name + ".cpp")).find(indented(code_of(page), "    ")),
+    EXPECT_NE(text_of(source_root / "examples/ioflex02" / (name + ".cpp")).find(indented(code_of(page), "    ")),
               std::string::npos)
         << "the page's program is not that of examples/ioflex02/" << name << ".cpp";
 }
@@ -77,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Pages, Ioflex02HowTo, testing::Values("calibrate", "spe
 // ---- DataBoard 4002
 
 std::string databoard_page(const std::string& name) {
-    return text_of(root / "docs/howto/databoard4002" / (name + ".md"));
+    return text_of(source_root / "docs/howto/databoard4002" / (name + ".md"));
 }
 
 /// Runs `program` with the name of a picture that it makes; the page must show what it prints and that picture.
@@ -91,7 +90,7 @@ void shows(const std::string& name, const std::string& program, const std::strin
     EXPECT_NE(page.find("prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
     EXPECT_NE(page.find("](../../pictures/databoard4002_" + name + ".svg)"), std::string::npos)
         << "the page does not show its picture";
-    EXPECT_EQ(text_of(root / "docs/pictures" / ("databoard4002_" + name + ".svg")), text_of(picture))
+    EXPECT_EQ(text_of(source_root / "docs/pictures" / ("databoard4002_" + name + ".svg")), text_of(picture))
         << "make it anew: " << program << " docs/pictures/databoard4002_" << name << ".svg";
     fs::remove(picture);
 }
@@ -101,7 +100,7 @@ class Databoard4002HowTo : public testing::TestWithParam<const char*> {};
 TEST_P(Databoard4002HowTo, ShowsTheProgramItsOutputAndItsPicture) {
     const std::string name = GetParam();
     shows(name, MOTIONRACK_DATABOARD4002_EXAMPLE " " + name, "");
-    const std::string program = text_of(root / "examples/databoard4002" / (name + ".cpp"));
+    const std::string program = text_of(source_root / "examples/databoard4002" / (name + ".cpp"));
     EXPECT_NE(program.find(indented(code_of(databoard_page(name)), "    ")), std::string::npos)
         << "the page's program is not that of examples/databoard4002/" << name << ".cpp";
 }
@@ -114,7 +113,8 @@ TEST(Databoard4002HowToHost, ShowsThePartsOfTheProgramInCItsOutputAndThePictureO
     ASSERT_FALSE(printed_by(printer).empty());
     shows("old_host", MOTIONRACK_DATABOARD4002_EXAMPLE " old_host '" + csv.string() + "'", printer);
     fs::remove(csv);
-    const std::string page = databoard_page("old_host"), program = text_of(root / "examples/10_databoard_c/program.c");
+    const std::string page = databoard_page("old_host"),
+                      program = text_of(source_root / "examples/10_databoard_c/program.c");
     int blocks = 0;
     for (std::size_t at = page.find("```c\n"); at != std::string::npos; at = page.find("```c\n", at + 5), ++blocks) {
         const std::string code = page.substr(at + 5, page.find("```", at + 5) - at - 5);

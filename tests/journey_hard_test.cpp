@@ -8,13 +8,10 @@
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/sim/input_log.hpp>
+#include <tests/journey.hpp>
 
 namespace motionrack::rack {
 namespace {
-
-RackConfig router() {
-    return *read_rack_text(*rack_template("router")).config;
-}
 
 /// A rack with a job on it, started.
 struct Running {

@@ -40,7 +40,7 @@ int drive_random(const std::string& profile, test::ProgramSize size) {
 
 class JourneyAtRandom : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(With, JourneyAtRandom, testing::Values("trapezoid", "jerk_limited"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& each) { return std::string(each.param); });
 
 TEST_P(JourneyAtRandom, BigMovesEndExactlyStayOnTheirPathAndKeepTheLimits) {
     EXPECT_GT(drive_random(GetParam(), test::ProgramSize::big), 10);

@@ -8,16 +8,17 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <tests/source_root.hpp>
+#include <tests/text_of.hpp>
 #include <vector>
 
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = MOTIONRACK_SOURCE_DIR;
-
+using motionrack::source_root;
 std::vector<fs::path> sources(const fs::path& folder) {
     std::vector<fs::path> out;
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+    for (const auto& entry : fs::recursive_directory_iterator(source_root / folder))
         if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp") out.push_back(entry.path());
     return out;
 }
@@ -27,7 +28,7 @@ std::vector<fs::path> page_sources() {
     static const std::set<std::string> written = {".ts", ".tsx", ".mjs", ".css", ".html"};
     std::vector<fs::path> out;
     for (const char* folder : {"hmi/src", "hmi/test"})
-        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+        for (const auto& entry : fs::recursive_directory_iterator(source_root / folder))
             if (written.count(entry.path().extension())) out.push_back(entry.path());
     return out;
 }
@@ -112,7 +113,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
     const std::regex include(R"(#include <motionrack/([^>]+)>)");
     for (const fs::path& path : sources("motionrack")) {
-        const std::string own = room_of(fs::relative(path, root / "motionrack").generic_string());
+        const std::string own = room_of(fs::relative(path, source_root / "motionrack").generic_string());
         if (own == "test") continue;
         ASSERT_TRUE(may_include.count(own)) << path << " is in no known room";
         for (const std::string& line : lines_of(path)) {
@@ -125,8 +126,8 @@ TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
     for (const fs::path& path : sources("python/src"))
         for (const std::string& line : lines_of(path)) {
             std::smatch match;
-            if (std::regex_search(line, match, include))
-                EXPECT_TRUE(may_include.at("python").count(room_of(match[1]))) << path << " includes " << match[1];
+            if (!std::regex_search(line, match, include)) continue;
+            EXPECT_TRUE(may_include.at("python").count(room_of(match[1]))) << path << " includes " << match[1];
         }
 }
 
@@ -164,7 +165,7 @@ TEST(Laws, JourneysNameWhatExists) {
         for (const std::string& line : lines_of(path)) all += line + "\n";
     const std::regex name(R"(`([A-Za-z_]+(::[A-Za-z_]+)*)`)");
     int names = 0;
-    for (const std::string& line : lines_of(root / "docs/explanations/journeys.md"))
+    for (const std::string& line : lines_of(source_root / "docs/explanations/journeys.md"))
         for (auto it = std::sregex_iterator(line.begin(), line.end(), name); it != std::sregex_iterator(); ++it) {
             const std::string full = (*it)[1];
             const std::string last = full.substr(full.rfind(':') == std::string::npos ? 0 : full.rfind(':') + 1);
@@ -183,10 +184,10 @@ TEST(Laws, JourneysNameWhatExists) {
 
 TEST(Laws, EveryPageOfTheDocumentationIsLinked) {
     std::string index;
-    for (const std::string& line : lines_of(root / "docs/README.md")) index += line + "\n";
-    for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    for (const std::string& line : lines_of(source_root / "docs/README.md")) index += line + "\n";
+    for (const auto& entry : fs::recursive_directory_iterator(source_root / "docs")) {
         if (entry.path().extension() != ".md") continue;
-        const std::string relative = fs::relative(entry.path(), root / "docs").generic_string();
+        const std::string relative = fs::relative(entry.path(), source_root / "docs").generic_string();
         EXPECT_TRUE(relative == "README.md" || index.find("(" + relative + ")") != std::string::npos)
             << relative << " is not linked from docs/README.md";
     }

@@ -39,7 +39,7 @@ TEST_F(MarkCommand, ItsPageShowsWhatItsCommandsPrint) {
     std::map<std::string, int> codes = run_page("docs/howto/marking.md");
     ASSERT_GE(codes.size(), 4u);
     for (const auto& [arguments, code] : codes) EXPECT_EQ(code, 0) << arguments;
-    EXPECT_EQ(text_of(folder / "square.svg"), text_of(root / "docs/pictures/marking_square.svg"))
+    EXPECT_EQ(text_of(folder / "square.svg"), text_of(source_root / "docs/pictures/marking_square.svg"))
         << "make it anew: motionrack mark examples/marking/square.toml --picture docs/pictures/marking_square.svg";
 }
 
@@ -51,7 +51,7 @@ TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
     for (const char* name :
          {"serial", "dial", "long", "speed_encoder", "speed_simulated", "mcbsp_late", "mcbsp_offset"})
         EXPECT_EQ(text_of(folder / fmt::format("{}.svg", name)),
-                  text_of(root / fmt::format("examples/marking/pictures/{}.svg", name)))
+                  text_of(source_root / fmt::format("examples/marking/pictures/{}.svg", name)))
             << fmt::format(
                    "make it anew: motionrack mark examples/marking/{0}.toml --picture "
                    "examples/marking/pictures/{0}.svg",
@@ -59,7 +59,7 @@ TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
 }
 
 TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheSpeedThatFits) {
-    std::string job = text_of(root / "examples/marking/long.toml");
+    std::string job = text_of(source_root / "examples/marking/long.toml");
     job.replace(job.find("speed_mm_s = 150"), 16, "speed_mm_s = 300");
     job.replace(job.find("ruler.svg"), 9, "examples/marking/ruler.svg");
     refused(job, 3, "It just fits at");

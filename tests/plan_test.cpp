@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tests/source_root.hpp>
+#include <tests/text_of.hpp>
 
 #include "ran.hpp"
 
@@ -24,9 +26,9 @@ TEST_F(PlanCommand, PageShowsWhatItPrints) {
 /// Each shape: the page's row is what is planned, no axis is asked too much, and it takes no longer than with exact
 /// stops.
 TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
-    const std::string page = text_of(root / "docs/howto/plan.md");
+    const std::string page = text_of(source_root / "docs/howto/plan.md");
     int shapes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(root / "examples/plan")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_root / "examples/plan")) {
         const Ran ran = motionrack("plan --json examples/plan/" + entry.path().filename().string());
         ASSERT_EQ(ran.code, 0) << ran.out;
         const auto plan = nlohmann::json::parse(ran.out);
@@ -49,12 +51,12 @@ TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
 }
 
 TEST_F(PlanCommand, DrawsThePicturesOfItsPage) {
-    const std::string page = text_of(root / "docs/howto/plan.md");
+    const std::string page = text_of(source_root / "docs/howto/plan.md");
     for (const std::string shape : {"square_wave", "zigzag", "chords", "arcs", "circles", "stadium"}) {
         const std::string name = "plan_" + shape + ".svg", command = "plan examples/plan/" + shape + ".ngc --picture ";
         ASSERT_EQ(motionrack(command + name).code, 0) << shape;
         EXPECT_THAT(page, HasSubstr("](../pictures/" + name + ")"));
-        EXPECT_EQ(text_of(folder / name), text_of(root / "docs/pictures" / name))
+        EXPECT_EQ(text_of(folder / name), text_of(source_root / "docs/pictures" / name))
             << "make it anew: motionrack " << command << "docs/pictures/" << name;
     }
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack {
@@ -18,32 +19,36 @@ struct Ran {
     std::string out;
 };
 
+/// What a command of the shell prints in a folder, and its exit code; -1 where it was killed. `errors`: what becomes of
+/// its error messages, "&1" or "/dev/null".
+inline Ran run_in(const std::filesystem::path& folder, const std::string& command, const std::string& errors = "&1") {
+    Ran ran;
+    std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && ( " + command + " ) 2>" + errors).c_str(), "r");
+    if (!pipe) return ran;
+    std::array<char, 4096> buffer{};
+    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        ran.out.append(buffer.data(), got);
+    const int status = ::pclose(pipe);
+    if (WIFEXITED(status)) ran.code = WEXITSTATUS(status);
+    return ran;
+}
+
 /// A folder for commands that write files.
 class InFolder : public testing::Test {
   protected:
     void SetUp() override {
         std::filesystem::remove_all(folder);
         std::filesystem::create_directories(folder);
-        std::filesystem::create_directory_symlink(root / "examples", folder / "examples");
+        std::filesystem::create_directory_symlink(source_root / "examples", folder / "examples");
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
     /// Runs a command of the shell; what it says to the terminal, warnings too.
-    Ran shell(const std::string& line) const {
-        Ran ran;
-        std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && " + line + " 2>&1").c_str(), "r");
-        if (!pipe) return ran;
-        std::array<char, 4096> buffer{};
-        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-            ran.out.append(buffer.data(), got);
-        const int status = ::pclose(pipe);
-        if (WIFEXITED(status)) ran.code = WEXITSTATUS(status);
-        return ran;
-    }
+    Ran shell(const std::string& line) const { return run_in(folder, line); }
     Ran motionrack(const std::string& arguments) const { return shell(MOTIONRACK_PROGRAM " " + arguments); }
     /// Runs each command of a page, which must print what the page says; the exit codes by the commands' arguments.
     std::map<std::string, int> run_page(const std::string& path) const {
-        const std::string page = text_of(root / path), begin = "```\n$ motionrack ";
+        const std::string page = text_of(source_root / path), begin = "```\n$ motionrack ";
         std::map<std::string, int> codes;
         for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
             const std::size_t command = at + begin.size(), end_of_line = page.find('\n', command),
@@ -59,7 +64,6 @@ class InFolder : public testing::Test {
         std::ofstream(folder / name, std::ios::binary) << text;
     }
 
-    const std::filesystem::path root = MOTIONRACK_SOURCE_DIR;
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("motionrack_test_" + std::to_string(::getpid()));
 };

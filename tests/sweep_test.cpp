@@ -6,6 +6,8 @@
 #include <csignal>
 #include <sstream>
 #include <string>
+#include <tests/source_root.hpp>
+#include <tests/text_of.hpp>
 #include <vector>
 
 #include "ran.hpp"
@@ -70,11 +72,11 @@ class SweepCommand : public InFolder {
 TEST_F(SweepCommand, PageShowsWhatItPrintsAndDraws) {
     const auto codes = run_page("docs/howto/sweep.md");
     EXPECT_EQ(codes.size(), 3u);
-    const std::string page = text_of(root / "docs/howto/sweep.md");
+    const std::string page = text_of(source_root / "docs/howto/sweep.md");
     for (const std::string name : {"acceleration", "tolerance", "chance"}) {
         const std::string picture = "sweep_" + name + ".svg";
         EXPECT_THAT(page, HasSubstr("](../pictures/" + picture + ")"));
-        EXPECT_EQ(text_of(folder / picture), text_of(root / "docs/pictures" / picture))
+        EXPECT_EQ(text_of(folder / picture), text_of(source_root / "docs/pictures" / picture))
             << "make it anew: motionrack sweep examples/sweep/" << name << ".toml --picture docs/pictures/" << picture;
     }
 }

@@ -11,15 +11,14 @@
 #include <motionrack/rack/faults.hpp>
 #include <set>
 #include <tests/fault/cases.hpp>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack::faults {
 namespace {
 
-const std::filesystem::path root = MOTIONRACK_SOURCE_DIR;
-
 TEST(FaultCatalogue, IsThePageOfTheReference) {
-    EXPECT_EQ(text_of(root / "docs/reference/faults.md"), catalogue_page(catalogue()))
+    EXPECT_EQ(text_of(source_root / "docs/reference/faults.md"), catalogue_page(catalogue()))
         << "make it anew: fault_page > docs/reference/faults.md";
 }
 
@@ -44,7 +43,7 @@ std::set<std::string> racks() {
 }
 
 std::optional<rack::RackConfig> config_of(const std::string& text) {
-    auto reading = text.find('\n') == std::string::npos ? rack::read_rack_file((root / text).string())
+    auto reading = text.find('\n') == std::string::npos ? rack::read_rack_file((source_root / text).string())
                                                         : rack::read_rack_text(text);
     EXPECT_TRUE(reading.config) << text;
     return reading.config;
@@ -88,8 +87,8 @@ TEST(FaultCatalogue, HasEveryFaultOfEveryPartAndCard) {
 /// The names of all tests that ctest runs by this label.
 std::string tests_labelled(const std::string& label) {
     std::string out;
-    std::FILE* pipe =
-        ::popen(("'" MOTIONRACK_SOURCE_DIR "/tests/programs' '" MOTIONRACK_BUILD_DIR "' list " + label + " 2>&1").c_str(), "r");
+    std::FILE* pipe = ::popen(
+        ("'" MOTIONRACK_SOURCE_DIR "/tests/programs' '" MOTIONRACK_BUILD_DIR "' list " + label + " 2>&1").c_str(), "r");
     if (pipe == nullptr) return out;
     std::array<char, 4096> buffer{};
     for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
@@ -117,7 +116,7 @@ std::string source_of(const std::string& test) {
     const std::string suite = slash < dot ? test.substr(slash + 1, dot - slash - 1) : test.substr(0, dot),
                       name = test.substr(dot + 1, end == std::string::npos ? end : end - dot - 1);
     for (const char* folder : {"tests", "motionrack"})
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(source_root / folder))
             if (entry.path().extension() == ".cpp") {
                 std::string text = text_of(entry.path());
                 if (text.find("(" + suite + ", " + name + ")") != std::string::npos) return text;

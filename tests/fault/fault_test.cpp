@@ -177,7 +177,7 @@ double value_of(rack::Session& session, const std::string& name) {
 
 void AFault::play_session() const {
     const std::string rack = one().text(fault().setup.rack);
-    auto session = rack::Session::open(rack.find('\n') == std::string::npos ? (root / rack).string() : rack);
+    auto session = rack::Session::open(rack.find('\n') == std::string::npos ? (source_root / rack).string() : rack);
     ASSERT_TRUE(session) << session.error().text();
     const auto pass = [&](double ms) { ASSERT_TRUE((*session)->advance(static_cast<std::uint64_t>(ms * 1e6))); };
     for (const std::string& option : fault().inject) {

@@ -142,7 +142,7 @@ class Hostile {
 };
 
 std::uint64_t seed_given() {
-    const std::uint64_t seed = seed_from_environment();
+    const std::uint64_t seed = motionrack::seed_from_environment();
     std::cout << "MOTIONRACK_SEED=" << seed << std::endl;
     return seed;
 }
