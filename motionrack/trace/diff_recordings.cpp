@@ -31,7 +31,7 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
     if (x.tools != y.tools) diff.made_of.emplace_back("the tool tables differ");
     if (x.subprograms != y.subprograms) diff.made_of.emplace_back("the subprograms differ");
     if (x.block_delete != y.block_delete)
-        diff.made_of.push_back(fmt::format("only {} was run with --diff_block-delete", x.block_delete ? "A" : "B"));
+        diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
     if (x.live != y.live)
         diff.made_of.push_back(fmt::format(
             "only {} was driven so that orders could come, which plans long moves in pieces", x.live ? "A" : "B"));

@@ -29,7 +29,7 @@ auto ordered(Operated& self, Work work) {
 
 char only_letter(const std::string& axis) {
     if (axis.size() != 1)
-        refuse(fmt::format("An axis is one only_letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
+        refuse(fmt::format("An axis is one letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
     return axis[0];
 }
 

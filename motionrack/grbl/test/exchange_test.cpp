@@ -5,7 +5,7 @@ namespace motionrack::grbl {
 namespace {
 
 const std::string exchange_banner = "\r\nGrbl 1.1h ['$' for help]\r\n",
-                  exchange_unlock = "[MSG:'$H'|'$X' to exchange_unlock]\r\n";
+                  exchange_unlock = "[MSG:'$H'|'$X' to unlock]\r\n";
 
 /// On a machine of three axes that stands in Idle at 0; each row begins afresh.
 struct Exchange {

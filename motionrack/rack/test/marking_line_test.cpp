@@ -172,7 +172,7 @@ TEST(MarkingLine, TheSpeedCanBeChangedAndTheEncoderBroken) {
     ASSERT_TRUE(bench.session->fault("encoder.broken_a", "line"));
     const std::int64_t broken = bench.peek("ENCODER0");
     bench.ms(100);
-    EXPECT_LE(std::llabs(bench.peek("ENCODER0") - broken), 2) << "one marking_line alone goes to and fro";
+    EXPECT_LE(std::llabs(bench.peek("ENCODER0") - broken), 2) << "one line alone goes to and fro";
     EXPECT_THAT(bench.session->set_part("line.position_mm", 0).error().message, HasSubstr("only speed_mm_s"));
     EXPECT_THAT(bench.session->set_part("line.speed_mm_s", NAN).error().message,
                 HasSubstr("-10000 to 10000 are possible"));
@@ -216,7 +216,7 @@ TEST(MarkingLine, EqualWordsCountAsWordsToo) {
     Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\n");
     ASSERT_TRUE(bench.session->set_part("line.speed_mm_s", 0));
     ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77))
-        << "the marking_line between sender and card, driven by hand";
+        << "the line between sender and card, driven by hand";
     ASSERT_TRUE(bench.engine().set_multi_mcbsp_in(1, 16384, 0));
     bench.ms(1);
     // 77 = 9 * 8 + 5: words of type 5 fill the locations in turn.
@@ -284,7 +284,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
         return reading.errors.empty() ? std::string() : all_texts(reading.errors);
     };
     EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"),
-                HasSubstr("6:8: belt marking_line: there is no card 'none'"));
+                HasSubstr("6:8: belt line: there is no card 'none'"));
     EXPECT_THAT(refused("[belt.line]\ncard = \"m\"\n"), HasSubstr("one of type rtc5 marks"));
     EXPECT_THAT(refused("[belt.scan]\n"), HasSubstr("cannot be the name"));
     EXPECT_THAT(refused("[belt.line]\ncentre_x_mm = 1\n"), HasSubstr("centre_x_mm"));
@@ -300,7 +300,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     EXPECT_THAT(refused("[table.dial]\n[table.dial.sender]\ntwo_axes = true\n"), HasSubstr("two_axes"));
     EXPECT_THAT(refused("[scanner.head]\n"), HasSubstr("scanner head has no card"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\npart_on = \"line\"\n"),
-                HasSubstr("there is no belt or table 'marking_line'"));
+                HasSubstr("there is no belt or table 'line'"));
     EXPECT_THAT(refused("[scanner.one]\ncard = \"scan\"\n[scanner.two]\ncard = \"scan\"\n"),
                 HasSubstr("drives scanner one already"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nbits_per_mm = 5000\n[scanner.head.lens]\n"),
