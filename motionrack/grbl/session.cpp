@@ -25,7 +25,7 @@ control::gcode::Spindle spindle_of(int code) {
 }
 
 /// Those that the machine has for reasons of its own are a lock.
-int number_of(const Problem& problem) {
+int decimal_of(const Problem& problem) {
     return problem.status == GrblStatus::none ? int{error_locked} : static_cast<int>(problem.status);
 }
 
@@ -201,7 +201,7 @@ int Session::refused(const Problem& problem) {
         return answer_later;
     }
     if (problem.status == GrblStatus::none && !problem.message.empty()) say(problem.message);
-    return number_of(problem);
+    return decimal_of(problem);
 }
 
 bool Session::control() {
@@ -263,7 +263,7 @@ void Session::startup() {
         if (text.empty()) continue;
         const auto read = give(text, 0);
         put(fmt::format(">{}:", text));
-        answer(read ? int{error_none} : number_of(read.error()));
+        answer(read ? int{error_none} : decimal_of(read.error()));
     }
 }
 

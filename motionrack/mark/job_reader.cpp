@@ -15,7 +15,7 @@ using rack::TomlType;
 bool is_number(const TomlNode& node) {
     return node.type == TomlType::number || node.type == TomlType::integer;
 }
-double number_of(const TomlNode& node) {
+double decimal_field(const TomlNode& node) {
     return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
 }
 
@@ -29,7 +29,7 @@ void read_profile(const TomlNode& table, Belt& belt, rack::Problems& problems) {
         if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
             !is_number(pair.children[1]))
             return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, speed].");
-        belt.profile.push_back({number_of(pair.children[0]), number_of(pair.children[1])});
+        belt.profile.push_back({decimal_field(pair.children[0]), decimal_field(pair.children[1])});
     }
     if (table.find("speed_mm_s") != nullptr || table.find("speed_deg_s") != nullptr)
         problems.error(profile->key_place, "A speed and a 'profile' are both given; leave one out.");
@@ -48,7 +48,7 @@ void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, 
     if (at->type != TomlType::array || at->children.empty() || at->children.size() > 10'000)
         return wrong(at->value_place);
     for (const TomlNode& node : at->children) {
-        const double value = is_number(node) ? number_of(node) : -1;
+        const double value = is_number(node) ? decimal_field(node) : -1;
         if (!(value >= 0 && value <= 1e6) || (!parts.at.empty() && value <= parts.at.back()))
             return wrong(node.value_place);
         parts.at.push_back(value);

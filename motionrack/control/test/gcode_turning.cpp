@@ -75,7 +75,7 @@ double contour_at(const std::vector<ContourPiece>& contour, double along) {
     return height;
 }
 
-double distance_to(const ContourPiece& piece, Planar p) {
+double contour_distance_to(const ContourPiece& piece, Planar p) {
     if (piece.turns == 0) {
         const Planar way = piece.to - piece.from;
         const double share = std::clamp(dot(p - piece.from, way) / dot(way, way), 0.0, 1.0);
@@ -90,16 +90,16 @@ double distance_to(const ContourPiece& piece, Planar p) {
     return std::min(length(p - piece.from), length(p - piece.to));
 }
 
-double distance_to(const std::vector<ContourPiece>& contour, Planar p) {
+double contour_distance_to(const std::vector<ContourPiece>& contour, Planar p) {
     double nearest = 1e9;
-    for (const ContourPiece& piece : contour) nearest = std::min(nearest, distance_to(piece, p));
+    for (const ContourPiece& piece : contour) nearest = std::min(nearest, contour_distance_to(piece, p));
     return nearest;
 }
 
 /// Above the contour or on it. Where it is upright, its lower side counts: a tool may stand there.
 bool is_above(const std::vector<ContourPiece>& contour, Planar p) {
     return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - near ||
-           distance_to(contour, p) <= rough;
+           contour_distance_to(contour, p) <= rough;
 }
 
 struct Moved {
@@ -179,11 +179,12 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
     RC_ASSERT(beside_contour(contour, plan.distance, beside) == "");
     ContourPiece way_in;
     way_in.from = plan.start, way_in.to = beside.front().from;
-    const double over_corner = std::min(plan.distance, distance_to(way_in, contour.front().from));
+    const double over_corner = std::min(plan.distance, contour_distance_to(way_in, contour.front().from));
     for (std::size_t i = 0; i < moves.size(); ++i) {
         for (int k = 0; k <= 12; ++k) {
             const Planar p = moves[i].at((k + 0.37) / 13);
-            RC_ASSERT(distance_to(contour, p) >= (p.first < way_in.to.first ? over_corner : plan.distance) - rough);
+            RC_ASSERT(contour_distance_to(contour, p) >=
+                      (p.first < way_in.to.first ? over_corner : plan.distance) - rough);
             RC_ASSERT(is_above(contour, p));
             if (p.first <= begin + near || p.first >= end - near ||
                 std::fabs(moves[i].move.to.first - moves[i].from.first) < near)
@@ -243,7 +244,7 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     for (const Moved& one : moves)
         for (int k = 0; k <= 12; ++k) {
             const Planar p = one.at(k / 12.0);
-            nearest = std::min(nearest, distance_to(contour, p));
+            nearest = std::min(nearest, contour_distance_to(contour, p));
             RC_ASSERT(is_above(contour, p));
         }
     const double last = plan.end_distance, first = last + (plan.distance - last) * (plan.passes - 1) / plan.passes;

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* square_svg =
+constexpr const char* shown_square =
     R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
 const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 100\n";
 
@@ -26,7 +26,7 @@ struct Shown {
     std::string text;
 };
 
-Shown shown(const std::string& text, const std::string& svg = square_svg) {
+Shown shown(const std::string& text, const std::string& svg = shown_square) {
     Shown s;
     s.text = text;
     JobRead read = read_job(text, "job.toml");

@@ -24,7 +24,7 @@ scales = 3
 type = "grating_bus"
 scales = 3
 )";
-const std::string good = cards + R"(
+const std::string good_stage = cards + R"(
 [stage.mask]
 card = "second"
 input = 2
@@ -52,7 +52,7 @@ std::string first_error(const std::string& text) {
 }
 
 TEST(StageSections, AreReadWithTheirDefaults) {
-    const RackReading reading = read_rack_text(good);
+    const RackReading reading = read_rack_text(good_stage);
     ASSERT_TRUE(reading.config) << reading.errors[0].text();
     ASSERT_EQ(reading.config->stages.size(), 2u);
     const RackStage& mask = reading.config->stages[0];
@@ -106,7 +106,7 @@ TEST(StageSections, AreOnTheReferencePage) {
 }
 
 struct Running {
-    explicit Running(const std::string& text = good) : rack(*read_rack_text(text).config) { rack.start(); }
+    explicit Running(const std::string& text = good_stage) : rack(*read_rack_text(text).config) { rack.start(); }
     double get(const std::string& name) {
         const Result<double> value = get_quantity(rack, name);
         EXPECT_TRUE(value) << value.error().message;

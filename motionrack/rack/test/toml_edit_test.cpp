@@ -8,7 +8,7 @@
 namespace motionrack::rack {
 namespace {
 
-std::string text_of(const TomlNode& root) {
+std::string text_of_toml(const TomlNode& root) {
     return toml_of(toml_lines(root));
 }
 
@@ -22,8 +22,8 @@ TomlNode number(double value) {
 TEST(TomlEdit, WritesEveryTemplateSoThatItReadsTheSame) {
     for (const TemplateVariant& variant : template_variants()) {
         const std::string text = *rack_template(variant.name);
-        const std::string lines = text_of(*parse_toml(text, ""));
-        EXPECT_EQ(text_of(*parse_toml(lines, "")), lines) << variant.name;
+        const std::string lines = text_of_toml(*parse_toml(text, ""));
+        EXPECT_EQ(text_of_toml(*parse_toml(lines, "")), lines) << variant.name;
         const RackReading reading = read_rack_text(lines);
         ASSERT_TRUE(reading.config) << variant.name << ": " << reading.errors.front().text();
         EXPECT_EQ(reading.config->wires.size(), read_rack_text(text).config->wires.size());
@@ -35,10 +35,10 @@ TEST(TomlEdit, KeepsTextsOfAllKinds) {
     const TomlNode root = *parse_toml(
         "a.\"b.c\" = \"x\\\"\\\\\\n\\u0001\xC3\xA4\"\nd = {}\ne = [1, 2.5, [true], {f = 'g'}]\nh = 1e300\ni = -0.1\n",
         "");
-    EXPECT_EQ(text_of(root),
+    EXPECT_EQ(text_of_toml(root),
               "a.\"b.c\" = \"x\\\"\\\\\\u000A\\u0001\xC3\xA4\"\nd = {}\ne = [1, 2.5, [true], {f = \"g\"}]\nh = "
               "1e+300\ni = -0.1\n");
-    EXPECT_EQ(text_of(*parse_toml(text_of(root), "")), text_of(root));
+    EXPECT_EQ(text_of_toml(*parse_toml(text_of_toml(root), "")), text_of_toml(root));
 }
 
 TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
@@ -48,10 +48,10 @@ TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
     EXPECT_TRUE(put_value(root, toml_path("wires.\"m.xin1\""), number(0)));
     const std::string before =
         "axis.X.max_mm = 5\naxis.X.card = \"m\"\naxis.Y.servo.lag_ms = 2.5\nwires.\"m.xin1\" = 0\n";
-    EXPECT_EQ(text_of(root), before);
+    EXPECT_EQ(text_of_toml(root), before);
     EXPECT_FALSE(put_value(root, toml_path("axis.X"), number(5)));
     EXPECT_FALSE(put_value(root, toml_path("axis.X.card.name"), number(5)));
-    EXPECT_EQ(text_of(root), before);
+    EXPECT_EQ(text_of_toml(root), before);
 }
 
 TEST(TomlEdit, TakesNamesApart) {

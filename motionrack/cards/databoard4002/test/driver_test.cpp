@@ -14,13 +14,13 @@ using ::testing::HasSubstr;
 
 // ---- exact traffic
 
-struct Access {
+struct PortAccess {
     char kind;  // 'o', 'i'
     int port;
     int value;
-    friend bool operator==(const Access&, const Access&) = default;
+    friend bool operator==(const PortAccess&, const PortAccess&) = default;
 };
-std::ostream& operator<<(std::ostream& out, const Access& a) {
+std::ostream& operator<<(std::ostream& out, const PortAccess& a) {
     return out << a.kind << a.port << ' ' << a.value;
 }
 
@@ -44,7 +44,7 @@ class ScriptedPort final : public BytePort, public Interrupt {
     void pass(Duration time) override { time_ += time; }
     Instant now() const override { return time_; }
 
-    std::vector<Access> accesses;
+    std::vector<PortAccess> accesses;
     std::vector<std::uint8_t> answers;
     int busy = 0;
 
@@ -56,34 +56,34 @@ TEST(Databoard4002Driver, SendsLettersAndBytesInTheOrderOfTheDescription) {
     ScriptedPort port;
     Driver driver(port, port);
     ASSERT_TRUE(driver.set_number(-10));
-    EXPECT_THAT(port.accesses,
-                ElementsAre(Access{'o', 3, 'N'}, Access{'o', 0, 0xF6}, Access{'o', 0, 0xFF}, Access{'o', 0, 0xFF}));
+    EXPECT_THAT(port.accesses, ElementsAre(PortAccess{'o', 3, 'N'}, PortAccess{'o', 0, 0xF6}, PortAccess{'o', 0, 0xFF},
+                                           PortAccess{'o', 0, 0xFF}));
     port.accesses.clear();
     ASSERT_TRUE(driver.set_rate(63 * 256 + 240));
-    EXPECT_THAT(port.accesses, ElementsAre(Access{'o', 3, 'R'}, Access{'o', 0, 240}, Access{'o', 0, 63}));
+    EXPECT_THAT(port.accesses, ElementsAre(PortAccess{'o', 3, 'R'}, PortAccess{'o', 0, 240}, PortAccess{'o', 0, 63}));
     port.accesses.clear();
     port.answers = {0xFE, 0xFF, 0xFF};
     EXPECT_EQ(*driver.position(), -2);
-    EXPECT_THAT(port.accesses,
-                ElementsAre(Access{'o', 3, 'P'}, Access{'i', 0, 0xFE}, Access{'i', 0, 0xFF}, Access{'i', 0, 0xFF}));
+    EXPECT_THAT(port.accesses, ElementsAre(PortAccess{'o', 3, 'P'}, PortAccess{'i', 0, 0xFE}, PortAccess{'i', 0, 0xFF},
+                                           PortAccess{'i', 0, 0xFF}));
     port.accesses.clear();
     port.answers = {0x21};
     EXPECT_EQ(driver.enable_events(0x21)->word, 0x21);
-    EXPECT_THAT(port.accesses, ElementsAre(Access{'o', 5, 0x21}, Access{'i', 0, 0x21}));
+    EXPECT_THAT(port.accesses, ElementsAre(PortAccess{'o', 5, 0x21}, PortAccess{'i', 0, 0x21}));
     port.accesses.clear();
     SlopeTable table;
     table.set(0, {14'000, 256});
     ASSERT_TRUE(driver.set_slope(table));
     ASSERT_EQ(port.accesses.size(), 241u);
-    EXPECT_EQ(port.accesses[1], (Access{'o', 0, 14'000 & 0xFF}));
-    EXPECT_EQ(port.accesses[2], (Access{'o', 0, 14'000 >> 8}));
-    EXPECT_EQ(port.accesses[4], (Access{'o', 0, 1}));
+    EXPECT_EQ(port.accesses[1], (PortAccess{'o', 0, 14'000 & 0xFF}));
+    EXPECT_EQ(port.accesses[2], (PortAccess{'o', 0, 14'000 >> 8}));
+    EXPECT_EQ(port.accesses[4], (PortAccess{'o', 0, 1}));
     std::vector<char> letters;
     port.accesses.clear();
     for (auto call : {&Driver::athome, &Driver::go, &Driver::initialise, &Driver::lock, &Driver::manual,
                       &Driver::on_regulation, &Driver::quit, &Driver::clear_watch_out})
         ASSERT_TRUE((driver.*call)());
-    for (const Access& a : port.accesses) letters.push_back(static_cast<char>(a.value));
+    for (const PortAccess& a : port.accesses) letters.push_back(static_cast<char>(a.value));
     EXPECT_THAT(letters, ElementsAre('A', 'G', 'I', 'L', 'M', 'O', 'Q', 'W'));
 }
 

@@ -14,7 +14,7 @@ std::int64_t s24(std::int64_t x) {
     return x;
 }
 
-std::int64_t number_of(const std::vector<int>& bytes) {
+std::int64_t twin_number_of(const std::vector<int>& bytes) {
     std::int64_t out = 0;
     for (std::size_t i = bytes.size(); i-- > 0;) out = out * 256 + bytes[i];
     return out;
@@ -178,7 +178,7 @@ void Twin::argument(int value) {
     if (open_ == 'S') table_[bytes_.size() - 1] = value;
     const std::size_t size = open_ == 'S' ? 240 : open_ == 'R' ? 2 : 3;
     if (bytes_.size() < size) return;
-    const std::int64_t x = number_of(open_ == 'S' ? std::vector<int>{} : bytes_);
+    const std::int64_t x = twin_number_of(open_ == 'S' ? std::vector<int>{} : bytes_);
     may_write_ = false;
     bytes_.clear();
     if (open_ == 'D') window_ = std::llabs(s24(x));

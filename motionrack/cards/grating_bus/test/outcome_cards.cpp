@@ -60,7 +60,7 @@ grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t se
     return out;
 }
 
-std::string text_of(const Frame& frame) {
+std::string text_of_cards(const Frame& frame) {
     std::string out = row({frame.sequence, frame.time, frame.words, frame.crc});
     for (const std::uint32_t count : frame.positions()) out.append(row({count}));
     return out;
@@ -224,7 +224,8 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
     }
     for (std::size_t i = 0; i < world.cards.size(); ++i)
         for (const Heard& heard : world.ears[i]->heard)
-            out.frames.push_back(row({static_cast<std::int64_t>(i), heard.at.count()}).append(text_of(heard.frame)));
+            out.frames.push_back(
+                row({static_cast<std::int64_t>(i), heard.at.count()}).append(text_of_cards(heard.frame)));
     for (const sim::Condition& c : world.kernel.conditions())
         for (std::size_t i = 0; i < world.cards.size(); ++i)
             if (c.device == world.cards[i]->id() && (c.code == 2 || c.code == 5))

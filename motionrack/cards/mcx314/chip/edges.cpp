@@ -17,7 +17,7 @@ struct Interval {
 
 /// The place of the next edge, or of one a lane.
 template <class Signed, class Unsigned>
-struct Place {
+struct PlaceInRow {
     Unsigned offset{};
     Signed slack{};
 
@@ -34,7 +34,7 @@ using UnsignedLanes = std::uint32_t __attribute__((vector_size(16)));
 
 /// `count` offsets from `next` on, which is then the place after them. Since each edge hangs on the one before, they
 /// are made as sixteen rows of every sixteenth edge.
-void fill_evenly(std::uint32_t* out, std::int64_t count, Place<std::int32_t, std::uint32_t>& next,
+void fill_evenly(std::uint32_t* out, std::int64_t count, PlaceInRow<std::int32_t, std::uint32_t>& next,
                  const Interval& interval) {
     constexpr int rows = 16, lanes = 4;
     std::int64_t i = 0;
@@ -46,7 +46,7 @@ void fill_evenly(std::uint32_t* out, std::int64_t count, Place<std::int32_t, std
             slack[k] = next.slack;
             next.step(interval);
         }
-        std::array<Place<SignedLanes, UnsignedLanes>, rows / lanes> row;
+        std::array<PlaceInRow<SignedLanes, UnsignedLanes>, rows / lanes> row;
         for (int k = 0; k < rows / lanes; ++k) {
             std::memcpy(&row[k].offset, &offset[lanes * k], sizeof row[k].offset);
             std::memcpy(&row[k].slack, &slack[lanes * k], sizeof row[k].slack);
@@ -165,7 +165,7 @@ void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direc
         // As many as the batch's 32-bit offsets have room for.
         some = std::min(some, (longest_batch - (run.at - outputs_[a].batch_tick)) / (run.quotient + 1) + 1);
         const auto first = static_cast<std::uint32_t>(run.at - outputs_[a].batch_tick);
-        Place<std::int32_t, std::uint32_t> next{first, static_cast<std::int32_t>(run.slack)};
+        PlaceInRow<std::int32_t, std::uint32_t> next{first, static_cast<std::int32_t>(run.slack)};
         fill_evenly(batch.at.data() + batch.size, some, next,
                     {static_cast<std::int32_t>(run.quotient), static_cast<std::int32_t>(run.remainder),
                      static_cast<std::int32_t>(run.speed)});

@@ -13,7 +13,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t far_ahead = std::numeric_limits<std::int64_t>::max();
 
 class Walk {
   public:
@@ -50,16 +50,16 @@ class Walk {
 
     std::int64_t ticks_to_speed_event() const {
         if (final_ != final_seen_ || asked_to_stop_) return 1;
-        if (ramp_ == 0) return cv_ == target() ? (d_.pulses ? far : 1) : 1;
+        if (ramp_ == 0) return cv_ == target() ? (d_.pulses ? far_ahead : 1) : 1;
         const std::int64_t rate = d_.s_curve ? rate_ : limit();
-        const std::int64_t to_step = rate > 0 ? rules::ceil_div(rules::speed_carry - speed_part_, rate) : far;
+        const std::int64_t to_step = rate > 0 ? rules::ceil_div(rules::speed_carry - speed_part_, rate) : far_ahead;
         if (!d_.s_curve) return to_step;
         return std::max<std::int64_t>(1, std::min(to_step, jerk_ticks_ - rate_part_));
     }
 
     /// Ticks until the pulse that ends the drive or begins its last deceleration.
     std::int64_t ticks_to_special_pulse() const {
-        if (!d_.pulses) return far;
+        if (!d_.pulses) return far_ahead;
         std::int64_t pulses = *d_.pulses - n_;
         if (!final_) {
             if (d_.dec_point)

@@ -8,7 +8,8 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr Field drive_end = field("WR1", "DEND");
-constexpr Field software_limits = {static_cast<std::uint16_t>(field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask)};
+constexpr Field comparison_limits = {
+    static_cast<std::uint16_t>(field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask)};
 constexpr Field curve_bits = {
     static_cast<std::uint16_t>(field("WR3", "MANLD").mask | field("WR3", "DSNDE").mask | field("WR3", "SACC").mask)};
 constexpr Field plus_limit_stopped = field("RR1", "LMTP"), minus_limit_stopped = field("RR1", "LMTM");
@@ -87,7 +88,7 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
     mode_before_[0] = driver_.mode1(axis_);
     mode_before_[1] = driver_.mode2(axis_);
     mode_before_[2] = driver_.mode3(axis_);
-    driver_.WriteMode2(mask(), static_cast<std::uint16_t>(mode_before_[1] & ~software_limits.mask));
+    driver_.WriteMode2(mask(), static_cast<std::uint16_t>(mode_before_[1] & ~comparison_limits.mask));
     driver_.WriteMode3(mask(), static_cast<std::uint16_t>(mode_before_[2] & ~curve_bits.mask));
     table_ = &home_table(settings_.type);
     report_ = HomeReport{};

@@ -7,7 +7,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr const char* level = "0 active Low, 1 active High";
+constexpr const char* pin_level = "0 active Low, 1 active High";
 constexpr const char* on_off = "0 off, 1 on";
 constexpr unsigned cause_shift = 8;  // causes are bits 0..7 of RR3 and bits 8..15 of WR1
 static_assert(field("WR1", "DEND").mask == field("RR3", "DEND").mask << cause_shift);
@@ -16,10 +16,10 @@ static_assert(field("WR1", "PULSE").mask == field("RR3", "PULSE").mask << cause_
 }  // namespace
 
 Result<void> Driver::HLMTP(int n, unsigned axes) {
-    return write_switch("HLMTP", axes, 2, field("WR2", "HLMTP"), n, 1, level);
+    return write_switch("HLMTP", axes, 2, field("WR2", "HLMTP"), n, 1, pin_level);
 }
 Result<void> Driver::HLMTM(int n, unsigned axes) {
-    return write_switch("HLMTM", axes, 2, field("WR2", "HLMTM"), n, 1, level);
+    return write_switch("HLMTM", axes, 2, field("WR2", "HLMTM"), n, 1, pin_level);
 }
 Result<void> Driver::HLMTSig(int n, unsigned axes) {
     return write_switch("HLMTSig", axes, 2, field("WR2", "LMTMD"), n, 1, "0 stop at once, 1 decelerating");
@@ -47,10 +47,10 @@ Result<void> Driver::EnableInPos(int n, unsigned axes) {
     return write_switch("EnableInPos", axes, 2, field("WR2", "INPE"), n, 1, on_off);
 }
 Result<void> Driver::ALMSig(int n, unsigned axes) {
-    return write_switch("ALMSig", axes, 2, field("WR2", "ALML"), n, 1, level);
+    return write_switch("ALMSig", axes, 2, field("WR2", "ALML"), n, 1, pin_level);
 }
 Result<void> Driver::InPosSig(int n, unsigned axes) {
-    return write_switch("InPosSig", axes, 2, field("WR2", "INPL"), n, 1, level);
+    return write_switch("InPosSig", axes, 2, field("WR2", "INPL"), n, 1, pin_level);
 }
 
 Result<void> Driver::SetStopInput(unsigned axes, int input, StopInput mode) {

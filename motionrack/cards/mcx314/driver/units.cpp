@@ -13,7 +13,7 @@ namespace {
 
 using rules::clock_hz, rules::rate_unit, rules::jerk_unit;
 constexpr double max_range_multiple = 500;
-constexpr double most_units = static_cast<double>(rules::most_units);
+constexpr double max_units = static_cast<double>(rules::most_units);
 constexpr double most_distance = 2'147'483'647;
 
 /// One value of a drive: what it is called, and how much of it one M gives at most.
@@ -22,10 +22,10 @@ struct Kind {
     const char* time;  ///< s, s2 or s3: units a second, ..
     double most_per_multiple;
 };
-constexpr Kind speed_kind{"drive speed", "s", most_units};
-constexpr Kind start_kind{"start speed", "s", most_units};
-constexpr Kind accel_kind{"acceleration", "s2", most_units* rate_unit};
-constexpr Kind decel_kind{"deceleration", "s2", most_units* rate_unit};
+constexpr Kind speed_kind{"drive speed", "s", max_units};
+constexpr Kind start_kind{"start speed", "s", max_units};
+constexpr Kind accel_kind{"acceleration", "s2", max_units* rate_unit};
+constexpr Kind decel_kind{"deceleration", "s2", max_units* rate_unit};
 constexpr Kind jerk_kind{"jerk", "s3", jerk_unit};
 
 Result<void> check_scale(const Scale& scale) {
@@ -109,7 +109,7 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
     const double widest = std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.least),
                                      static_cast<double>(param::R.greatest));
     // V is what fits into the widest range; R is then as much narrower as makes V the asked speed, rounded to reach it.
-    const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, most_units);
+    const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_units);
     const double range =
         std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.least), widest);
     return with_range(scale, drive, static_cast<std::int64_t>(range));

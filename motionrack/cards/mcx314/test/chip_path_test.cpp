@@ -12,12 +12,12 @@ namespace {
 
 constexpr unsigned xyz = 0x0024;  // WR5: AX1 = X, AX2 = Y, AX3 = Z
 
-struct Segment {
+struct PathSegment {
     unsigned code;
     int cx, cy, fx, fy;
 };
 
-void command_segment(Bench& b, const Segment& s) {
+void command_segment(Bench& b, const PathSegment& s) {
     b.data(X, 0x08, s.cx);
     b.data(Y, 0x08, s.cy);
     b.data(X, 0x06, s.fx);
@@ -27,9 +27,9 @@ void command_segment(Bench& b, const Segment& s) {
 
 // The maker's sample: a running track of four lines and four quarter circles of 1,500 pulses, joined without a stop.
 TEST(ChipPath, TheMakersContourCloses) {
-    const Segment track[] = {{0x30, 0, 0, 4500, 0},         {0x33, 0, 1500, 1500, 1500}, {0x30, 0, 0, 0, 1500},
-                             {0x33, -1500, 0, -1500, 1500}, {0x30, 0, 0, -4500, 0},      {0x33, 0, -1500, -1500, -1500},
-                             {0x30, 0, 0, 0, -1500},        {0x33, 1500, 0, 1500, -1500}};
+    const PathSegment track[] = {
+        {0x30, 0, 0, 4500, 0},  {0x33, 0, 1500, 1500, 1500},    {0x30, 0, 0, 0, 1500},  {0x33, -1500, 0, -1500, 1500},
+        {0x30, 0, 0, -4500, 0}, {0x33, 0, -1500, -1500, -1500}, {0x30, 0, 0, 0, -1500}, {0x33, 1500, 0, 1500, -1500}};
     const int nodes[][2] = {{4500, 0}, {6000, 1500},  {6000, 3000},  {4500, 4500},
                             {0, 4500}, {-1500, 3000}, {-1500, 1500}, {0, 0}};
     Bench b;

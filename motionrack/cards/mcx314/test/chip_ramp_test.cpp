@@ -8,11 +8,11 @@
 namespace motionrack::mcx314::outside {
 namespace {
 
-struct Drive {
+struct RampDrive {
     std::int64_t range = 0, start_speed = 0, speed = 0, accel = 0, jerk = 0, pulses = 0;
     unsigned mode = 0;  // WR3
     unsigned code = 0;
-    explicit Drive(twin::Random& random) {
+    explicit RampDrive(twin::Random& random) {
         range = random.of({16'000, 80'000, 800'000, 8'000'000});
         start_speed = random.between(1, 600);
         speed = random.between(1, 8000);
@@ -40,7 +40,7 @@ struct Drive {
 
 void expect_equal_looks(std::uint64_t seed, int drive) {
     twin::Random random(seed * 1000 + static_cast<std::uint64_t>(drive));
-    const Drive d(random);
+    const RampDrive d(random);
     Bench quiet, heard;
     EdgeLog log;
     for (Bench* b : {&quiet, &heard}) b->start();

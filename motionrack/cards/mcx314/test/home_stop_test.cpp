@@ -201,15 +201,15 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
         const std::int64_t off = *rc::gen::inRange(0, 1500);
         RC_ASSERT(bool(rig.driver.TCurve_F(1, 50, 500, 100, off)));
         RC_ASSERT(bool(rig.driver.wait_until_stopped(1, whole_seconds(10))));
-        const Result<HomeReport> done = home(rig.driver, 0, s);
-        if (!done) RC_FAIL(done.error().message);
+        const Result<HomeReport> report = home(rig.driver, 0, s);
+        if (!report) RC_FAIL(report.error().message);
         RC_ASSERT(rig.driver.ReadLPS(0) == 0);
         RC_ASSERT(rig.driver.ReadEPS(0) == 0);
         RC_ASSERT(rig.machines[0]->lost_steps() == 0);
         // The search's edge was where the report says, although contacts bounce and looks are rare.
         const std::int64_t edge = static_cast<std::int64_t>(axis.home_mm * pulses_per_mm) -
                                   static_cast<std::int64_t>(axis.start_mm * pulses_per_mm);
-        for (const HomeEdge& seen : done->edges) {
+        for (const HomeEdge& seen : report->edges) {
             if (seen.input != 0 || !seen.active) continue;
             RC_ASSERT(seen.lp <= edge);
             RC_ASSERT(edge <= seen.lp + seen.within);

@@ -144,7 +144,7 @@ Outcome run_on_twin(const Program& program, bool follow) {
 
 namespace {
 
-std::string text_of(const Pulse& pulse) {
+std::string text_of_sample(const Pulse& pulse) {
     return std::string(1, "XYZU"[pulse.axis]) + (pulse.direction > 0 ? "+" : "-") + " at tick " +
            std::to_string(pulse.tick);
 }
@@ -152,8 +152,9 @@ std::string text_of(const Pulse& pulse) {
 std::string first_pulse_difference(const std::vector<Pulse>& twin, const std::vector<Pulse>& chip) {
     const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
     if (a == twin.end() && b == chip.end()) return "";
-    return "pulse " + std::to_string(a - twin.begin()) + ": twin " + (a == twin.end() ? "has no more" : text_of(*a)) +
-           ", chip " + (b == chip.end() ? "has no more" : text_of(*b)) + "\n";
+    return "pulse " + std::to_string(a - twin.begin()) + ": twin " +
+           (a == twin.end() ? "has no more" : text_of_sample(*a)) + ", chip " +
+           (b == chip.end() ? "has no more" : text_of_sample(*b)) + "\n";
 }
 
 std::string first_request_difference(const std::vector<Request>& twin, const std::vector<Request>& chip) {

@@ -5,7 +5,7 @@
 namespace motionrack::mcx314::twin {
 
 namespace {
-constexpr bool drives_by_wire(const Axis& axis) {
+constexpr bool twin_drives_by_wire(const Axis& axis) {
     return bit(axis.wr3, 3) != bit(axis.wr3, 4);  // EXOP 1 or 2
 }
 }  // namespace
@@ -13,7 +13,7 @@ constexpr bool drives_by_wire(const Axis& axis) {
 // The end of a tick: inputs that ask for a drive, then EXPLSN.
 void Twin::look_at_wires() {
     for (int a = 0; a < axis_count; ++a)
-        if (drives_by_wire(axes_[a]))
+        if (twin_drives_by_wire(axes_[a]))
             look_at_external(a);
         else if (extended_ && (axes_[a].wr3 & 0x18) == 0x18)
             look_at_wheel(a);
@@ -50,7 +50,7 @@ void Twin::write_wr3(Axis& axis, std::uint16_t value) {
     axis.wr3 = value;
     if (!changed) return;
     axis.as.wheel_before = axis.level(Pin::exp_plus);
-    if (!drives_by_wire(axis)) axis.low = {3, 3};
+    if (!twin_drives_by_wire(axis)) axis.low = {3, 3};
     if (axis.external >= 0 && (value & 0x18) != 0x08) axis.gen.ask_decelerating = true;
 }
 

@@ -16,7 +16,7 @@ namespace motionrack::mcx314::twin {
 namespace {
 
 // Parameters as the testbench's command line names them.
-struct Drive {
+struct VerilogDrive {
     std::int64_t r, v, sv, a, d, k, ao, p, dp;
     unsigned mode = 0;  // WR3: 1 manual, 2 own deceleration, 4 S-curve
     bool continuous = false;
@@ -28,7 +28,7 @@ struct Course {
     std::int64_t end = 0;
 };
 
-Course run_twin(const Drive& drive) {
+Course run_twin(const VerilogDrive& drive) {
     Host host;
     host.speeds(1, drive.r, drive.v, drive.sv, drive.a, drive.d, drive.k, drive.ao);
     host.data(1, 0x06, drive.p);
@@ -47,7 +47,7 @@ Course run_twin(const Drive& drive) {
 }
 
 // The same traffic on the event-driven chip; `end`: how long to run.
-std::vector<std::int64_t> pulses_of_chip(const Drive& drive, std::int64_t end) {
+std::vector<std::int64_t> pulses_of_chip(const VerilogDrive& drive, std::int64_t end) {
     Program program;
     const auto write = [&](std::int64_t tick, int offset, std::int64_t value) {
         Op op;
@@ -70,7 +70,7 @@ std::vector<std::int64_t> pulses_of_chip(const Drive& drive, std::int64_t end) {
     return out;
 }
 
-std::string plus_arguments(const Drive& d) {
+std::string plus_arguments(const VerilogDrive& d) {
     std::string out;
     const auto add = [&](const char* name, std::int64_t value) {
         out += std::string(" +") + name + "=" + std::to_string(value);
@@ -82,7 +82,7 @@ std::string plus_arguments(const Drive& d) {
     return out;
 }
 
-Course run_verilog(const std::string& program, const Drive& drive) {
+Course run_verilog(const std::string& program, const VerilogDrive& drive) {
     Course out;
     std::FILE* pipe = popen(("vvp " + program + plus_arguments(drive)).c_str(), "r");
     if (!pipe) return out;
@@ -109,7 +109,7 @@ TEST(Mcx314Verilog, MakesTheSamePulsesInTheSameTicksAsTheTwinAndTheChip) {
             ("iverilog -g2001 -o " + program + " " + folder + "mcx314_axis.v " + folder + "mcx314_axis_tb.v").c_str()),
         0);
 
-    const std::vector<Drive> drives{
+    const std::vector<VerilogDrive> drives{
         {16'000, 8000, 1000, 8000, 8000, 1, 0, 20'000, 0, 0},  // T, trapezoid
         {16'000, 8000, 1000, 8000, 8000, 1, 8, 3001, 0, 0},    // T, triangle
         {20'000, 5000, 400, 3000, 700, 1, 3, 5000, 0, 2},      // own deceleration, creeping or cut short

@@ -14,7 +14,7 @@ namespace motionrack::control::travel_test {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double no_time = std::numeric_limits<double>::infinity();
 
 struct Outcome {
     bool possible = false;
@@ -36,7 +36,7 @@ class Search {
     explicit Search(const Task& task) : t_(task), j_(task.limits.jerk), a_(task.limits.accel), v_(task.limits.speed) {}
 
     double least(int steps) {
-        double best = never;
+        double best = no_time;
         const double top = greatest_peak();
         best = std::min(best, cruising(top));
         // closely at both ends, where branches begin
@@ -85,7 +85,7 @@ class Search {
     double error(double peak, bool low, bool& possible, double& seconds) const {
         const Outcome out = down(up_to(peak), low);
         possible = out.possible;
-        seconds = possible ? out.seconds : never;
+        seconds = possible ? out.seconds : no_time;
         return possible ? out.position - t_.to.position : std::numeric_limits<double>::quiet_NaN();
     }
 
@@ -94,7 +94,7 @@ class Search {
         double seconds;
         double first = error(from, low, one, seconds);
         double second = error(to, low, two, seconds);
-        if (!one && !two) return never;
+        if (!one && !two) return no_time;
         if (one != two) {  // where the branch begins or ends
             double in = one ? from : to, out = one ? to : from;
             for (int i = 0; i < 60; ++i) {
@@ -108,7 +108,7 @@ class Search {
             second = error(to, low, two, seconds);
         }
         if (first == 0) return error(from, low, one, seconds), seconds;
-        if (!(first * second <= 0)) return never;
+        if (!(first * second <= 0)) return no_time;
         for (int i = 0; i < 60; ++i) {
             const double middle = 0.5 * (from + to);
             const double error_there = error(middle, low, one, seconds);
@@ -116,7 +116,7 @@ class Search {
         }
         // no root, but a gap of the branch between two sides
         const double left = std::fabs(error(from, low, one, seconds));
-        return left <= 1e-9 * (std::fabs(first) + std::fabs(second)) ? seconds : never;
+        return left <= 1e-9 * (std::fabs(first) + std::fabs(second)) ? seconds : no_time;
     }
 
     /// The peak with which the greatest speed is just reached.
@@ -136,14 +136,14 @@ class Search {
 
     double cruising(double peak) const {
         State s = up_to(peak);
-        if (s.a < 0) return never;
+        if (s.a < 0) return no_time;
         s.go(-j_, s.a / j_);
         s.v = v_;
         s.a = 0;
         const Outcome rest = down(s, true);
-        if (!rest.possible) return never;
+        if (!rest.possible) return no_time;
         const double left = t_.to.position - rest.position;
-        return left >= 0 ? rest.seconds + left / v_ : never;
+        return left >= 0 ? rest.seconds + left / v_ : no_time;
     }
 
     Task t_;
@@ -160,7 +160,7 @@ Task mirrored(Task t) {
 double braked(State s, double depth, double top, const TravelLimits& limits) {
     const double j = limits.jerk;
     const double straight = s.a * s.a + 2 * j * (s.v - top);
-    if (!(straight >= 0)) return never;
+    if (!(straight >= 0)) return no_time;
     double entry = -std::sqrt(straight);
     if (entry >= depth) {
         s.go(-j, (s.a - entry) / j);
@@ -170,11 +170,11 @@ double braked(State s, double depth, double top, const TravelLimits& limits) {
         entry = std::max(depth, -2 * std::sqrt(j * top));
         const double rising = (depth * depth - entry * entry) / (2 * j);
         const double hold = (s.v - rising - top) / -depth;
-        if (hold < 0) return never;
+        if (hold < 0) return no_time;
         s.go(0, hold);
         s.go(j, (entry - depth) / j);
     }
-    return top - entry * entry / (2 * j) >= -top * (1 + 1e-12) ? s.t : never;
+    return top - entry * entry / (2 * j) >= -top * (1 + 1e-12) ? s.t : no_time;
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ double slowly_found_entry(const TravelState& from, const TravelLimits& limits) {
     if (std::fabs(last) <= top && std::fabs(s.v) <= top) return s.t;
     const bool up = std::fabs(last) > top ? last < 0 : s.v < 0;
     if (up) s = {0, -s.v, -s.a, s.t};
-    double best = never;
+    double best = no_time;
     double from_depth = std::min(s.a, 0.0), to_depth = -limits.accel;
     for (int round = 0; round < 3; ++round) {
         constexpr int steps = 1000;

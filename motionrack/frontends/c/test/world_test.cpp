@@ -171,7 +171,7 @@ std::string temporary(const std::string& name) {
         .string();
 }
 
-std::string text_of(const std::string& path) {
+std::string text_of_file(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -197,7 +197,7 @@ TEST(CWorld, RecordsSignalsAtAnyTime) {
     world.pass(500'000'000);
     ASSERT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
     EXPECT_EQ(mr_trace_stop(world), MR_REFUSED);
-    const std::string text = text_of(csv);
+    const std::string text = text_of_file(csv);
     EXPECT_EQ(count_of(text, ",X.step,1\r\n"), 500);
     EXPECT_EQ(count_of(text, ",c1.xpp,1\r\n"), 500) << "the pin itself";
     EXPECT_EQ(count_of(text, ",c1.xlp,500\r\n"), 1) << "where it began";
@@ -210,7 +210,7 @@ TEST(CWorld, RecordsSignalsAtAnyTime) {
     world.pass(1'000'000'000);
     mr_rack_close(world.rack);  // ends the recording
     world.rack = nullptr;
-    const std::string waves = text_of(vcd);
+    const std::string waves = text_of_file(vcd);
     EXPECT_EQ(count_of(waves, "$scope module c1 $end"), 1);
     EXPECT_THAT(waves, HasSubstr("X_step"));
     EXPECT_THAT(waves, HasSubstr("#2000")) << "times are the rack's";

@@ -285,7 +285,7 @@ TEST(Rtc5simInputs, FlagsHaveWords) {
 
 constexpr const char* header = MOTIONRACK_SOURCE_DIR "/motionrack/frontends/rtc5sim/rtc5sim.h";
 
-std::set<std::string> declared(const char* path) {
+std::set<std::string> declared_functions(const char* path) {
     std::ifstream file(path);
     std::set<std::string> out;
     const std::regex function(R"(^RTC5_API [^(]*\b(\w+)\()");
@@ -296,9 +296,9 @@ std::set<std::string> declared(const char* path) {
 }
 
 TEST(Rtc5simNames, ShowsTheFunctionsOfItsHeadersAndNothingElse) {
-    std::set<std::string> all = declared(header);
+    std::set<std::string> all = declared_functions(header);
     EXPECT_GT(all.size(), 130u);
-    all.merge(declared(RTC5SIM_CARDS));
+    all.merge(declared_functions(RTC5SIM_CARDS));
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" RTC5SIM_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);
     std::set<std::string> shown;
@@ -314,9 +314,9 @@ TEST(Rtc5simNames, ShowsTheFunctionsOfItsHeadersAndNothingElse) {
 TEST(Rtc5simNames, EachCommandHasItsTwinWithACardNumber) {
     const std::set<std::string> of_process = {"init_rtc5_dll", "free_rtc5_dll", "rtc5_count_cards", "select_rtc"};
     std::set<std::string> wanted;
-    for (const std::string& name : declared(header))
+    for (const std::string& name : declared_functions(header))
         if (of_process.count(name) == 0 && name.rfind("rtc5sim_", 0) != 0) wanted.insert("n_" + name);
-    EXPECT_EQ(declared(RTC5SIM_CARDS), wanted);
+    EXPECT_EQ(declared_functions(RTC5SIM_CARDS), wanted);
 }
 
 }  // namespace
