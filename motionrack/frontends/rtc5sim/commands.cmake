@@ -1,5 +1,5 @@
-# What follows from rtc5sim.h alone: the commands for a card by its number, those for the selected card, the list commands, and
-# the names that the library shows. rtc5sim.h is the one place that has a command's name and arguments.
+# What follows from rtc5sim.h alone: the commands for a card by its number, those for the selected card, the list
+# commands, and the names that the library shows. rtc5sim.h is the one place that has a command's name and arguments.
 #
 # Sections "Cards" and "The virtual cards" have functions of the process; those of the other sections exist twice, and
 # those of sections "Lists: .." are the rows of the same name in map/commands.hpp.

@@ -1,8 +1,8 @@
 // Planned moves become chip segments: the chip draws lines of two and three axes and arcs of two; the rest is split
 // here.
 //
-//   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V, which its generator
-//                   /      \           drives towards from the piece's first pulse on:
+//   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V,
+//                   /      \           which its generator drives towards from the piece's first pulse on:
 //                  /        \              [ rise, cruise ][ fall ]
 //                 /          \___      chords of arcs that the chip cannot draw get their V one by one
 //
