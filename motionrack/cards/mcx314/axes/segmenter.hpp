@@ -52,6 +52,8 @@ class Segmenter {
     static std::int32_t best_range(const AxisMap& map);
 
   private:
+    static constexpr std::int64_t longest_line = 8'000'000;  ///< pulses
+
     enum class Shape : std::uint8_t { pause, line, chip_arc, chords };
     /// A planned move and how the chip will draw it.
     struct Work {
