@@ -91,3 +91,5 @@ bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigr
 test_packages=("${run_packages[@]}" "${python_packages[@]}" mypy python3-matplotlib libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
     libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
     bcnc xvfb xauth nats-server python3-h5py octave linuxcnc-uspace debootstrap dpkg-dev file)
+# Of the rules for C and C++ (tests/rules/cpp.cmake).
+test_packages+=(clang-format clang-tidy universal-ctags)

@@ -1,7 +1,8 @@
 # What follows from rtc5sim.h alone: the commands for a card by its number, those for the selected card, the list
 # commands, and the names that the library shows. rtc5sim.h is the one place that has a command's name and arguments.
 #
-# Section "Cards" has functions of the process; those of the other sections exist twice, and those of sections "Lists: .." are the rows of the same name in map/commands.hpp.
+# Section "Cards" has functions of the process; those of the other sections exist twice, and those of sections
+# "Lists: .." are the rows of the same name in map/commands.hpp.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/rtc5sim.h)
 file(READ ${CMAKE_CURRENT_SOURCE_DIR}/rtc5sim.h header)
 string(REPLACE ";" "@" header "${header}")
