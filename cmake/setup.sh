@@ -1,9 +1,13 @@
 # Shared by ./run and ./test: installs what is missing (Debian packages), configures and builds. Sourced, not run.
+# shellcheck shell=bash
+# shellcheck source=cmake/machine.sh
+. "${BASH_SOURCE[0]%/*}/machine.sh"
 
 say() { printf '%s\n' "motionrack: $*" >&2; }
 
 # need_packages PACKAGE...: installs those that are not there, saying first which and why root is needed.
 need_packages() {
+    need_apt || return 1
     local missing=() package
     for package in "$@"; do
         dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
@@ -24,49 +28,54 @@ need_packages() {
     if ! {
         # A machine whose last installation was cut off is put right first.
         "${sudo[@]}" dpkg --configure -a &&
-            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -y -q --fix-broken install &&
+            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+                apt-get -o DPkg::Lock::Timeout=300 -y -q --fix-broken install &&
             "${sudo[@]}" apt-get -o DPkg::Lock::Timeout=300 -q update &&
             "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
                 apt-get -o DPkg::Lock::Timeout=300 -y -q install --no-install-recommends "${missing[@]}"
     } >"$log" 2>&1; then
         tail -n 25 "$log" >&2
-        say "the installation failed; the whole log is $log"
+        why_apt_failed "$log"
         return 1
     fi
     rm -f "$log"
 }
 
-# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long.
+# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong
+# or long.
 build_in() {
     local folder=$1 targets=$2
     shift 2
     local stamp="$folder/.configured-with" want="$*"
     if [ ! -e "$folder/build.ninja" ] || [ "$(cat "$stamp" 2>/dev/null)" != "$want" ]; then
+        need_tools "$@" || return 1
         say "configuring in $folder"
         rm -f "$folder/CMakeCache.txt"
         cmake -S . -B "$folder" -G Ninja "$@" >"$folder.configure.log" 2>&1 || {
             cat "$folder.configure.log" >&2
-            say "cmake could not configure; see above"
+            no_room "$folder" || say "cmake could not configure; see above"
             return 1
         }
         printf '%s' "$want" >"$stamp"
     fi
-    # shellcheck disable=SC2086
-    if [ -n "$(ninja -C "$folder" -n $targets 2>&1 | grep -c 'no work to do' | grep -x 0)" ]; then
+    # shellcheck disable=SC2086  # the targets are words
+    if ! ninja -C "$folder" -n $targets 2>&1 | grep 'no work to do' >/dev/null; then
         say "building (the first time takes a few minutes)"
-        # shellcheck disable=SC2086
+        # shellcheck disable=SC2086  # the targets are words
         ninja -C "$folder" $targets >&2 || {
-            say "the build failed; see above"
+            no_room "$folder" || say "the build failed; see above"
             return 1
         }
     fi
 }
 
-# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin looks for it; only
-# if its sources changed. Where it cannot be built the program shows a text in its place, so that is no failure.
+# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin
+# looks for it; only if its sources changed. Where it cannot be built the program shows a text in its place, so that is
+# no failure.
 build_page() {
     local folder="$PWD/$1/share/motionrack/page" stamp="$1/.page-made-of" want log
-    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum)
+    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 |
+        sort -z | xargs -0 sha256sum | sha256sum)
     [ -e "$folder/index.html" ] && [ -d hmi/node_modules ] && [ "$(cat "$stamp" 2>/dev/null)" = "$want" ] && return 0
     if ! command -v npm >/dev/null 2>&1 && ! need_packages nodejs npm; then
         say "the operator panel's page needs nodejs and npm; the program shows a text in its place"
@@ -76,7 +85,8 @@ build_page() {
     log=$(mktemp)
     if ! (cd hmi && npm ci --no-audit --no-fund && MOTIONRACK_PAGE="$folder" npm run build) >"$log" 2>&1; then
         tail -n 15 "$log" >&2
-        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place. The whole log is $log"
+        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place"
+        say "the whole log is $log"
         return 0
     fi
     rm -f "$log"
@@ -87,9 +97,12 @@ run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev 
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
+# shellcheck disable=SC2034  # bench/page has them installed
 bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigrok-cli)
-test_packages=("${run_packages[@]}" "${python_packages[@]}" mypy python3-matplotlib libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
-    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
-    bcnc xvfb xauth nats-server python3-h5py octave linuxcnc-uspace debootstrap dpkg-dev file)
-# Of the rules for C and C++ (tests/rules/cpp.cmake).
-test_packages+=(clang-format clang-tidy universal-ctags)
+# shellcheck disable=SC2034  # ./test has them installed
+test_packages=("${run_packages[@]}" "${python_packages[@]}"
+    black flake8 mypy shellcheck
+    libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang libclang-rt-14-dev make
+    python3-matplotlib python3-h5py iverilog fp-compiler fp-units-rtl octave sigrok-cli linuxcnc-uspace
+    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap dpkg-dev file
+    clang-format clang-tidy universal-ctags)

@@ -138,7 +138,7 @@ void* rtc5_of(RackCard& card) {
 }
 
 // clang-format off
-const std::array<CardType, 6>& table() {
+const std::array<CardType, 6>& card_type_table() {
     static const std::array<CardType, 6> rows = {{
     mcx314_type(),
     databoard4002_type(),
@@ -169,13 +169,13 @@ const std::array<CardType, 6>& table() {
 }  // namespace
 
 std::span<const CardType> card_types() {
-    return table();
+    return card_type_table();
 }
 
 const CardType* find_card_type(std::string_view name) {
-    const auto found =
-        std::find_if(table().begin(), table().end(), [&](const CardType& type) { return type.name == name; });
-    return found != table().end() ? &*found : nullptr;
+    const auto found = std::find_if(card_type_table().begin(), card_type_table().end(),
+                                    [&](const CardType& type) { return type.name == name; });
+    return found != card_type_table().end() ? &*found : nullptr;
 }
 
 std::vector<Pin> pins_of(const RackCard& card) {

@@ -209,8 +209,8 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
 CardType mcx314_type() {
     // clang-format off
     return {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins,
-        mcx314_wires, "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
-        mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps, "in3"};
+        mcx314_wires, "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz,
+        2'147'483'647, mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps, "in3"};
     // clang-format on
 }
 

@@ -1,4 +1,4 @@
-"""Rule: text is UTF-8 with LF, ends with a line end, and has neither tabs nor blanks at the ends of lines (.editorconfig).
+"""Rule: text is UTF-8 with LF, ends with a line end, and has no tabs and no blanks at ends of lines (.editorconfig).
 
 text_form.py          tells what is not so
 text_form.py --fix    mends it, but for tabs and what is no UTF-8: those need an eye

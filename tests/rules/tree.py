@@ -1,13 +1,10 @@
 """The files of the tree that were written by hand, and which language each is in."""
 
-import os
 import subprocess
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-# Not ours, or made by builds.
-_LEFT_OUT = {".git", "node_modules", "build", "__pycache__"}
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 
 _BY_SUFFIX = {
     ".cpp": "c++",
@@ -22,25 +19,13 @@ _BY_SUFFIX = {
 
 
 def files() -> list[str]:
-    """Paths below ROOT: what git knows and what it would add; in a tree without git all that is there."""
-    if (ROOT / ".git").exists():
-        listed = subprocess.run(
-            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-            cwd=ROOT,
-            capture_output=True,
-            check=True,
-        )
-        paths = sorted(set(listed.stdout.decode("utf-8").split("\0")) - {""})
-        return [path for path in paths if (ROOT / path).is_file()]
-    found = []
-    for folder, folders, names in os.walk(ROOT):
-        folders[:] = [name for name in folders if name not in _LEFT_OUT and not name.startswith("build-")]
-        found += [str((Path(folder) / name).relative_to(ROOT)) for name in names]
-    return sorted(path for path in found if (ROOT / path).is_file())
+    """Paths below ROOT: those of the checkout, or of an unpacked archive."""
+    listed = subprocess.run([HERE / "files", ROOT], capture_output=True, check=True).stdout.decode("utf-8")
+    return sorted({path for path in listed.split("\0") if path})
 
 
 def language(path: str) -> str:
-    """One of c++, c, cmake, python, shell, markdown; "" of any other. Scripts without a suffix tell by their first line."""
+    """One of c++, c, cmake, python, shell, markdown, or "". Scripts without a suffix tell in their first line."""
     name = Path(path).name
     if name == "CMakeLists.txt":
         return "cmake"

@@ -22,10 +22,10 @@ constexpr HomeState wait_steady(std::string_view name, std::string_view meaning,
     return {name, meaning, HomeDoes::wait_steady, exits};
 }
 
-constexpr HomeState check = {"CHECK_START",
-                             "looks where the axis stands",
-                             HomeDoes::look,
-                             {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
+constexpr HomeState check_start = {"CHECK_START",
+                                   "looks where the axis stands",
+                                   HomeDoes::look,
+                                   {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
 constexpr HomeState search_start =
     drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT", HomeWay::towards, HomePace::fast, HomeUntil::on);
 constexpr HomeState search_wait(Exits exits) {
@@ -73,20 +73,20 @@ constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", H
 
 // clang-format off
 constexpr std::array type1 = {
-    check, search_start, search_wait({{{done, "ZERO_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
+    check_start, search_start, search_wait({{{done, "ZERO_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
     settle_start, settle_wait("SEARCH_START"), zero_start, stopping_wait, homed, failed};
 constexpr std::array type2 = {
-    check, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
+    check_start, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
     settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("ZERO_START"), zero_start, stopping_wait, homed,
     failed};
 constexpr std::array type3 = {
-    check, search_start, search_wait({{{done, "INDEX_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
+    check_start, search_start, search_wait({{{done, "INDEX_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
     settle_start, settle_wait("SEARCH_START"), index_start, index_wait, zero_start, stopping_wait, homed, failed};
 constexpr std::array type4 = {
-    check, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
+    check_start, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
     settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("INDEX_START"), index_start, index_wait, zero_start,
     stopping_wait,
