@@ -42,7 +42,7 @@ void Segmenter::add(const control::PlannedMove& move) {
     if (waiting_ && work.move.even) look_at_next(*waiting_, work);
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
     // A move's start is where the one before it really ends, which only emit knows.
-    waiting_ = std::move(work);
+    waiting_ = work;
 }
 
 void Segmenter::finish() {

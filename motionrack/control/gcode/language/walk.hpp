@@ -65,9 +65,9 @@ class Walk {
     };
     struct Frame {
         Lines back;
-        Source* source;
-        std::size_t repeats;
-        std::int32_t called_at;
+        Source* source = nullptr;
+        std::size_t repeats = 0;
+        std::int32_t called_at = 0;
         std::int32_t program = no_place;  ///< of a numbered program: where it begins
         std::int64_t left = 0;            ///< times that it is still to run
     };
