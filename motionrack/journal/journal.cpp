@@ -155,7 +155,7 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
     if (room) return news_.notify_one();
-    if (!done) return;
+    if (!done) return;  // NOLINT(bugprone-use-after-move): it was moved only where there was room
     done(fail(
         Trouble::io,
         closed ? "It was not written to the journal, which is closed."

@@ -100,6 +100,8 @@ class RecordingWriter {
     static Result<RecordingWriter> create(const std::string& path, const RecordingHead& head, Instant began);
     /// Writes nothing until one that was created is moved here.
     RecordingWriter();
+    RecordingWriter(const RecordingWriter&) = delete;
+    RecordingWriter& operator=(const RecordingWriter&) = delete;
     RecordingWriter(RecordingWriter&&) noexcept;
     RecordingWriter& operator=(RecordingWriter&&) noexcept;
     ~RecordingWriter();
