@@ -2,7 +2,8 @@
 // simulation that verilator makes of tests/verilog/mcx314_axis.v, where it is installed. Before anything is measured
 // both are shown to make the same pulses in the same ticks.
 //
-//   chip       command ─► ramp ─► cruise ─► ramp          a few hundred events, or one batch for each 2,048 pulses that somebody hears
+//   chip       command ─► ramp ─► cruise ─► ramp          a few hundred events; where the pulses are listened to,
+//                                                         one batch for each 2,048 of them
 //   verilator  clock 0 1 0 1 0 1 0 1 0 1 0 1 0 1 ...      10 million clocks of 125 ns for the same 4.5 million pulses
 #include <benchmark/benchmark.h>
 

@@ -1,16 +1,20 @@
-# The packages that the library and the program are made with, each with the oldest version that is known to do. This is the one list:
-# the top CMakeLists.txt looks for them here, and motionrackConfig.cmake looks for the public ones where the library is installed.
+# The packages that the library and the program are made with, each with the oldest version that is known to do. This is
+# the one list: the top CMakeLists.txt looks for them here, and motionrackConfig.cmake looks for the public ones where
+# the library is installed.
 
 # Whoever compiles or links against the installed rooms needs these.
 set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLIB 1.2")
 # Those of them that are libraries, as a linker calls them.
 set(motionrack_linked_libraries fmt tomlplusplus z)
-# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI. Linked by its name, so that an installed room has no paths in it.
+# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI. Linked by its name, so that an
+# installed room has no paths in it.
 set(motionrack_hdf5_names hdf5_serial hdf5)
 # Headers that only our own sources include.
-set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40" "OpenSSL 3.0" "Boost 1.81" "Threads")
+set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40"
+    "OpenSSL 3.0" "Boost 1.81" "Threads")
 
-# Those of them that have no CMake package (or one that does not work), by their pkg-config names: pictures as PNG; NATS.
+# Those of them that have no CMake package (or one that does not work), by their pkg-config names: pictures as PNG;
+# NATS.
 set(motionrack_private_modules "librsvg-2.0>=2.54" "cairo-png>=1.16")
 set(motionrack_nats_module "libnats>=3.4")
 

@@ -1,12 +1,13 @@
-# What `cmake --install` puts where, so that strangers find it by find_package(motionrack) or pkg-config. Nothing that is installed knows
-# the prefix: the tree may be moved. The components program, library, dev (and python, see python/) are packages of their own:
-# cmake/package.cmake.
+# What `cmake --install` puts where, so that strangers find it by find_package(motionrack) or pkg-config. Nothing that
+# is installed knows the prefix: the tree may be moved. The components program, library, dev (and python, see python/)
+# are packages of their own: cmake/package.cmake.
 include(CMakePackageConfigHelpers)
 
 get_property(rooms GLOBAL PROPERTY motionrack_rooms)
 
 # ---- libraries ----
-install(TARGETS motionrack_flags ${rooms} EXPORT motionrack-cpp ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+install(TARGETS motionrack_flags ${rooms} EXPORT motionrack-cpp ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        COMPONENT dev)
 
 # motionrack_c_library(TARGET EXPORT_NAME HEADERS): a shared C library, for others motionrack::EXPORT_NAME;
 # and its archive, with all rooms in it, for programs that are to stand alone. HEADERS: where its PUBLIC_HEADER goes.
@@ -23,7 +24,8 @@ function(motionrack_c_library target export_name headers)
     endif()
   endforeach()
   add_library(${target}_archive STATIC ${objects})
-  set_target_properties(${target}_archive PROPERTIES OUTPUT_NAME $<TARGET_PROPERTY:${target},OUTPUT_NAME> LINKER_LANGUAGE CXX
+  set_target_properties(${target}_archive PROPERTIES OUTPUT_NAME $<TARGET_PROPERTY:${target},OUTPUT_NAME>
+                        LINKER_LANGUAGE CXX
                         ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
   install(TARGETS ${target}_archive ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 endfunction()
@@ -32,12 +34,12 @@ motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
 motionrack_c_library(rtc5sim rtc5sim ${CMAKE_INSTALL_INCLUDEDIR})
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev FILES_MATCHING PATTERN "*.hpp"
-        PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
+        FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE
         PATTERN wire.hpp EXCLUDE)
 
-install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal
-        COMPONENT dev)
+install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal COMPONENT dev)
 
 # ---- find_package ----
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motionrack)
@@ -50,11 +52,12 @@ foreach(package IN LISTS motionrack_public_packages)
   string(APPEND motionrack_find_dependencies "  find_dependency(${package})\n")
 endforeach()
 configure_package_config_file(cmake/motionrackConfig.cmake.in ${PROJECT_BINARY_DIR}/motionrackConfig.cmake
-                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO
+                              NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 # Before 1.0 the interface may change with each minor version.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/motionrackConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/motionrackConfig.cmake ${PROJECT_BINARY_DIR}/motionrackConfigVersion.cmake DESTINATION ${package_dir}
-        COMPONENT dev)
+install(FILES ${PROJECT_BINARY_DIR}/motionrackConfig.cmake ${PROJECT_BINARY_DIR}/motionrackConfigVersion.cmake
+        DESTINATION ${package_dir} COMPONENT dev)
 
 # ---- pkg-config: folders are told from where the file lies ----
 function(motionrack_pc_folder out folder)
@@ -99,12 +102,13 @@ install(FILES ${pages}/motionrack DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-comp
 install(FILES ${pages}/motionrack.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 
 # ---- the operator panel's page, if it was built (cmake/setup.sh, build_page) ----
-install(DIRECTORY ${PROJECT_BINARY_DIR}/share/motionrack/page DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack COMPONENT program
-        OPTIONAL)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/share/motionrack/page DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack
+        COMPONENT program OPTIONAL)
 
 # ---- the systemd unit ----
 install(FILES ${PROJECT_SOURCE_DIR}/packaging/motionrack.service DESTINATION lib/systemd/system COMPONENT program)
 
 # ---- examples and rack files, and how frames use the network ----
-install(FILES ${PROJECT_SOURCE_DIR}/motionrack/dds/cyclonedds.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/motionrack/dds/cyclonedds.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack
+        COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack COMPONENT program)

@@ -1,7 +1,9 @@
-# Debian packages of what cmake --install puts where: cpack -G DEB in a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr.
+# Debian packages of what cmake --install puts where: cpack -G DEB in a build that was configured with
+# -DCMAKE_INSTALL_PREFIX=/usr.
 #
 #   motionrack            program, page, manual, completion, systemd unit, examples, rack files
-#   libmotionrack0        the shared C libraries                  ◄── libmotionrack-dev: headers, archives, CMake and pkg-config files, Pascal unit
+#   libmotionrack0        the shared C libraries                  ◄── libmotionrack-dev: headers, archives, CMake
+#                                                                   and pkg-config files, Pascal unit
 #   python3-motionrack    the Python package, where it was built
 #
 # packaging/test installs them in a clean Debian.
@@ -41,10 +43,14 @@ function(motionrack_package component name section sentence)
     set(CPACK_DEBIAN_${c}_PACKAGE_RECOMMENDS "${ARGV5}" PARENT_SCOPE)
   endif()
 endfunction()
-motionrack_package(program motionrack science "the program, the page of its operator panel, examples" "" "fonts-dejavu-core, cyclonedds-tools")
+motionrack_package(program motionrack science "the program, the page of its operator panel, examples" ""
+                   "fonts-dejavu-core, cyclonedds-tools")
 motionrack_package(library libmotionrack0 libs "shared C libraries")
 motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, C++ and Pascal"
-                   "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev" "cyclonedds-dev, libpugixml-dev")
-motionrack_package(python python3-motionrack python "the Python package" "python3 (>= 3.11), python3 (<< 3.12), python3-numpy" "python3-matplotlib")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python/postinst ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
+                   "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev"
+                   "cyclonedds-dev, libpugixml-dev")
+motionrack_package(python python3-motionrack python "the Python package"
+                   "python3 (>= 3.11), python3 (<< 3.12), python3-numpy" "python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python/postinst
+    ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
 include(CPack)

@@ -28,7 +28,8 @@ need_packages() {
     if ! {
         # A machine whose last installation was cut off is put right first.
         "${sudo[@]}" dpkg --configure -a &&
-            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -y -q --fix-broken install &&
+            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+                apt-get -o DPkg::Lock::Timeout=300 -y -q --fix-broken install &&
             "${sudo[@]}" apt-get -o DPkg::Lock::Timeout=300 -q update &&
             "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
                 apt-get -o DPkg::Lock::Timeout=300 -y -q install --no-install-recommends "${missing[@]}"
@@ -40,8 +41,8 @@ need_packages() {
     rm -f "$log"
 }
 
-# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long. A folder that has
-# the tests too does for what is asked without them, so ./run and ./test share one.
+# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong
+# or long. A folder that has the tests too does for what is asked without them, so ./run and ./test share one.
 build_in() {
     local folder=$1 targets=$2
     shift 2
@@ -72,11 +73,13 @@ build_in() {
     fi
 }
 
-# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin looks for it; only
-# if its sources changed. Where it cannot be built the program shows a text in its place, so that is no failure.
+# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin
+# looks for it; only if its sources changed. Where it cannot be built the program shows a text in its place, so that is
+# no failure.
 build_page() {
     local folder="$PWD/$1/share/motionrack/page" stamp="$1/.page-made-of" want log
-    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum)
+    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 |
+        sort -z | xargs -0 sha256sum | sha256sum)
     [ -e "$folder/index.html" ] && [ -d hmi/node_modules ] && [ "$(cat "$stamp" 2>/dev/null)" = "$want" ] && return 0
     if ! command -v npm >/dev/null 2>&1 && ! need_packages nodejs npm; then
         say "the operator panel's page needs nodejs and npm; the program shows a text in its place"
@@ -86,7 +89,8 @@ build_page() {
     log=$(mktemp)
     if ! (cd hmi && npm ci --no-audit --no-fund && MOTIONRACK_PAGE="$folder" npm run build) >"$log" 2>&1; then
         tail -n 15 "$log" >&2
-        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place. The whole log is $log"
+        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place"
+        say "the whole log is $log"
         return 0
     fi
     rm -f "$log"
@@ -108,4 +112,5 @@ test_packages=("${run_packages[@]}" "${python_packages[@]}"
     black flake8 mypy shellcheck
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang libclang-rt-14-dev make
     python3-matplotlib python3-h5py iverilog fp-compiler fp-units-rtl octave sigrok-cli linuxcnc-uspace
-    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap dpkg-dev file)
+    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap dpkg-dev file
+    clang-format clang-tidy universal-ctags)

@@ -93,9 +93,10 @@ class Page {
 };
 
 /// A page of docs/reference is what the header makes of it.
-void is_made_from(const std::string& page, const std::string& header, const std::string& title,
-                  const std::string& api) {
-    std::string text = Page(contents(source_root / header), title, api).text();
+void is_made_from(const std::string& page, const std::string& header, const std::string& title, const std::string& api,
+                  const std::string& continued = "") {
+    const std::string behind = continued.empty() ? "" : contents(source_root / continued);
+    std::string text = Page(contents(source_root / header) + behind, title, api).text();
     while (text.size() > 1 && text[text.size() - 2] == '\n') text.pop_back();
     if (text == contents(source_root / "docs/reference" / page)) return;
     const fs::path made = fs::temp_directory_path() / ("motionrack_" + page);
@@ -114,7 +115,8 @@ TEST(CReference, ThePagesAreMadeFromTheHeaders) {
                  "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n",
                  "MCX314_API ");
     is_made_from("rtc5sim.md", "motionrack/frontends/rtc5sim/rtc5sim.h",
-                 "# The RTC5's commands in C\n\n`rtc5sim.h`, as a page: this one is made from it.\n\n", "RTC5_API ");
+                 "# The RTC5's commands in C\n\n`rtc5sim.h`, as a page: this one is made from it.\n\n", "RTC5_API ",
+                 "motionrack/frontends/rtc5sim/rtc5sim_virtual.h");
 }
 
 TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {

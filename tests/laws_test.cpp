@@ -138,8 +138,8 @@ TEST(Laws, FilesAreSmall) {
 }
 
 TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
-    const std::regex forbidden(
-        R"(steady_clock|system_clock|sleep_for|usleep|std::rand\b|fast-math|march=native|std::sin\(|std::cos\(|std::atan2|std::pow\(|std::exp\()");
+    const std::regex forbidden(R"(steady_clock|system_clock|sleep_for|usleep|std::rand\b|fast-math|march=native|)"
+                               R"(std::sin\(|std::cos\(|std::atan2|std::pow\(|std::exp\()");
     for (const char* folder : {"motionrack/base", "motionrack/sim", "motionrack/cards", "motionrack/control"})
         for (const fs::path& path : sources(folder)) {
             if (path.string().find("/test/") != std::string::npos) continue;

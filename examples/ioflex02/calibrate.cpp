@@ -9,10 +9,11 @@ namespace {
 void tell_positions(Flex2Pos& flex, const char* when) {
     const Reading at = flex.read();
     const auto statuses = flex.statuses();
-    fmt::print("{:<26}", when);
+    std::string line = fmt::format("{:<26}", when);
     for (std::size_t i = 0; i < 4; ++i)
-        fmt::print("{:>7} {:<8}", at.axes[i].position, statuses[i] == sCal ? "sCal" : "sNotCal");
-    fmt::print("\n");
+        line += fmt::format("{:>7} {:<8}", at.axes[i].position, statuses[i] == sCal ? "sCal" : "sNotCal");
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ inline tl::unexpected<Error> fail(Trouble trouble, std::string message, Place pl
     auto MOTIONRACK_JOIN(result_, __LINE__) = (expression);                                                  \
     if (!MOTIONRACK_JOIN(result_, __LINE__))                                                                 \
         return ::tl::unexpected<::motionrack::Error>(std::move(MOTIONRACK_JOIN(result_, __LINE__)).error()); \
-    declaration = std::move(*MOTIONRACK_JOIN(result_, __LINE__))
+    declaration = std::move(*MOTIONRACK_JOIN(result_, __LINE__))  // NOLINT(bugprone-macro-parentheses): it declares
 
 /// `MOTIONRACK_CHECK(f());` returns the error of a Result<void> if there is one.
 #define MOTIONRACK_CHECK(expression)                                                         \

@@ -79,8 +79,8 @@ void Trapezoid::reach_what_can_be_reached() {
 SCurve::SCurve(double distance, double speed, double accel, double jerk) : distance_(distance) {
     if (!(distance > 0)) return;
     const double accel_squared = accel * accel;
-    double rise;      // s, phases 0 and 2
-    double speed_up;  // s, phases 0 to 2
+    double rise = 0;      // s, phases 0 and 2
+    double speed_up = 0;  // s, phases 0 to 2
     double cruise = 0;
     peak_ = speed;
     peak_accel_ = accel;

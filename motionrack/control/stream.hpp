@@ -4,7 +4,8 @@
 //                                                ▲                       │
 //                  hold: the rest of the path ───┴── from where it stands ┘
 //
-//   driving ──hold()──► held ──resume()──► driving        M0, a step done: paused ──resume()──► driving        stop(), a fault: rest
+//   driving ──hold()──► held ──resume()──► driving        a step done or M0: paused ──resume()──► driving
+//   stop(), a fault: rest
 //
 // Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon. With each move that it hands
 // over, the path that is known ends at rest: a sender that falls silent leaves the machine standing at the end of its

@@ -46,8 +46,8 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
     if (PlannedMove planned; ride_->pull(planned, true)) return hand_over(planned);
     const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
-        const Result<StreamState> finished =
-            finish_path();  // where the ride stands: at the end of what is known, or held
+        // Where the ride stands: at the end of what is known, or held.
+        Result<StreamState> finished = finish_path();
         if (!finished || !more_follows) return finished;
     }
     return more_follows ? state_ = StreamState::waiting : stand();

@@ -21,6 +21,7 @@ class WireBuffer {
     }
     WireBuffer(const WireBuffer&) = delete;
     WireBuffer& operator=(const WireBuffer&) = delete;
+    ~WireBuffer() = default;
 
     motionrack_dds_WireSample& wire() { return wire_; }
     void put(const Sample& sample);

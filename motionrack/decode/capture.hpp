@@ -1,7 +1,8 @@
 // Captures of logic analysers: which lines there are, and their levels block by block, so that any size fits into
 // memory.
 //
-//   VCD   every instant at which a chosen line changes is a sample, with its time (sigrok, PulseView, GTKWave, Motionrack)
+//   VCD   every instant at which a chosen line changes is a sample, with its time (sigrok, PulseView, GTKWave,
+//         Motionrack)
 //   CSV   every row is a sample; with a time column, or at the sample rate (sigrok-cli, Saleae)
 //   raw   1 to 8 bytes a sample, the lowest first, a line a bit, at the sample rate
 //

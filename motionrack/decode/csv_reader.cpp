@@ -79,7 +79,7 @@ class CsvCapture final : public Capture {
     struct Row {
         std::string text;
         Place place;
-        bool cut;
+        bool cut = false;
     };
 
     bool next_row(Row& row);

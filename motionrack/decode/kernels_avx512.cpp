@@ -47,11 +47,12 @@ sum_of(__m512i words) {
     const std::size_t head = (words - 1) % 8 + 1;
     const auto here = static_cast<__mmask8>(0xFFU >> (8 - head));
     const __m512i x = _mm512_maskz_loadu_epi64(here, a), y = _mm512_maskz_loadu_epi64(here, b);
+    const std::uint64_t top_a = before.a << 63, top_b = before.b << 63;
     const __m512i up_a_lane = _mm512_setr_epi64(0, 0, 1, 2, 3, 4, 5, 6);
     const __m512i xb = _mm512_mask_mov_epi64(_mm512_permutexvar_epi64(up_a_lane, x), 1,
-                                             _mm512_set1_epi64(static_cast<long long>(before.a << 63)));
+                                             _mm512_set1_epi64(static_cast<long long>(top_a)));
     const __m512i yb = _mm512_mask_mov_epi64(_mm512_permutexvar_epi64(up_a_lane, y), 1,
-                                             _mm512_set1_epi64(static_cast<long long>(before.b << 63)));
+                                             _mm512_set1_epi64(static_cast<long long>(top_b)));
     // Lanes that are not there repeat the word before, and so hold no change: all bits as its last one.
     const __m512i last_a = _mm512_srai_epi64(_mm512_set1_epi64(static_cast<long long>(a[head - 1])), 63);
     const __m512i last_b = _mm512_srai_epi64(_mm512_set1_epi64(static_cast<long long>(b[head - 1])), 63);

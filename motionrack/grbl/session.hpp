@@ -2,7 +2,8 @@
 //
 //   bytes ─┬─ real-time ones ──► at once: hold, resume, stop, overrides, "<Idle|MPos:..>"
 //          └─ lines ─► Intake ─► one at a time ─┬─ $ commands ──► answers
-//                                               └─ G-code, $J= ─► Machine::line, jog_to      each line: one "ok" or "error:N"
+//                                               └─ G-code, $J= ─► Machine::line, jog_to
+//   each line: one "ok" or "error:N"
 //
 //   no line is taken while a hold, a stop, a homing or the alarm of a limit lasts; then bytes wait, 128 of them
 //

@@ -20,10 +20,11 @@ constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": tells a journal from other
 
 constexpr const char* tables = R"(
     CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
-    CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL, at INTEGER NOT NULL,
-                        kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
+    CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
+                        at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
     CREATE INDEX entry_kind ON entry (kind, number);
-    CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL) WITHOUT ROWID;
+    CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL,
+                       utc_ms INTEGER NOT NULL) WITHOUT ROWID;
 )";
 
 std::int64_t utc_ms() {
@@ -154,7 +155,7 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
     if (room) return news_.notify_one();
-    if (!done) return;
+    if (!done) return;  // NOLINT(bugprone-use-after-move): it was moved only where there was room
     done(fail(
         Trouble::io,
         closed ? "It was not written to the journal, which is closed."

@@ -11,6 +11,8 @@ class File {
   public:
     /// For reading and writing. Errors: io, with the remedy.
     static Result<File> open(const std::string& path, int flags = 0);
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
     File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
     File& operator=(File&& other) noexcept {
         std::swap(descriptor_, other.descriptor_);

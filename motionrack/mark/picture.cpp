@@ -1,7 +1,8 @@
 // The pictures of a marking job, one by one for a page or together on a sheet:
 //
-//     as drawn     with correction   without       wide and pale: the drawing; thin: what was marked; a ring: the worst place
-//     the field    worst place       worst place   in the field: the way of the spot, dashed while the laser is off
+//     as drawn     with correction   without       wide and pale: the drawing; thin: what was marked
+//     the field    worst place       worst place   a ring: the worst place; in the field: the way of the spot,
+//                                                  dashed while the laser is off
 //
 // Parts that are much wider than high stand one below the other.
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // What a machine does, written into the journal; and what the next run makes of it.
 //
-//   Status, every slice ──see──► state, job, alarm, setting, position entries; "machine" is kept: where the axes are, what runs
+//   Status, every slice ──see──► state, job, alarm, setting, position entries;
+//                                "machine" is kept: where the axes are, what runs
 //   LastRun ──read_last──► where the axes stood, a sentence about how it ended     (killed: nothing is trusted)
 #pragma once
 

@@ -2,7 +2,8 @@
 // at all.
 //
 //   computer ────┬───────────┬───────────┬──────► s      rack's instants are due at  base + (instant - base) / factor
-//   rack     ────┴─2 ms──────┴─2 ms──────┴──────►        too early: the motion thread waits; late: it hurries, and the lateness is counted
+//   rack     ────┴─2 ms──────┴─2 ms──────┴──────►        too early: the motion thread waits;
+//                                                        late: it hurries, and the lateness is counted
 //
 // Who is later than `given_up` does not hurry after it: the base moves, and what was lost is told.
 #pragma once

@@ -1,7 +1,8 @@
 // Marking with a laser card of the rack while the rack runs: a job becomes a list, which the card works off over what
 // its scan head sees.
 //
-//   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──► work piece
+//   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──►
+//   work piece
 #include <fmt/format.h>
 
 #include <array>

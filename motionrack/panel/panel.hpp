@@ -4,7 +4,8 @@
 //   any thread ──ask──► [ checked against the tables: name, fields, role, lease ] ──post──► Machine, motion thread
 //        ▲                                                                                        │
 //        └──────────── reply, when the journal has it ◄────────── Answer ─────────────────────────┘
-//   any thread ◄──picture(), ChannelSet::newest()── the newest, shared ◄──every 5 ms at most── motion thread, between runs of the kernel
+//   any thread ◄──picture(), ChannelSet::newest()── the newest, shared ◄──every 5 ms at most── motion thread,
+//                                                                                           between runs of the kernel
 #pragma once
 
 #include <atomic>

@@ -1,12 +1,12 @@
-// The table of card types.
+// The table of card types. Those that move axes are in card_types_axes.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
+#include <motionrack/rack/card_type_rows.hpp>
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/grating.hpp>
 
@@ -14,200 +14,6 @@ namespace motionrack::rack {
 namespace {
 
 using enum PinDirection;
-
-// ---- mcx314
-
-constexpr std::array<PinType, 23> mcx314_channel_pins = {{
-    {"pp", output, "pulse (one-pulse mode), or pulses in the + direction"},
-    {"pm", output, "direction (one-pulse mode), or pulses in the - direction"},
-    {"eca", input, "encoder A"},
-    {"ecb", input, "encoder B"},
-    {"in0", input, "stop input 0"},
-    {"in1", input, "stop input 1"},
-    {"in2", input, "stop input 2"},
-    {"in3", input, "stop input 3"},
-    {"lmtp", input, "limit in the + direction"},
-    {"lmtm", input, "limit in the - direction"},
-    {"alarm", input, "alarm of the motor's drive"},
-    {"inpos", input, "in position, from the motor's drive"},
-    {"expp", input, "external operation +"},
-    {"expm", input, "external operation -"},
-    {"drive", output, "high while the axis drives; of an mcx314as also the deviation counter clear pulse"},
-    {"out0", output, "general output 0"},
-    {"out1", output, "general output 1"},
-    {"out2", output, "general output 2"},
-    {"out3", output, "general output 3"},
-    {"out4", output, "general output 4"},
-    {"out5", output, "general output 5"},
-    {"out6", output, "general output 6"},
-    {"out7", output, "general output 7"},
-}};
-
-constexpr std::array<PinType, 3> mcx314_chip_pins = {{
-    {"emgn", input, "emergency stop of all axes, active low"},
-    {"expls_n", input, "external pulse of interpolation, active low"},
-    {"int_n", output, "interrupt, active low"},
-}};
-
-constexpr std::array<DefaultWire, 8> mcx314_wires = {{
-    {"pp", "step"},
-    {"pm", "dir"},
-    {"eca", "enc_a"},
-    {"ecb", "enc_b"},
-    {"in2", "enc_z"},
-    {"in0", "home"},
-    {"lmtp", "limit_plus"},
-    {"lmtm", "limit_minus"},
-}};
-
-constexpr std::array<std::string_view, 2> mcx314_variants = {"mcx314", "mcx314as"};
-constexpr std::array<std::string_view, 2> bus_widths = {"16-bit", "8-bit"};
-
-constexpr std::array<std::string_view, 2> slow_drives = {"at V", "at SV"};
-constexpr std::array<std::string_view, 2> software_limits = {"beyond", "at"};
-
-constexpr std::array<Field, 7> mcx314_settings = {
-    with_choices(field<&Mcx314Settings::variant>("variant", 0, 0, "",
-                                                 "the chip: the original, or the one with filters, automatic home "
-                                                 "search, synchronous actions and wide ranges"),
-                 mcx314_variants),
-    with_choices(field<&Mcx314Settings::slow_drives>("slow_drives", 0, 0, "",
-                                                     "the speed of a drive with V <= SV; the sources do not agree"),
-                 slow_drives),
-    with_choices(field<&Mcx314Settings::software_limits>(
-                     "software_limits", 0, 0, "",
-                     "whether + software limits begin beyond COMP+ or at it; the sources do not agree"),
-                 software_limits),
-    field<&Mcx314Settings::ao_after_reset>("ao_after_reset", 0, 65'535, "pulses",
-                                           "AO until the host writes it; the sources do not say"),
-    field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
-                                     "the chip's clock; the model knows the documented one"),
-    with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "how wide the host's bus is"), bus_widths),
-    field<&Mcx314Settings::bus_access_ns>(
-        "bus_access_ns", 0, 100'000, "ns",
-        "time that one access of the host takes; two of them to a register on 8 bits"),
-};
-
-// One pulse at most every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
-double mcx314_pulse_hz(const RackCard& card) {
-    return static_cast<double>(card.mcx314.clock_hz) / 4;
-}
-
-// A = 8,000 at multiple 500: 8,000 * 125 * 500 pulses/s2.
-double mcx314_accel_hz_s(const RackCard&) {
-    return 8000.0 * 125 * 500;
-}
-
-// The inputs are sampled at every second clock; a state that is shorter is not seen.
-double mcx314_encoder_hz(const RackCard& card) {
-    return static_cast<double>(card.mcx314.clock_hz) / 2;
-}
-
-void* mcx314_of(RackCard& card) {
-    return &card.mcx314;
-}
-
-// ---- databoard4002
-
-constexpr std::array<PinType, 10> databoard4002_channel_pins = {{
-    {"o1", input, "encoder track A, or down pulses"},
-    {"o2", input, "encoder track B, or up pulses"},
-    {"zero", input, "zero pulse of the encoder"},
-    {"ref", input, "reference; high, without current, is active", 0, PinKind::contact},
-    {"esr", input, "end stop right; high, without current, is active", 0, PinKind::contact},
-    {"esl", input, "end stop left; high, without current, is active", 0, PinKind::contact},
-    {"vout", output, "analog output behind the relay, V", 1e-6},
-    {"sign", output, "direction, high is +"},
-    {"fout", output, "speed as a frequency"},
-    {"relay", output, "high while the analog output is connected"},
-}};
-
-constexpr std::array<PinType, 3> databoard4002_pins = {{
-    {"ems", input, "emergency stop; high, without current, is active", 0, PinKind::contact},
-    {"rst", output, "pulse of 10 us at a reset of the card"},
-    {"int", output, "interrupt, active high"},
-}};
-
-// Only those whose parts the axis has: a servo amplifier at the analog output, or a stepping motor at the frequency.
-constexpr std::array<DefaultWire, 10> databoard4002_wires = {{
-    {"vout", "drive"},
-    {"fout", "step"},
-    {"sign", "dir"},
-    {"o1", "enc_a"},
-    {"o2", "enc_b"},
-    {"zero", "enc_z"},
-    {"ref", "cam"},
-    {"ref", "home"},
-    {"esr", "limit_plus"},
-    {"esl", "limit_minus"},
-}};
-
-constexpr std::array<Lamp, 3> mcx314_lamps = {{{"alarm", "alarm", 0}, {"capture", "in3", 0}, {"compare", "out4"}}};
-constexpr std::array<std::string_view, 4> mcx314_stops = {"in0", "in1", "in2", "in3"};
-constexpr std::array<std::string_view, 1> databoard4002_references = {"ref"}, databoard4002_zeros = {"zero"};
-
-constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature x4", "quadrature x2", "quadrature x1",
-                                                                     "up/down"};
-
-constexpr std::array<Field, 9> databoard4002_settings = {
-    field<&Databoard4002Settings::select>("select", 0, 31, "",
-                                          "its number on the bus, written to port 1 before it answers"),
-    with_choices(
-        field<&Databoard4002Settings::counting>("counting", 0, 0, "", "how the straps let O1 and O2 be counted"),
-        databoard4002_countings),
-    field<&Databoard4002Settings::first_pair>(
-        "first_pair", 0, 3, "", "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
-    field<&Databoard4002Settings::single_ended>("single_ended", 0, 0, "",
-                                                "encoder lines up to 50 kHz instead of 100 kHz"),
-    field<&Databoard4002Settings::zeroing>("zeroing", 0, 0, "",
-                                           "enabling the zero or reference event arms the zeroing of the counter"),
-    field<&Databoard4002Settings::version>("version", 0, 255, "",
-                                           "version of the card's program, as the command V tells it"),
-    field<&Databoard4002Settings::pass_ticks>("pass_ticks", 1, 4'000, "",
-                                              "ticks of 2.5 us in a pass of the card's program"),
-    field<&Databoard4002Settings::byte_time_ns>("byte_time_ns", 2'500, 100'000'000, "ns",
-                                                "time that the card's program takes for an access"),
-    field<&Databoard4002Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
-                                                 "time that one access of the host takes"),
-};
-
-// The highest rate that the card's program can set: rate 16383.
-double databoard4002_pulse_hz(const RackCard&) {
-    return 400'000;
-}
-
-double any_accel(const RackCard&) {
-    return std::numeric_limits<double>::infinity();
-}
-
-// Counts of all edges; a count of up and down pulses is one pulse.
-double databoard4002_encoder_hz(const RackCard& card) {
-    const Databoard4002Settings& own = card.databoard4002;
-    return (own.single_ended ? 50'000.0 : 100'000.0) * (own.counting == Databoard4002Counting::up_down ? 1 : 4);
-}
-
-void* databoard4002_of(RackCard& card) {
-    return &card.databoard4002;
-}
-
-std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const RackCard> before) {
-    const Databoard4002Settings& own = card.databoard4002;
-    for (const RackCard& other : before)
-        if (other.type == card.type && other.databoard4002.select == own.select)
-            return CardFlaw{
-                "select",
-                fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
-                            "`select` (0 .. 31).",
-                            other.name, card.name, own.select)};
-    const std::int64_t most = own.counting == Databoard4002Counting::quadrature_2   ? 1
-                              : own.counting == Databoard4002Counting::quadrature_1 ? 3
-                                                                                    : 0;
-    if (own.first_pair <= most) return std::nullopt;
-    return CardFlaw{"first_pair",
-                    fmt::format("Card {} has the first strap pair {}, but counted as \"{}\" it is {}.", card.name,
-                                own.first_pair, databoard4002_countings[static_cast<std::size_t>(own.counting)],
-                                most == 0 ? "0" : fmt::format("0 .. {}", most))};
-}
 
 /// The card's own list of pins; `volts`: of those whose names begin with "vout".
 template <std::size_t n>
@@ -331,114 +137,45 @@ void* rtc5_of(RackCard& card) {
     return &card.rtc5;
 }
 
-constexpr std::array<CardType, 6> card_type_table = {{
-    {"mcx314",
-     "four-axis pulse chip with interpolation",
-     "xyzu",
-     mcx314_channel_pins,
-     mcx314_chip_pins,
-     mcx314_wires,
-     "emgn",
-     mcx314_settings,
-     mcx314_of,
-     mcx314_pulse_hz,
-     mcx314_accel_hz_s,
-     mcx314_encoder_hz,
-     2'147'483'647,
-     mcx314_stops,
-     mcx314_stops,
-     false,
-     nullptr,
-     nullptr,
-     mcx314_lamps,
-     "in3"},
-    {"databoard4002",
-     "intelligent positioning card for one axis, which has a servo or a stepping motor; with no axis on it an ideal "
-     "motor follows its pulses, one count each",
-     "", databoard4002_channel_pins, databoard4002_pins, databoard4002_wires, "ems", databoard4002_settings,
-     databoard4002_of, databoard4002_pulse_hz, any_accel, databoard4002_encoder_hz, 8'388'607, databoard4002_references,
-     databoard4002_zeros, true, databoard4002_flaw},
-    {"ioflex02",
-     "position card for four encoders with calibration and time; it moves no axis, and its lines are wires",
-     "",
-     {},
-     ioflex02_pins,
-     {},
-     "",
-     ioflex02_settings,
-     ioflex02_of,
-     nothing,
-     nothing,
-     nothing,
-     8'388'607,
-     {},
-     {},
-     false,
+// clang-format off
+const std::array<CardType, 6>& card_type_table() {
+    static const std::array<CardType, 6> rows = {{
+    mcx314_type(),
+    databoard4002_type(),
+    {"ioflex02", "position card for four encoders with calibration and time; it moves no axis, and its lines are wires",
+     "", {},
+     ioflex02_pins, {}, "", ioflex02_settings, ioflex02_of, nothing, nothing, nothing, 8'388'607, {}, {}, false,
      ioflex02_flaw},
     {"grating_bus",
      "motion card of a grating bus: all such cards of a rack read the same scales at the same instant, one as host, "
-     "the others listening",
-     "",
-     {},
-     grating_bus_pins,
-     {},
-     "",
-     grating_bus_settings,
-     grating_bus_of,
-     nothing,
-     nothing,
-     nothing,
-     2'147'483'647,
-     {},
-     {},
-     false,
-     grating_bus_flaw},
+     "the others listening", "", {},
+     grating_bus_pins, {}, "", grating_bus_settings, grating_bus_of, nothing, nothing, nothing, 2'147'483'647, {}, {},
+     false, grating_bus_flaw},
     {"grating_decoder",
      "decoder card of the grating bus: counts up to 255 scales and freezes them at HOLD; a rack of grating_bus cards "
-     "without one gets one "
-     "called `decoder`",
-     "",
-     {},
-     grating_decoder_pins,
-     {},
-     "",
-     grating_decoder_settings,
-     grating_decoder_of,
-     nothing,
-     nothing,
-     nothing,
-     2'147'483'647,
-     {},
-     {},
-     false,
-     grating_decoder_flaw,
+     "without one gets one called `decoder`", "", {},
+     grating_decoder_pins, {}, "", grating_decoder_settings, grating_decoder_of, nothing, nothing, nothing,
+     2'147'483'647, {}, {}, false, grating_decoder_flaw,
      grating_decoder_pin_count},
     {"rtc5",
      "control of a laser scan head that marks moving parts; it moves no axis and has no bus: programs use the commands "
-     "of its library",
-     "",
-     {},
-     rtc5_pins,
-     {},
-     "",
-     rtc5_settings,
-     rtc5_of,
-     nothing,
-     nothing,
-     nothing,
-     2'147'483'647},
-}};
+     "of its library", "", {},
+     rtc5_pins, {}, "", rtc5_settings, rtc5_of, nothing, nothing, nothing, 2'147'483'647},
+    }};
+    return rows;
+}
+// clang-format on
 
 }  // namespace
 
 std::span<const CardType> card_types() {
-    return card_type_table;
+    return card_type_table();
 }
 
 const CardType* find_card_type(std::string_view name) {
-    const auto found = std::find_if(card_type_table.begin(), card_type_table.end(),
+    const auto found = std::find_if(card_type_table().begin(), card_type_table().end(),
                                     [&](const CardType& type) { return type.name == name; });
-    return found != card_type_table.end() ? &*found : nullptr;
+    return found != card_type_table().end() ? &*found : nullptr;
 }
 
 std::vector<Pin> pins_of(const RackCard& card) {

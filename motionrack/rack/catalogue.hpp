@@ -38,6 +38,7 @@ class Card {
     virtual const CardMap& map() const = 0;
     /// The same card as one that moves axes; nullptr if it moves none.
     virtual MotionCard* motion() { return nullptr; }
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): motion() of a card that changes nothing
     const MotionCard* motion() const { return const_cast<Card*>(this)->motion(); }
     /// Registers as the host sees them; nullptr if the card has none.
     virtual sim::RegisterDevice* registers() { return nullptr; }

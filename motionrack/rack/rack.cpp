@@ -294,7 +294,7 @@ Result<control::PathAxes*> Rack::positioning_axes(const std::optional<control::P
     return &positioning_.emplace(axes, config_.limits(), axes_.front().card->host());
 }
 
-void Rack::on_slice(Duration slice, std::function<void()> call) {
+void Rack::on_slice(Duration slice, const std::function<void()>& call) {
     for (const auto& card : cards_) card->host().on_slice(slice, call);
 }
 

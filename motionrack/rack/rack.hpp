@@ -88,7 +88,7 @@ class Rack {
     Result<control::PathAxes*> path_axes() { return path_axes(start_position()); }
     Result<control::PathAxes*> path_axes_here() { return path_axes(std::nullopt); }
     /// For progress, draining and Ctrl-C: see VirtualPort.
-    void on_slice(Duration slice, std::function<void()> call);
+    void on_slice(Duration slice, const std::function<void()>& call);
     void set_stop_flag(const std::atomic<bool>* stop);
 
     control::Point start_position() const;

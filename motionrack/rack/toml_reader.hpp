@@ -135,11 +135,9 @@ std::size_t choice_index(const Field& field, const FieldValue& value);
 
 template <class T>
 FieldValue to_value(const T& member, const Field& field) {
-    if constexpr (std::is_same_v<T, bool>) {
-        return member;
-    } else if constexpr (std::is_enum_v<T>) {
+    if constexpr (std::is_enum_v<T>) {
         return std::string(field.choices[static_cast<std::size_t>(member)]);
-    } else if constexpr (std::is_integral_v<T>) {
+    } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
         return static_cast<std::int64_t>(member);
     } else {
         return member;

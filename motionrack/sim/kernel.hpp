@@ -1,6 +1,6 @@
 // The one clock of a rack: runs devices in the order (instant, phase, sequence) and carries the levels of wires.
 //
-//   schedule(id, t) ──► due[id] ──► earliest (t, phase, seq) ──► act(t) ──► set_wire ──► queue ──► on_wire, same instant
+//   schedule(id, t) ──► due[id] ──► earliest (t, phase, seq) ──► act(t) ──► set_wire ──► queue ──► on_wire, same tick
 //
 // After start() nothing reached from run_until allocates, locks or does I/O. Input from outside enters between runs and
 // is what the InputLog (input_log.hpp) records.

@@ -162,7 +162,8 @@ class Preparation {
         if (!programs_.insert(with).second) return;
         const control::gcode::Check check =
             control::gcode::check_program(sweep_.program_text(values), reading_, program_problems, files_.program_name);
-        for (Error problem : check.problems) {
+        for (const Error& found : check.problems) {
+            Error problem = found;
             if (!with.empty()) problem.message += fmt::format(" (with {})", with);
             others_.push_back(std::move(problem));
         }

@@ -8,17 +8,18 @@ namespace motionrack::sweep {
 
 namespace {
 
-constexpr std::string_view vary_doc = R"(What is varied, one line each. A value stands for a list of itself.
-
-| name | values | meaning |
-|---|---|---|
-| `"axis.X.max_mm"`, any key of a [rack file](rack-file.md) | as the key takes them | put into the rack file, over what is there; `axis.X.max_mm` without quotes is the same; names with dots in quotes: `wires."motion.xin1"` |
-| `"fault"` | texts | faults as for `run --fault`; several with blanks between, `""` is none |
-| `"text.NAME"` | numbers, texts | put into the program for each `{NAME}`; NAME is up to 32 letters, digits and `_` |
-
-Instead of a list, numbers between two others:
-
-)";
+constexpr std::string_view vary_doc =
+    "What is varied, one line each. A value stands for a list of itself.\n\n"
+    "| name | values | meaning |\n|---|---|---|\n"
+    R"(| `"axis.X.max_mm"`, any key of a [rack file](rack-file.md) | as the key takes them )"
+    R"(| put into the rack file, over what is there; `axis.X.max_mm` without quotes is the same; )"
+    R"(names with dots in quotes: `wires."motion.xin1"` |)"
+    "\n"
+    R"(| `"fault"` | texts | faults as for `run --fault`; several with blanks between, `""` is none |)"
+    "\n"
+    R"(| `"text.NAME"` | numbers, texts | put into the program for each `{NAME}`; )"
+    R"(NAME is up to 32 letters, digits and `_` |)"
+    "\n\nInstead of a list, numbers between two others:\n\n";
 
 }  // namespace
 

@@ -28,7 +28,7 @@ class VcdChanges final : public ChangeSource {
     Result<void> timescale();
     Result<void> variable(const std::string& scope);
     Result<void> time();
-    Result<bool> changed(std::string code, std::string value, Change& change);
+    Result<bool> changed(const std::string& code, std::string value, Change& change);
     tl::unexpected<Error> refuse(const std::string& message) const {
         return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path());
     }
@@ -134,7 +134,7 @@ Result<void> VcdChanges::time() {
     return {};
 }
 
-Result<bool> VcdChanges::changed(std::string code, std::string value, Change& change) {
+Result<bool> VcdChanges::changed(const std::string& code, std::string value, Change& change) {
     const auto found = codes_.find(code);
     if (found == codes_.end()) {
         if (cut_) return false;

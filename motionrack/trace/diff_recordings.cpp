@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <motionrack/trace/diff_parts.hpp>
 #include <motionrack/trace/recording_parts.hpp>
 #include <span>
@@ -75,7 +75,7 @@ void compare_outcomes(const RecordingReader& a, const RecordingReader& b, Diff& 
 
 /// The same bits, so that two NaN are equal.
 bool same_number(double a, double b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 /// Times and values of a signal, a block at a time.

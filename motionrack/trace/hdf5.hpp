@@ -27,6 +27,8 @@ class Handle {
     using Close = int (*)(std::int64_t);
     Handle() = default;
     Handle(std::int64_t id, Close how) : id_(id), close_(how) {}
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
     Handle& operator=(Handle&& other) noexcept {
         std::swap(id_, other.id_);

@@ -1,8 +1,8 @@
 // A recording of a run in one file of HDF5: what was run, what came from outside, every event with its tick, where the
 // machine was, and what came of it. The layout is told in docs/reference/recording.md.
 //
-//   RecordingWriter:  create(head) ──► event, sample, input, flush ... ──► close(outcome)       bounded memory, whatever the length
-//   RecordingReader:  open ──► head, columns of each signal, report data                      whole or cut off
+//   RecordingWriter:  create(head) ──► event, sample, input, flush ... ──► close(outcome)       bounded memory,
+//   RecordingReader:  open ──► head, columns of each signal, report data   whole or cut off     whatever the length
 #pragma once
 
 #include <array>
@@ -100,6 +100,8 @@ class RecordingWriter {
     static Result<RecordingWriter> create(const std::string& path, const RecordingHead& head, Instant began);
     /// Writes nothing until one that was created is moved here.
     RecordingWriter();
+    RecordingWriter(const RecordingWriter&) = delete;
+    RecordingWriter& operator=(const RecordingWriter&) = delete;
     RecordingWriter(RecordingWriter&&) noexcept;
     RecordingWriter& operator=(RecordingWriter&&) noexcept;
     ~RecordingWriter();

@@ -33,7 +33,7 @@ SignalKind kind_of(const std::string& name) {
 
 /// A path that cannot lead out of its group.
 std::string path_of(const HeadJson& json) {
-    const std::string path = json.at("path");
+    std::string path = json.at("path");
     if (path.empty() || path.front() == '/' || path.find("..") != std::string::npos ||
         path.find('\0') != std::string::npos)
         throw std::runtime_error("no path");

@@ -156,7 +156,8 @@ void fields_of(ReportData& v, Fields& f) {
 std::string report_json(const ReportData& data) {
     ReportJson json = ReportJson::object();
     Fields fields(json, false);
-    fields_of(const_cast<ReportData&>(data), fields);  // the same list reads and writes; nothing is changed here
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the same list reads and writes; nothing is changed here
+    fields_of(const_cast<ReportData&>(data), fields);
     return json.dump(-1, ' ', false, ReportJson::error_handler_t::replace);
 }
 

@@ -1,7 +1,7 @@
 // Several computers on one network, made of Linux namespaces:
 //
-//   machine 0    machine 1    machine 2        each with a network, a host name and an address 10.77.0.(n + 1) of its own
-//     eth0         eth0         eth0
+//   machine 0    machine 1    machine 2        each with a network, a host name and an address
+//     eth0         eth0         eth0           10.77.0.(n + 1) of its own
 //      |            |            |
 //      p0 -------- br0 --------- p2            the test's own network
 //

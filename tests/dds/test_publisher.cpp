@@ -1,6 +1,7 @@
 // A publisher for tests, whose positions tell the number of their frame:
 //
-//   dds_test_publisher good BUS PERIOD_US SCALES OFFSET   frames, each at its time: count k of frame n is OFFSET + 1000 n + k
+//   dds_test_publisher good BUS PERIOD_US SCALES OFFSET   frames, each at its time: count k of frame n is
+//                                                         OFFSET + 1000 n + k
 //   dds_test_publisher bad BUS                            samples that nobody may use, of each kind in turn
 //
 // Prints what it notices, and that it publishes, as lines of JSON; runs until it is killed.

@@ -31,11 +31,11 @@ class SlopeTable {
     static constexpr int size = entries * bytes_of_entry;
 
     constexpr SlopeEntry entry(int i) const {
-        const std::uint8_t* at = &bytes_[static_cast<std::size_t>(i * bytes_of_entry)];
+        const std::uint8_t* at = &bytes_[static_cast<std::size_t>(i) * bytes_of_entry];
         return {(at[0] | at[1] << 8) & rate_mask, at[2] | at[3] << 8 | at[4] << 16};
     }
     constexpr void set(int i, const SlopeEntry& entry) {
-        std::uint8_t* at = &bytes_[static_cast<std::size_t>(i * bytes_of_entry)];
+        std::uint8_t* at = &bytes_[static_cast<std::size_t>(i) * bytes_of_entry];
         at[0] = static_cast<std::uint8_t>(entry.rate);
         at[1] = static_cast<std::uint8_t>(entry.rate >> 8);
         for (int k = 0; k < 3; ++k) at[2 + k] = static_cast<std::uint8_t>(entry.position >> (8 * k));

@@ -2,8 +2,8 @@
 //
 //   0          4        12   14
 //   +----------+--------+----+----------+---- - -+----------+
-//   | sequence | time   | N  | count 0  |        | CRC-32   |      low bytes first; the CRC is that of all bytes before it
-//   +----------+--------+----+----------+---- - -+----------+
+//   | sequence | time   | N  | count 0  |        | CRC-32   |      low bytes first
+//   +----------+--------+----+----------+---- - -+----------+      the CRC is that of all bytes before it
 #pragma once
 
 #include <array>

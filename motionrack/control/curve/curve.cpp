@@ -317,7 +317,7 @@ void CurveBuilder::fill(CurvePiece& piece, double end) {
     for (std::int64_t j = alive_; j < placed_; ++j) {
         const Turn& turn = turns_[j];
         if (turn.end <= middle || turn.begin >= middle) continue;
-        double place, tangent, bend, twist;
+        double place = 0, tangent = 0, bend = 0, twist = 0;
         if (middle < turn.peak) {
             const double x = from - turn.begin;
             place = x * x * x * turn.rise * (1.0 / 3) - (j <= edge_ ? from - turn.u : 0);

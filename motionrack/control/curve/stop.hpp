@@ -1,8 +1,8 @@
 // A stop at a corner, of which the tolerance lets the next leg begin before the one before it has ended: what it wins,
 // and what it needs.
 //
-//   speed  ╲         ╱       An axis of both legs gets the jerk of both. Where that is too much, both are eased about the corner: there they
-//           ╲▁_    _▁╱       take a part of their jerk.
+//   speed  ╲         ╱       An axis of both legs gets the jerk of both. Where that is too much,
+//           ╲▁_    _▁╱       both are eased about the corner: there they take a part of their jerk.
 //              ▔──▔
 //             eased
 #pragma once

@@ -171,8 +171,7 @@ double TurnRow::shrink_at(std::int64_t k) const {
         }
         return sum;
     };
-    double slope;
-    double scale = 1;
+    double slope = 0, scale = 1;
     double sum = deviation(scale, slope);
     if (sum <= own.room) return 1;
     for (int i = 0; i < 2; ++i) {

@@ -1,8 +1,8 @@
 // The speed over a line whose ends take less jerk: the quickest of all profiles that speed up and slow down once.
 //
-//   jerk    J ┌──┐        ┌─┐            speed      ╱▔▔╲         the eased ends are launched over and landed on with their own jerk,
-//           s J │ │       │ │ s J                  ╱    ╲        between them it is an S-curve
-//         ────┴──┴─┐   ┌──┴─┴────             __╱        ╲__
+//   jerk    J ┌──┐        ┌─┐            speed      ╱▔▔╲         the eased ends are launched over and
+//           s J │ │       │ │ s J                  ╱    ╲        landed on with their own jerk,
+//         ────┴──┴─┐   ┌──┴─┴────             __╱        ╲__     between them it is an S-curve
 //          -J      └───┘                    eased       eased
 #pragma once
 

@@ -1,13 +1,15 @@
 // The speed along a path from rest to rest: as fast as speed, acceleration and jerk allow, place by place.
 //
-//   w, the square of the speed, over the path u. Acceleration is w'/2, jerk is sqrt(w) w''/2: conditions on w, its slope and its bend.
+//   w, the square of the speed, over the path u. Acceleration is w'/2, jerk is sqrt(w) w''/2:
+//   conditions on w, its slope and its bend.
 //
 //      ┌──────────┐    ┌───────┐        1. limits of the spans, cut into cells
 //      │          │    │       │        2. from the left: as steep as can be, its slope growing as the jerk allows (╱)
 //     ╱│╲        ╱│╲__╱│╲     ╱│╲       3. from the right: the same (╲)
-//    ╱   ╲______╱   valleys     ╲       4. the lesser of both bends upwards no more than the jerk allows; what bends downwards too much
-//                                          is cut off below: the greatest function under it that bends no more is a convex hull
-//                                          (w + C is convex, where C'' is the bend that the jerk allows)
+//    ╱   ╲______╱   valleys     ╲       4. the lesser of both bends upwards no more than the jerk allows; what bends
+//                                          downwards too much is cut off below: the greatest function under it that
+//                                          bends no more is a convex hull (w + C is convex, where C'' is the bend
+//                                          that the jerk allows)
 //
 // All is done with the control points of a parabola in each cell (a quadratic B-spline): slopes are between neighbours,
 // bends are their differences, and the curve lies between the points. What holds for the points holds at every place.

@@ -38,7 +38,7 @@ ContourPiece piece_of(const CutterPath& path, std::int32_t line) {
 
 /// The fillet between two pieces: it touches both. Its centre lies on the parallels of both at its radius.
 std::string round_corner(ContourPiece& before, ContourPiece& after, ContourPiece& fillet) {
-    const std::string too_large =
+    std::string too_large =
         fmt::format("the corner at the end of line {} has no room for its {} of {:.6g}; make that smaller", before.line,
                     before.chamfer ? "chamfer" : "fillet", before.corner);
     bool fits_before = false, fits_after = false;

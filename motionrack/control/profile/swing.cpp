@@ -233,7 +233,7 @@ double Swings::without_hold(double least, double most) const {
     };
     const double low = fall_at(least), high = fall_at(most);
     const double b = 4 * both_, c = 4 * reach_, rise_square = rise_ * rise_;
-    double guess;
+    double guess = 0;
     if (both_ > 0 && reach_ > 0) {
         // bounds of the root by leaving one of the terms out
         const double slow = (reach_ + std::sqrt(reach_ * reach_ + both_ * rise_square)) / (2 * both_);

@@ -1,8 +1,8 @@
 // How fast a curve could be driven if acceleration could change at once.
 //
-//   w, the square of the speed, over u                      back:  from the end, how fast one may be here and still be able to go on
-//      ╭──╲        ╱──╮       caps: feed and axis speeds    ahead: from the begin, as fast as can be below that
-//     ╱    ╲______╱    ╲      ╱ ╲: |p' w'/2 + p'' w| <= the axis' acceleration
+//   w, the square of the speed, over u                back:  from the end, how fast one may be here and still go on
+//      ╭──╲        ╱──╮       caps: feed and axis     ahead: from the begin, as fast as can be below that
+//     ╱    ╲______╱    ╲      speeds                  ╱ ╲:   |p' w'/2 + p'' w| <= the axis' acceleration
 //
 // On each cell w is a straight line, which is constant acceleration along u.
 #pragma once

@@ -1,8 +1,8 @@
 // A ride as straight moves whose speed changes evenly, for cards that draw lines and are told a speed for each.
 //
-//   speed     ╭───╮            each move from one instant of the ride to another: as long as the path hardly bends and the acceleration
-//           ╱╱     ╲╲          hardly changes on it, but not so short that its ends on whole pulses matter
-//          ╱│ │   │ │╲
+//   speed     ╭───╮            each move from one instant of the ride to another: as long as the path
+//           ╱╱     ╲╲          hardly bends and the acceleration hardly changes on it, but not so short
+//          ╱│ │   │ │╲         that its ends on whole pulses matter
 #pragma once
 
 #include <motionrack/control/path_limits.hpp>

@@ -2,7 +2,8 @@
 // slowed and let go.
 //
 //   push ──► | known, without speeds | planned, to a rest | passed ──► at(), pass()
-//                                    ^ planned anew from where the motion is: when more is known, on hold, on other overrides
+//                                    ^ planned anew from where the motion is: when more is known, on hold,
+//                                      on other overrides
 //
 // What is planned always ends at rest, so that whatever happens next the motion can stop on its path. It is planned
 // further before it has to slow down for that end. Each plan goes on from the speed and the acceleration of the one

@@ -1,13 +1,15 @@
 // The quickest speed along a part of a curve that ends at rest.
 //
-//   w, the square of the speed, over the path u. On a bend an axis' acceleration is shared: what keeps it on the curve grows with w, the rest
-//   changes the speed, p' w'/2 + p'' w. So first it is found how fast each piece can be, from both ends, with no jerk in mind,
+//   w, the square of the speed, over the path u. On a bend an axis' acceleration is shared: what keeps it on the
+//   curve grows with w, the rest changes the speed, p' w'/2 + p'' w. So first it is found how fast each piece can be,
+//   from both ends, with no jerk in mind,
 //
 //      ╭──╮    ╱╲___╱╲     ╭──╮        what bends and feeds allow (cut off above), and what can be reached from there
 //     ╱    ╲__╱       ╲___╱    ╲
 //
-//   and with that speed as its limit a piece leaves the acceleration that it takes to be so fast. The feed planner keeps both, and the jerk.
-//   Where that turns out to be slower, there is more left to change the speed, and it is planned again.
+//   and with that speed as its limit a piece leaves the acceleration that it takes to be so fast. The feed planner
+//   keeps both, and the jerk. Where that turns out to be slower, there is more left to change the speed, and it is
+//   planned again.
 #pragma once
 
 #include <motionrack/control/curve/curve.hpp>

@@ -1,11 +1,12 @@
 // Any samples at any time: a stream of numbers becomes samples, good, nearly good and senseless, and what must always
 // hold of a judge is checked after each. For libFuzzer and the room's own test.
 //
-//   used is sound    what is used has the right CRCs, the expected N and the source that has the bus; what is held is what was used last
-//   all is counted   every sample is in one count
+//   used is sound         what is used has the right CRCs, the expected N and the source that has the bus;
+//                         what is held is what was used last
+//   all is counted        every sample is in one count
 //   one bus, one source   the source changes only when it was silent, and that is counted
-//   time             stale if and only if no frame was used for two paces
-//   words            every event has a sentence that can be printed
+//   time                  stale if and only if no frame was used for two paces
+//   words                 every event has a sentence that can be printed
 #pragma once
 
 #include <motionrack/dds/test/samples.hpp>

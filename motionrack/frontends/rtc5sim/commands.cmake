@@ -1,8 +1,8 @@
-# What follows from rtc5sim.h alone: the commands for a card by its number, those for the selected card, the list commands, and
-# the names that the library shows. rtc5sim.h is the one place that has a command's name and arguments.
+# What follows from rtc5sim.h alone: the commands for a card by its number, those for the selected card, the list
+# commands, and the names that the library shows. rtc5sim.h is the one place that has a command's name and arguments.
 #
-# Sections "Cards" and "The virtual cards" have functions of the process; those of the other sections exist twice, and
-# those of sections "Lists: .." are the rows of the same name in map/commands.hpp.
+# Section "Cards" has functions of the process; those of the other sections exist twice, and those of sections
+# "Lists: .." are the rows of the same name in map/commands.hpp.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/rtc5sim.h)
 file(READ ${CMAKE_CURRENT_SOURCE_DIR}/rtc5sim.h header)
 string(REPLACE ";" "@" header "${header}")
@@ -28,7 +28,7 @@ foreach(item IN LISTS items)
   if(NOT name MATCHES "^rtc5sim_")
     string(APPEND shown "        ${name};\n")
   endif()
-  if(section MATCHES "^(Cards|The virtual cards)$")
+  if(section STREQUAL "Cards")
     continue()
   endif()
   set(arguments "")

@@ -1,8 +1,8 @@
 // Where G-code senders connect: a TCP port of this computer, and a pseudo-terminal that looks like a controller on a
 // serial line.
 //
-//   sender ──TCP──► 127.0.0.1:PORT ─┐                          one sender writes, others look on: their ? ! and resets are heard
-//   sender ──serial──► LINK ─► pts ─┴─► grbl::Session ─► operate::Machine
+//   sender ──TCP──► 127.0.0.1:PORT ─┐                          one sender writes, others look on:
+//   sender ──serial──► LINK ─► pts ─┴─► grbl::Session ─► operate::Machine     their ? ! and resets are heard
 //
 // Each of the two is a Grbl of its own on the same machine; which of them may move it is the control lease's matter.
 // The port has neither pairing nor encryption, so it is there for programs of this computer only.

@@ -1,6 +1,7 @@
 // What all connections share: who may, where things are, how much. It knows neither sockets nor motion.
 //
-//   head ──admit──► an answer at once (refused, page, STOP)  or  how long the body may be ──handle──► the panel's answer
+//   head ──admit──► an answer at once (refused, page, STOP)
+//               └─► how long the body may be ──handle──► the panel's answer
 //
 // The network thread's, but for post().
 #pragma once

@@ -9,7 +9,8 @@
 namespace motionrack::mark {
 
 inline constexpr const char* square_svg =
-    R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10">)"
+    R"(<path d="M0 10 H10 V0 H0 Z"/></svg>)";
 
 inline Load one_file(const std::string& text) {
     return [text](const std::string&) -> Result<std::string> { return text; };

@@ -1,8 +1,8 @@
 // What must hold of marking jobs and drawings, whatever bytes they are made of.
 //
 //   drawing   it is refused with a place that is in the text, or every coordinate is a number and it has some lines
-//   job       it is read or has errors with places, never both; what is read runs, or is refused, or is stopped; the part's picture,
-//             table and page are made of any outcome
+//   job       it is read or has errors with places, never both; what is read runs, or is refused, or is stopped;
+//             the part's picture, table and page are made of any outcome
 #pragma once
 
 #include <string>

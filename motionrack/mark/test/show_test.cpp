@@ -16,7 +16,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* shown_square =
-    R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10">)"
+    R"(<path d="M0 10 H10 V0 H0 Z"/></svg>)";
 const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 100\n";
 
 struct Shown {

@@ -13,8 +13,8 @@ namespace {
 using testing::HasSubstr;
 
 /// A frame 300 mm long and 20 mm wide with a circle in it; the field has 121 mm.
-constexpr const char* long_svg =
-    R"(<svg><rect x='-380' y='-10' width='300' height='20'/><circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
+constexpr const char* long_svg = R"(<svg><rect x='-380' y='-10' width='300' height='20'/>)"
+                                 R"(<circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
 std::string long_job(const std::string& belt, const std::string& fly) {
     return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 3000\njump_mm_s = 6000\n[belt]\ncounts_per_mm "
            "= 1000\n" +

@@ -32,10 +32,10 @@ void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std:
 
 namespace {
 
-constexpr std::int8_t bad = 2;
+constexpr int bad = 2;
 
 // [before * 4 + after], lines B A: what counts all edges.
-constexpr std::int8_t all_edges[16] = {
+constexpr int all_edges[16] = {
     /* from 00 */ 0,   +1,  -1,  bad,
     /* from 01 */ -1,  0,   bad, +1,
     /* from 10 */ +1,  bad, 0,   -1,

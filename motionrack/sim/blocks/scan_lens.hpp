@@ -1,6 +1,7 @@
 // Two scan mirrors and an f-theta lens: where the spot is in the image plane for what the mirrors are told.
 //
-//   beam ──► X mirror ──► Y mirror ──► lens ──► (x, y) mm      tan of the two optical angles, then height = f1 t + f2 t^2 + ..
+//   beam ──► X mirror ──► Y mirror ──► lens ──► (x, y) mm      tan of the two optical angles,
+//                                                              then height = f1 t + f2 t^2 + ..
 //
 // Card (correction tables) and part (the lens in the beam) are the same optics; it reproduces a maker's own tables
 // to 1.5 bits.

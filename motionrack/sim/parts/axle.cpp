@@ -39,8 +39,9 @@ Axle::Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState&
     MOTIONRACK_ASSERT(settings.travel_per_rev.num > 0 && settings.travel_per_rev.den > 0 && pulses_per_rev > 0);
     MOTIONRACK_ASSERT(settings.backlash >= 0);
     const std::int64_t common = std::gcd(settings.travel_per_rev.num, pulses_per_rev);
-    num_ = static_cast<double>(settings.travel_per_rev.num / common);
-    den_ = static_cast<double>(settings.travel_per_rev.den) * static_cast<double>(pulses_per_rev / common);
+    const std::int64_t num = settings.travel_per_rev.num / common, pulses = pulses_per_rev / common;
+    num_ = static_cast<double>(num);
+    den_ = static_cast<double>(settings.travel_per_rev.den) * static_cast<double>(pulses);
     MOTIONRACK_ASSERT(num_ < exact_limit && den_ < exact_limit);
     play_ = static_cast<std::int64_t>(settings.backlash * den_ / num_ + 0.5);
     if (settings.end_minus) travel_.below = last_at_or_below(*settings.end_minus) - 1;

@@ -6,8 +6,8 @@
 //
 //   speed ^        ______ wanted          ramp: the current is at its limit, the speed rises evenly
 //         |     .-'                       lag: the rest of the way, 1/e of it each `lag`
-//         |    /                          stop: the same downwards; friction ends it, so that the rotor stands after a finite time
-//         +---/--------------> time
+//         |    /                          stop: the same downwards; friction ends it, so that the rotor stands
+//         +---/--------------> time       after a finite time
 //
 // Between two changes of the voltage there are at most a ramp, a lag and a standstill; each is a closed form of time.
 // The rotor is looked at every whole microsecond of a law.

@@ -1,6 +1,7 @@
 // What turns a place into the lines of an encoder: a disc or scale whose edges are where they should be, or nearly.
 //
-//   Motion (fine counts of a rotor, a carriage) ──► edge n at place n * den / num, less its displacement ──► LineOutput ──► a b z
+//   Motion (fine counts of a rotor, a carriage) ──► edge n at place n * den / num, less its displacement
+//       ──► LineOutput ──► a b z
 //
 // One edge is one event: the part watches the place for the next edge on either side. For axes that only count, a
 // Motion connected to the card as a whole costs nothing for an edge; this part is for those whose lines matter.

@@ -1,6 +1,7 @@
 // The lines A, B and Z at the end of an encoder's or converter's cable, edge by edge, with what can be wrong with them.
 //
-//   place (counts) ──► one edge after the other, not quicker than the electronics ──► dirt ──► polarity, noise, swap, break ──► wires
+//   place (counts) ──► one edge after the other, not quicker than the electronics ──► dirt
+//       ──► polarity, noise, swap, break ──► wires
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B
 //   A      ...  _/~~~~~~~\_______/~~

@@ -1,13 +1,14 @@
 // A grating scale with its reading head and interpolator on any motion: counts, and lines A and B where somebody
 // listens.
 //
-//   place (Motion) ──► (place - zero) * interpolation / pitch ──► dirt ──► direction ──► not quicker than the electronics ──► counts (Motion)
-//                                                                                            a, b, z: wires, made while wanted
+//   place (Motion) ──► (place - zero) * interpolation / pitch ──► dirt ──► direction
+//       ──► not quicker than the electronics ─┬─► counts (Motion)
+//                                             └─► a, b, z: wires, made while wanted
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B        pitch    |<------- pitch ------->|
 //   A      ...  _/~~~~~~~\_______/~~       A high in phases 1 and 2      grating  ▐███████░░░░░░░▐███████░░
-//   B      ...  _____/~~~~~~~\_____        B high in phases 2 and 3      counts   | | | | | | | | | | | |    interpolation = 12
-//   Z      ...  ~~~\________ ...           one count wide, at index
+//   B      ...  _____/~~~~~~~\_____        B high in phases 2 and 3      counts   | | | | | | | | | | | |
+//   Z      ...  ~~~\________ ...           one count wide, at index      interpolation = 12
 //
 // The count is a closed form of the place, exact in 128 bits; nothing is done for an edge. Above the greatest rate
 // nothing is counted: what goes by meanwhile is lost, counted and reported, and the scale is not to be trusted until it

@@ -59,7 +59,7 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
       end_plus_(count_of_nm(s.end_plus_nm)),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
-    static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * 8 + slots * sizeof(Range) + 6 * 4,
+    static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * std::size_t{8} + slots * sizeof(Range) + 6 * std::size_t{4},
                   "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.accel_per_volt > 0 && s.accel_per_volt <= 1'000 && s.top_accel > 0 && s.top_accel <= 1'000);
     MOTIONRACK_ASSERT(s.top_speed > 0 && s.top_speed <= 10 && s.viscous >= 0 && s.viscous <= 100);

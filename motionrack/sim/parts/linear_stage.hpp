@@ -1,11 +1,15 @@
 // A stage on a linear motor behind a current amplifier: the voltage is a force, the force accelerates the mass.
 //
-//   volts x accel_per_volt --top_accel--> / (1 + load) --(- friction)--> acceleration --(top_speed, ends of travel)--> place
+//   volts x accel_per_volt --top_accel--> / (1 + load) --(- friction)--> acceleration
+//       --(top_speed, ends of travel)--> place
 //
-//   place ^            .--'      Between two changes of the voltage the place is one parabola; with viscous friction it is a row of
-//         |         .-'          them, each a tenth of a millisecond long, with the friction of the mean speed (implicit midpoint).
-//         |  _ . -'              A parabola is whole numbers: place, speed and acceleration in 2^-68 of a count, time in ticks of 0.1 ns.
-//         +------------> time    So a place is exact at every tick, however often it is asked for, and never goes back within a parabola.
+//   place ^            .--'      Between two changes of the voltage the place is one parabola; with viscous friction
+//         |         .-'          it is a row of them, each a tenth of a millisecond long, with the friction of the
+//         |  _ . -'              mean speed (implicit midpoint).
+//         +------------> time
+//
+//   A parabola is whole numbers: place, speed and acceleration in 2^-68 of a count, time in ticks of 0.1 ns. So a
+//   place is exact at every tick, however often it is asked for, and never goes back within a parabola.
 //
 // The place's count is 1/1024 nm: fine enough for any scale on it.
 #pragma once

@@ -22,7 +22,7 @@ Result<MarkingStation> MarkingStation::make(const StationSettings& settings, con
                     fmt::format("a tolerance of {} mm: 0 to 10 are possible", settings.workpiece.tolerance_mm));
     MOTIONRACK_TRY(Track own, Track::make(settings.track));
     MOTIONRACK_TRY(LaserGate gate, LaserGate::make(settings.laser));
-    return MarkingStation(settings, std::move(own), track, std::move(gate));
+    return MarkingStation(settings, std::move(own), track, gate);
 }
 
 std::array<MarkingStation::NamedState, MarkingStation::state_count> MarkingStation::states() {

@@ -56,12 +56,12 @@ class MarkingStation {
     std::array<NamedState, state_count> states();
 
   private:
-    MarkingStation(const StationSettings& settings, Track track, const Track* outer, LaserGate gate)
+    MarkingStation(const StationSettings& settings, Track track, const Track* outer, const LaserGate& gate)
         : settings_(settings),
           galvo_(settings.galvo),
           track_(std::move(track)),
           outer_(outer),
-          gate_(std::move(gate)),
+          gate_(gate),
           workpiece_(settings.workpiece) {}
     void mark(std::int64_t tick, sim::Spot from, sim::Spot to);
 

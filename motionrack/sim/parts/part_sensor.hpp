@@ -1,7 +1,8 @@
 // A light barrier beside a track, past which parts come at equal distances.
 //
 //   place of the track  0 .. first ...... first + every ......      sensor  ~~~~~\____/~~~~~~~\____/~~~~
-//                            |<-length->|                                        part         part        low: a part is there
+//                            |<-length->|                                        part         part
+//                                                                           low: a part is there
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // A resolver with its tracking converter, as a source of A, B and Z.
 //
-//   rotor ──► windings: sin * (1 + gain) + offset, cos + offset ──► converter: angle of (sin, cos) ──► A B Z of an encoder
+//   rotor ──► windings: sin * (1 + gain) + offset, cos + offset ──► converter: angle of (sin, cos) ──► A B Z
 //                 └── broken? ──► los (loss of signal): the converter's lines stay
 //
 // The angle of windings that are not alike or not without offset errs, twice or once a turn. A tracking converter

@@ -1,6 +1,7 @@
 // A position sender in virtual time: its words on wires, each complete some time after the reading.
 //
-//   reading n at n * period ──► under way for the delay ──► NAME.mcbsp (32 bits); NAME.mcbsp_frame changes where the word is the same again
+//   reading n at n * period ──► under way for the delay ──► NAME.mcbsp (32 bits)
+//   NAME.mcbsp_frame changes where the word is the same again
 //
 // The fault: sender.silent (no word comes while not 0; what is under way is lost).
 #pragma once

@@ -10,9 +10,6 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr Duration look_every = milliseconds(1);
-constexpr Duration watchdog_rest =
-    milliseconds(1'500);  // a card that hangs is reset after a second, and the motor runs out
 constexpr Duration least_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
 constexpr std::int64_t least_progress = 2;                   // a broken line alone goes to and fro by one count
 
@@ -193,6 +190,23 @@ void PositionAxis::jog_on(Instant now) {
         end_with(set.error());
 }
 
+/// A motor that is held or has no voltage, or an encoder whose counts stand or go the other way.
+void PositionAxis::look_at_progress(Instant now) {
+    const auto here = counts();
+    if (!here) return end_with(here.error());
+    const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
+    progress_due_ = later(now, progress_time_);
+    if (gone >= least_progress) return;
+    end_with(
+        {Trouble::machine,
+         fmt::format(
+             "Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
+             "ended and the position is not "
+             "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
+             settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
+             offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
+}
+
 // ---- stops
 
 /// A search that runs; its motor comes to a stop. False if none did.
@@ -247,155 +261,6 @@ void PositionAxis::end_with(Error error, bool counted) {
     hold_after_ = false, next_jog_ = 0;
     static_cast<void>(driver_.quit());
     rest(host_.now());
-}
-
-// ---- carrying on
-
-void PositionAxis::look_at_events(Instant now) {
-    if (!driver_.status().event()) return;
-    const auto seen = driver_.enable_events(event::POSITION | event::STOP);
-    if (!seen) return end_with(seen.error());
-    if (seen->was_reset())
-        return end_with(
-            {Trouble::machine,
-             fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
-                         "trusted. Set it up again and home it.",
-                         settings_.name)});
-    if (seen->stop()) stop_seen_ = later(now, contacts_rest);
-    if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping))
-        rest(now);
-}
-
-/// A motor that is held or has no voltage, or an encoder whose counts stand or go the other way.
-void PositionAxis::look_at_progress(Instant now) {
-    const auto here = counts();
-    if (!here) return end_with(here.error());
-    const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
-    progress_due_ = later(now, progress_time_);
-    if (gone >= least_progress) return;
-    end_with(
-        {Trouble::machine,
-         fmt::format(
-             "Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
-             "ended and the position is not "
-             "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
-             settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
-             offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
-}
-
-/// The contacts of a stop are at rest: does it hold the axis? One on the other side does no harm.
-void PositionAxis::look_at_stop() {
-    stop_seen_ = never;
-    const Status status = driver_.status();
-    std::string why = status.emergency() || status.end_stop(forward_) ? status.stops() : std::string();
-    if (why.empty()) {
-        const auto rate = driver_.rate();
-        if (!rate) return end_with(rate.error());
-        if (*rate != 0 || driver_.status().event()) return;
-        why = "the emergency stop was active";
-    }
-    end_with({Trouble::machine,
-              fmt::format(
-                  "Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
-                  "other way, or release the stop.",
-                  settings_.name, position(), settings_.unit, why)},
-             true);
-}
-
-void PositionAxis::settle(Instant now) {
-    const std::int64_t before = last_counts_;
-    if (const auto here = counts(); !here) {
-        trusted_ = false;
-        if (!error_) error_ = here.error();
-        if (now - still_since_ > watchdog_rest) doing_ = Doing::nothing;  // until then it may still drive
-        return;
-    } else if (*here != before) {
-        still_since_ = now;
-    }
-    if (now - still_since_ < settings_.settle) return;
-    doing_ = Doing::nothing;
-    if (next_jog_ != 0) {
-        const double speed = std::exchange(next_jog_, 0);
-        if (const Result<void> begun = begin_jog(speed, now); !begun) error_ = begun.error();
-        return;
-    }
-    if (!hold_after_ || error_ || !settings_.hold_window) return;
-    const auto window = static_cast<std::int64_t>(std::floor(*settings_.hold_window * settings_.counts_per_unit + 0.5));
-    Result<void> held = driver_.set_deviation(window);
-    if (held) held = driver_.lock();
-    if (!held) error_ = held.error();
-}
-
-void PositionAxis::step(Instant now) {
-    if (search_.running()) {
-        search_.step(now);
-        if (search_.homed()) {
-            offset_ = search_.home_position();
-            trusted_ = true;
-        } else if (!search_.running()) {
-            rest(now);
-        }
-        return;
-    }
-    if (doing_ == Doing::nothing) return;
-    look_at_events(now);
-    if (now >= stop_seen_) look_at_stop();
-    if (now >= progress_due_ && (doing_ == Doing::moving || doing_ == Doing::jogging)) look_at_progress(now);
-    switch (doing_) {
-        case Doing::jogging:
-            return jog_on(now);
-        case Doing::stopping:
-            return ramp_down(now);
-        case Doing::settling:
-            return settle(now);
-        default:
-            return;
-    }
-}
-
-Result<void> PositionAxis::wait(Duration timeout) {
-    const Instant end = later(host_.now(), timeout);
-    const bool homing = search_.running();
-    bool asked = false;
-    while (true) {
-        step(host_.now());
-        if (!busy()) break;
-        if (!asked && host_.stop_requested()) {
-            asked = true;
-            stop();
-        }
-        if (host_.now() >= end)
-            return fail(
-                Trouble::machine,
-                fmt::format(
-                    "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
-                    settings_.name, to_seconds(timeout), position(), settings_.unit));
-        host_.pass(look_every);
-    }
-    if (homing && !search_.homed()) return tl::unexpected<Error>(search_.error());
-    if (asked)
-        return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
-                                                  settings_.name, position(), settings_.unit));
-    if (error_) return tl::unexpected<Error>(*error_);
-    return {};
-}
-
-control::AxisState PositionAxis::state() {
-    using control::AxisState;
-    if (search_.running()) return AxisState::homing;
-    switch (doing_) {
-        case Doing::moving:
-            return AxisState::moving;
-        case Doing::jogging:
-            return AxisState::jogging;
-        case Doing::stopping:
-            return AxisState::stopping;
-        case Doing::settling:
-            return hold_after_ ? AxisState::moving : AxisState::stopping;
-        case Doing::nothing:
-            break;
-    }
-    return error_ || driver_.status().emergency() ? AxisState::error : AxisState::standstill;
 }
 
 // ---- position and home

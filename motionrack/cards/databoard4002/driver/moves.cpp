@@ -41,11 +41,10 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
                         fmt::format("Card {} told of no event {:02X}h within {:.3f} s. Check that it moves, and the "
                                     "time-out.",
                                     settings_.select, wanted, to_seconds(timeout)));
-        if (how == Waiting::polling || now.interrupt() || (enables_ & event::ON_EVENT) == 0) {
+        const bool polls = how == Waiting::polling || now.interrupt() || (enables_ & event::ON_EVENT) == 0;
+        // The line is shared: it may be another card's.
+        if (polls || (interrupt_.wait(std::min(until - interrupt_.now(), milliseconds(100))) && !status().interrupt()))
             interrupt_.pass(settings_.poll);
-        } else if (interrupt_.wait(std::min(until - interrupt_.now(), milliseconds(100))) && !status().interrupt()) {
-            interrupt_.pass(settings_.poll);  // the line is shared: another card's
-        }
     }
 }
 

@@ -3,9 +3,9 @@
 //
 //   top speed, acceleration, deceleration, load ──► SlopeTable ──► SlopeMotion: legs, times, distances
 //
-//   speed ^      ___________ top
-//         |    _|           |__            24 even steps of speed; each lasts as long as the acceleration needs for it, so that the
-//         |  _|                |__         staircase rises by the acceleration asked for
+//   speed ^      ___________ top           24 even steps of speed; each lasts as long as the
+//         |    _|           |__            acceleration needs for it, so that the staircase
+//         |  _|                |__         rises by the acceleration asked for
 //         +-------------------------> time
 #pragma once
 

@@ -9,8 +9,8 @@
 //         +-----------------------------> time
 //           start  constant speed between from and to
 //
-//   accel ^   .------.        one change of speed: jerk up, the greatest acceleration, jerk down; only the jerks if the change is small
-//         |__/        \____
+//   accel ^   .------.        one change of speed: jerk up, the greatest acceleration, jerk down;
+//         |__/        \____   only the jerks if the change is small
 #pragma once
 
 #include <cstdint>

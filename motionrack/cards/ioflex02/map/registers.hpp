@@ -72,6 +72,7 @@ inline constexpr FieldInfo mode_fields[] = {
 
 inline constexpr Access r = Access::read, w = Access::write;
 
+// clang-format off
 inline constexpr RegisterInfo registers[] = {
     // ---- the card
     {"CONTROL", 0x00, 16, w, false, "", "configuration and reset; bits act from the lowest to the highest",
@@ -79,13 +80,7 @@ inline constexpr RegisterInfo registers[] = {
     {"DATA", 0x02, 16, w, false, "", "two bytes of the image, the first one low", {}},
     {"SIGNATURE", 0x00, 16, r, false, "", "4F49h: an IOFLEX02 answers here", {}},
     {"SERIAL", 0x02, 16, r, false, "", "the card's serial number", {}},
-    {"SERIAL_N",
-     0x04,
-     16,
-     r,
-     false,
-     "",
-     "the same with every bit inverted; two cards at one address do not read so",
+    {"SERIAL_N", 0x04, 16, r, false, "", "the same with every bit inverted; two cards at one address do not read so",
      {}},
     {"STATUS", 0x06, 16, r, false, "", "the array's state, and which axes have errors", status_fields},
     {"CFG_ERROR", 0x08, 16, r, false, "", "why the last image was refused; cleared by CONFIGURE", error_fields},
@@ -108,13 +103,7 @@ inline constexpr RegisterInfo registers[] = {
     {"POS2_H", 0x1E, 16, r, false, "", "captured: axis 2", {}},
     {"POS3_L", 0x20, 16, r, false, "", "captured: axis 3", {}},
     {"POS3_H", 0x22, 16, r, false, "", "captured: axis 3", {}},
-    {"RAW0_L",
-     0x24,
-     16,
-     r,
-     false,
-     "",
-     "captured: counts of axis 0 since the start, which no calibration zeroes, low",
+    {"RAW0_L", 0x24, 16, r, false, "", "captured: counts of axis 0 since the start, which no calibration zeroes, low",
      {}},
     {"RAW0_H", 0x26, 16, r, false, "", "captured: the same, high", {}},
     {"RAW1_L", 0x28, 16, r, false, "", "captured: axis 1", {}},
@@ -123,14 +112,8 @@ inline constexpr RegisterInfo registers[] = {
     {"RAW2_H", 0x2E, 16, r, false, "", "captured: axis 2", {}},
     {"RAW3_L", 0x30, 16, r, false, "", "captured: axis 3", {}},
     {"RAW3_H", 0x32, 16, r, false, "", "captured: axis 3", {}},
-    {"AGE0_L",
-     0x34,
-     16,
-     r,
-     false,
-     "",
-     "captured: ticks of 1.2 us since the last count of axis 0, low; FFFFFFh: that or more, or none yet",
-     {}},
+    {"AGE0_L", 0x34, 16, r, false, "",
+     "captured: ticks of 1.2 us since the last count of axis 0, low; FFFFFFh: that or more, or none yet", {}},
     {"AGE0_H", 0x36, 16, r, false, "", "captured: the same, high", {}},
     {"AGE1_L", 0x38, 16, r, false, "", "captured: axis 1", {}},
     {"AGE1_H", 0x3A, 16, r, false, "", "captured: axis 1", {}},
@@ -152,6 +135,7 @@ inline constexpr RegisterInfo registers[] = {
     {"MODE_NOW", 0x62, 16, r, true, "", "how the axis counts", mode_fields},
     {"MODE", 0x62, 16, w, true, "", "how the axis counts from now on; after a reset as the image says", mode_fields},
 };
+// clang-format on
 static_assert(declared<registers_flaw(registers)>());
 
 }  // namespace motionrack::ioflex02::map

@@ -106,7 +106,7 @@ void advance(AxisState& axis, std::int64_t sample) {
             line.from = axis.done;
         }
     }
-    for (std::int64_t next; (next = next_of(axis, sample + 1)) <= sample;) {
+    for (std::int64_t next = 0; (next = next_of(axis, sample + 1)) <= sample;) {
         take(axis, next);
         axis.done = next;
     }

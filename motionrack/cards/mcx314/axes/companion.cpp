@@ -1,8 +1,8 @@
 // The fourth axis: steered on its own speed generator beside three interpolated ones.
 //
 //   speed      ___   ____                 one V a segment, so that it is where it should be at the segment's end
-//          ___/   \_/    \__              pulses: all that are known; from `brakes at` on the chip falls to SV by itself
-//        |  1  | 2 | 3 |  4 |
+//          ___/   \_/    \__              pulses: all that are known; from `brakes at` on the chip falls
+//        |  1  | 2 | 3 |  4 |             to SV by itself
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -18,7 +18,6 @@ namespace {
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_write_speed = 8;
-constexpr std::int64_t longest_line = 8'000'000;
 
 }  // namespace
 
@@ -43,7 +42,7 @@ void Segmenter::add(const control::PlannedMove& move) {
     if (waiting_ && work.move.even) look_at_next(*waiting_, work);
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
     // A move's start is where the one before it really ends, which only emit knows.
-    waiting_ = std::move(work);
+    waiting_ = work;
 }
 
 void Segmenter::finish() {
@@ -221,188 +220,6 @@ bool Segmenter::emit_s_curve(const Work& work) {
     ready_.back().offset = static_cast<std::int32_t>(offset);
     close_chain();
     return true;
-}
-
-void Segmenter::emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
-    if (to <= from) return;
-    // At most a third of a turn at once: no doubt which way round an end is.
-    const double sweep = std::fabs(work.path.sweep) * (to - from) / work.path.length;
-    const double count = std::max(1.0, std::ceil(sweep / 2.1));
-    for (double i = 0; i < count; ++i) {
-        const double a = from + (to - from) * i / count;
-        const double b = i + 1 < count ? from + (to - from) * (i + 1) / count : to;
-        if (!emit_fitted_arc(work, a, b, v, acceleration)) emit_line(work, pulses_at(work, b), v, acceleration);
-    }
-}
-
-bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
-    int a = map_.channel[work.path.first], b = map_.channel[work.path.second];
-    double centre_a = work.path.centre_first, centre_b = work.path.centre_second;
-    bool clockwise = work.path.sweep < 0;
-    // The generator's own axis must not be AX2: its R would be taken for two axes stepping together.
-    if (chain_open_ ? b == generator_ : b < a) {
-        std::swap(a, b);
-        std::swap(centre_a, centre_b);
-        clockwise = !clockwise;
-    }
-    const double scale = map_.limits[work.path.first].pulses_per_unit;
-    const Pulses4 end = pulses_at(work, to);
-    const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
-    const double length = (to - from) * scale;
-    if (length < 6) return false;
-    const auto arc = fit_arc({{at_[ia], at_[ib]},
-                              {end[ia], end[ib]},
-                              {centre_a * scale, centre_b * scale},
-                              work.path.radius * scale,
-                              length,
-                              clockwise});
-    if (!arc) return false;
-    Segment segment;
-    segment.kind = clockwise ? SegmentKind::arc_cw : SegmentKind::arc_ccw;
-    segment.axis_count = 2;
-    segment.axes = {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), 0};
-    segment.finish = {arc->finish[0], arc->finish[1], 0};
-    segment.centre = arc->centre;
-    segment.moves = {arc->end[0], arc->end[1], 0};
-    segment.constant_vector = true;
-    segment.speed = v;
-    segment.acceleration = acceleration;
-    Pulses4 reached = at_;
-    reached[ia] += arc->end[0];
-    reached[ib] += arc->end[1];
-    append(segment, work, reached);  // where it ends beside its point, the next piece starts from there
-    return true;
-}
-
-void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration) {
-    std::array<int, 4> moving{};
-    int count = 0;
-    std::int64_t longest = 0;
-    for (int c = 0; c < channel_count; ++c) {
-        const std::int64_t delta = to[static_cast<std::size_t>(c)] - at_[static_cast<std::size_t>(c)];
-        if (delta == 0 || c == work.companion) continue;
-        moving[static_cast<std::size_t>(count++)] = c;
-        longest = std::max(longest, delta < 0 ? -delta : delta);
-    }
-    if (count == 0) return;  // less than half a pulse; a companion's pulses stay for the next piece
-    // A pulse or two that an arc left beside its end wait for a piece with room, at the latest for the standstill.
-    // Beside two axes with constant vector speed is no room: with a third axis a basic pulse would be another length of
-    // path.
-    if (count > (work.constant_vector ? 2 : 3)) {
-        int least = 0;
-        auto size = [&](int i) {
-            return std::llabs(to[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])] -
-                              at_[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])]);
-        };
-        for (int i = 1; i < count; ++i)
-            if (size(i) < size(least)) least = i;
-        Pulses4 without = to;
-        const auto left = static_cast<std::size_t>(moving[static_cast<std::size_t>(least)]);
-        without[left] = at_[left];
-        return emit_line(work, without, v, acceleration);
-    }
-    if (longest > longest_line) {
-        Pulses4 half = at_;
-        for (std::size_t c = 0; c < half.size(); ++c) half[c] += (to[c] - at_[c]) / 2;
-        emit_line(work, half, v, acceleration);
-        return emit_line(work, to, v, acceleration);
-    }
-    if (count == 1) {  // the chip's line has two axes: the other one stands
-        const int other = chain_open_ && generator_ != moving[0] ? generator_ : moving[0] == 0 ? 1 : 0;
-        moving[static_cast<std::size_t>(count++)] = other;
-        if (other < moving[0] || (chain_open_ && other == generator_)) std::swap(moving[0], moving[1]);
-    }
-    if (chain_open_)
-        for (int i = 1; i < count; ++i)
-            if (moving[static_cast<std::size_t>(i)] == generator_)
-                std::swap(moving[0], moving[static_cast<std::size_t>(i)]);
-    Segment segment;
-    segment.kind = SegmentKind::line;
-    segment.axis_count = static_cast<std::uint8_t>(count);
-    segment.constant_vector = work.constant_vector && count == 2;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        segment.axes[i] = static_cast<std::uint8_t>(moving[i]);
-        segment.finish[i] = static_cast<std::int32_t>(to[static_cast<std::size_t>(moving[i])] -
-                                                      at_[static_cast<std::size_t>(moving[i])]);
-    }
-    segment.moves = segment.finish;
-    segment.speed = v;
-    segment.acceleration = acceleration;
-    Pulses4 way = {};
-    for (std::size_t i = 0; i < segment.axis_count; ++i) way[segment.axes[i]] = segment.finish[i];
-    const Most most = most_on(way, segment.constant_vector);
-    segment.speed = std::min(segment.speed, most.speed);
-    segment.acceleration = std::min(segment.acceleration, most.acceleration);
-    segment.even = work.move.even;
-    if (work.move.even) segment.braking = most.acceleration;
-    append(segment, work, to);
-}
-
-/// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its
-/// share.
-Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) const {
-    double basic = 0, second = 0;
-    for (const std::int64_t pulses : way) {
-        const auto size = static_cast<double>(std::llabs(pulses));
-        second = std::max(second, std::min(basic, size));
-        basic = std::max(basic, size);
-    }
-    if (constant_vector) basic += both_axes_extra * second;
-    Most most;
-    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
-        if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
-        const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
-        const double units = map_.limits[i].pulses_per_unit * basic / own / pulses_per_v_;
-        auto at_most = [](double value) {
-            return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, most_units));
-        };
-        most.speed = std::min(most.speed, at_most(map_.limits[i].max_speed * units));
-        most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));
-    }
-    return most;
-}
-
-void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
-    if (!chain_open_) {
-        chain_open_ = true;
-        generator_ = segment.axes[0];
-        segment.starts_chain = true;
-        segment.initial_speed = speed_units(work.units_in, start_speed(work.path.tangent_in));
-    }
-    segment.rest_speed = std::min(speed_units(work.units_in, start_speed(work.path.tangent_in)),
-                                  speed_units(work.units_out, start_speed(work.path.tangent_out)));
-    segment.braking = std::max(segment.braking, segment.acceleration);
-    segment.block = work.block;
-    segment.line = work.move.move.line;
-    if (work.companion >= 0) {
-        const auto c = static_cast<std::size_t>(work.companion);
-        segment.companion_channel = work.companion;
-        segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
-        for (std::size_t i = 0; i < map_.channel.size(); ++i)
-            if (map_.channel[i] == work.companion)
-                segment.companion_speed =
-                    work.move.exit * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
-    }
-    at_ = to;
-    ready_.push_back(segment);
-}
-
-std::int64_t Segmenter::companion_pulses_ahead(int channel, int direction) const {
-    std::int64_t sum = 0;
-    for (const Segment& segment : ready_) {
-        if (segment.starts_chain || segment.companion_channel != channel || segment.companion_pulses * direction < 0)
-            return sum;
-        sum += segment.companion_pulses;
-        if (segment.ends_chain) return sum;
-    }
-    if (!chain_open_ || !waiting_ || waiting_->companion != channel) return sum;
-    const auto c = static_cast<std::size_t>(channel);
-    const std::int64_t last = waiting_->to[c] - at_[c];
-    return last * direction < 0 ? sum : sum + last;
-}
-
-void Segmenter::note_split(const Work& work, const char* why, double deviation_mm) {
-    notes_.push_back({work.move.move.line, fmt::format("line {}: {}", work.move.move.line, why), deviation_mm});
 }
 
 }  // namespace motionrack::mcx314

@@ -1,8 +1,8 @@
 // Planned moves become chip segments: the chip draws lines of two and three axes and arcs of two; the rest is split
 // here.
 //
-//   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V, which its generator
-//                   /      \           drives towards from the piece's first pulse on:
+//   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V,
+//                   /      \           which its generator drives towards from the piece's first pulse on:
 //                  /        \              [ rise, cruise ][ fall ]
 //                 /          \___      chords of arcs that the chip cannot draw get their V one by one
 //
@@ -52,6 +52,8 @@ class Segmenter {
     static std::int32_t best_range(const AxisMap& map);
 
   private:
+    static constexpr std::int64_t longest_line = 8'000'000;  ///< pulses
+
     enum class Shape : std::uint8_t { pause, line, chip_arc, chords };
     /// A planned move and how the chip will draw it.
     struct Work {

@@ -112,7 +112,7 @@ std::int64_t Chip::phase_in(int a, std::int64_t ticks) const {
 PulseMoment Chip::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
     const std::int64_t phase = phase_for(gen, pulses) - gen.acc;
-    Walk until{gen};
+    Walk until{static_cast<const Speed&>(gen)};
     if (gen.walks) until = walk(a, ticks, phase);
     const std::int64_t left = phase - until.phase;
     const std::int64_t speed = until.law.speed, more = rules::ceil_div(left, speed);

@@ -77,7 +77,7 @@ HomeEdge Home::edge_here(const Look& look, Instant now) {
 
 Result<void> Home::start(const HomeSettings& settings, Instant now) {
     const HomeSettings before = std::exchange(settings_, settings);
-    if (const Result<void> ready = check_ready(); !ready) {
+    if (Result<void> ready = check_ready(); !ready) {
         settings_ = before;
         return ready;
     }

@@ -40,6 +40,7 @@ Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axe
     MOTIONRACK_CHECK(refused);
     MOTIONRACK_CHECK(ended);
     std::vector<HomeReport> out;
+    out.reserve(homes.size());
     for (const Home& home : homes) out.push_back(home.report());
     return out;
 }

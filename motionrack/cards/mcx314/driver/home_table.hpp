@@ -1,7 +1,7 @@
 // The ways of homing as tables: START states write a drive and lead on at once, WAIT states look at one status.
 //
-//   CHECK_START ─off─► SEARCH_START ► SEARCH_WAIT ─on─► REST ─on─► BACK_START ► BACK_WAIT ─off─► CLEAR ► SETTLE ─off─► SLOW ...
-//        ├─on────────────────────────────────────────────────────►┘  ▲
+//   CHECK_START ─off─► SEARCH_START ► SEARCH_WAIT ─on─► REST ─on─► BACK_START ► BACK_WAIT ─off─► CLEAR ► SETTLE ...
+//        ├─on────────────────────────────────────────────────────►┘  ▲                          ... ─off─► SLOW ...
 //        └─limit─► RETURN_START ► RETURN_WAIT ─on──────────────────────┘
 #pragma once
 

@@ -79,7 +79,7 @@ double between(const std::vector<std::int32_t>& nodes, double x, double y) {
                  v = std::clamp((y + grid_zero) / grid_step, 0.0, 255.999999);
     const int column = static_cast<int>(u), row = static_cast<int>(v);
     const auto at = [&](int c, int r) {
-        return static_cast<double>(nodes[static_cast<std::size_t>(r * grid_side + c)]);
+        return static_cast<double>(nodes[static_cast<std::size_t>(r) * grid_side + static_cast<std::size_t>(c)]);
     };
     const double fx = u - column, fy = v - row;
     const double low = at(column, row) + (at(column + 1, row) - at(column, row)) * fx;
@@ -140,8 +140,9 @@ Result<CorrectionFile> correction_of(const sim::ScanLens& lens, std::int32_t num
     out.header[11] = 1;
     out.header[12] = static_cast<std::int32_t>(lens.calibration_deg * 1000 + 0.5);
     for (std::size_t i = 0; i < grid_nodes; ++i) {
-        const double x = static_cast<double>(i % grid_side) * grid_step - grid_zero,
-                     y = static_cast<double>(i / grid_side) * grid_step - grid_zero;
+        const std::size_t column = i % grid_side, row = i / grid_side;
+        const double x = static_cast<double>(column) * grid_step - grid_zero,
+                     y = static_cast<double>(row) * grid_step - grid_zero;
         const sim::Spot bits = sim::bits_for(lens, {x / lens.bits_per_mm, y / lens.bits_per_mm});
         out.x[i] = binary(bits.x), out.y[i] = binary(bits.y);
         const sim::Spot spot = sim::spot_of(lens, {x, y});

@@ -8,16 +8,16 @@
 namespace motionrack::rtc5 {
 
 void Engine::Free::operator()(void* memory) const {
-    std::free(memory);
+    std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): it is calloc's
 }
 
 Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::make_unique<Scratch>()) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    // Zeros are empty places; pages that no list touches cost nothing.
+    // NOLINTBEGIN(cppcoreguidelines-no-malloc): zeros are empty places, and pages that no list touches cost nothing
     static_assert(static_cast<int>(Op::none) == 0);
     memory_.reset(static_cast<Command*>(std::calloc(static_cast<std::size_t>(settings.list_memory), sizeof(Command))));
     recorded_.reset(static_cast<std::int32_t*>(std::calloc(record_values, sizeof(std::int32_t))));
-    MOTIONRACK_ASSERT(memory_ != nullptr && recorded_ != nullptr);
+    MOTIONRACK_ASSERT(memory_ != nullptr && recorded_ != nullptr);  // NOLINTEND(cppcoreguidelines-no-malloc)
     state_.lists.begin = {0, settings.list1, settings.list1 + settings.list2, settings.list_memory};
     state_.lists.input_end = settings.list1;
 }

@@ -2,6 +2,7 @@
 // with the model, nothing else.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -16,6 +17,14 @@ namespace motionrack::rtc5::twin {
 struct Xy {
     double x = 0, y = 0;
 };
+
+inline double clip24(double v) {
+    return std::clamp(v, -8388608.0, 8388607.0);
+}
+
+inline std::int64_t whole(double v) {
+    return static_cast<std::int64_t>(v);
+}
 
 struct Matrix {
     double m[4] = {1, 0, 0, 1}, angle = 0, scale = 1;

@@ -1,9 +1,10 @@
 // All parameters that a program may read: its own, and those that tell of the machine.
 //
-//     5061..5070  where the probe touched, and whether it did        5220        number of the work system, 1 G54 .. 9 G59.3
-//     5161..5169  where G28 goes                                     5221..5230  G54: X Y Z A B C U V W, rotation; 5241.. G55, ..
-//     5181..5189  where G30 goes                                     5400..5413  tool in the spindle: number, offsets, diameter, ..
-//     5210..5219  G92: whether it is on, and the shift               5420..5428  where the machine is in program coordinates
+//     5061..5070  where the probe touched, and whether it did   5220        work system: 1 is G54 .. 9 is G59.3
+//     5161..5169  where G28 goes                                5221..5230  G54: X Y Z A B C U V W, rotation
+//     5181..5189  where G30 goes                                5241..5390  G55 and on to G59.3, each as G54
+//     5210..5219  G92: whether it is on, and the shift          5400..5413  tool in the spindle: number, offsets, ..
+//                                                               5420..5428  where the machine is in program coordinates
 //
 // Lengths are mm but for 5061.. and 5420.., which are in the program's coordinates and units; 5061.. are as any other
 // parameter: each probing move sets them. Names: those of LinuxCNC that mean something here.

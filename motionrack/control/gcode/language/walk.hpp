@@ -5,7 +5,8 @@
 //     o100 if [..] .. elseif [..] .. else .. endif
 //     o100 while [..] .. endwhile      o100 do .. while [..]      o100 repeat [..] .. endrepeat
 //     o100 break, continue    of the loop with that label
-//     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those of the caller
+//     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those
+//                             of the caller
 //
 // A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or
 // M30, at the end of its text, or at a '%' that is not its first line with anything on it. A plain program costs
@@ -64,9 +65,9 @@ class Walk {
     };
     struct Frame {
         Lines back;
-        Source* source;
-        std::size_t repeats;
-        std::int32_t called_at;
+        Source* source = nullptr;
+        std::size_t repeats = 0;
+        std::int32_t called_at = 0;
         std::int32_t program = no_place;  ///< of a numbered program: where it begins
         std::int64_t left = 0;            ///< times that it is still to run
     };

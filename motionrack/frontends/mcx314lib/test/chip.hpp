@@ -44,6 +44,14 @@ inline std::set<std::string> declared_functions() {
     return declared;
 }
 
+inline LINEDATA line_of(int px, int py, int pz) {
+    return {100, 4000, 400, 0, 500, {px, py, pz, 0}};
+}
+/// A quarter from (0, 0) round (1000, 0).
+inline CIRCLEDATA quarter(bool clockwise) {
+    return {100, 1000, 400, 0, {1000, clockwise ? 1000 : -1000, 0, 0}, {1000, 0, 0, 0}};
+}
+
 /// Speeds in units of 10 pulses a second.
 inline void set_up() {
     SetRange(800'000);

@@ -1,0 +1,11 @@
+// Rows of the table of card types that are in files of their own.
+#pragma once
+
+#include <motionrack/rack/card_types.hpp>
+
+namespace motionrack::rack {
+
+CardType mcx314_type();
+CardType databoard4002_type();
+
+}  // namespace motionrack::rack
