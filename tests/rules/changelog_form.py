@@ -1,6 +1,7 @@
 """CHANGELOG.md keeps its form: changelog_form.py ROOT
 
-# Changes ─► ## [Unreleased] ─► ## [X.Y.Z] - YYYY-MM-DD, newest first ─► ### Added, Changed, Fixed, Removed ─► one line an entry
+# Changes ─► ## [Unreleased] ─► ## [X.Y.Z] - YYYY-MM-DD, newest first
+                            ─► ### Added, Changed, Fixed, Removed ─► one line an entry
 """
 
 from __future__ import annotations
@@ -77,5 +78,8 @@ class Form:
 form = Form(text_of(Path(sys.argv[1]) / "CHANGELOG.md").splitlines())
 if not form.entries:
     form.wrong.append("CHANGELOG.md: has no entry")
-finish(form.wrong, f"write it after keepachangelog.com: one line of at most {MAX_COLUMNS} columns an entry, see the entries that are there",
-       f"{form.entries} entries of {len(form.releases)} releases keep their form")
+finish(
+    form.wrong,
+    f"write it after keepachangelog.com: one line of at most {MAX_COLUMNS} columns an entry, as the others",
+    f"{form.entries} entries of {len(form.releases)} releases keep their form",
+)

@@ -23,7 +23,20 @@ SUBJECT = re.compile(r"(?P<type>[a-z]+)\((?P<module>[a-z0-9][a-z0-9_./+-]*)\): (
 TRAILER = re.compile(r"[A-Z][A-Za-z-]+: \S")
 # An imperative does not end so, but for these.
 INFLECTED = re.compile(r"[a-z]+(ed|ing)$")
-IMPERATIVE = {"bring", "embed", "exceed", "feed", "need", "proceed", "ring", "seed", "speed", "spring", "string", "swing"}
+IMPERATIVE = {
+    "bring",
+    "embed",
+    "exceed",
+    "feed",
+    "need",
+    "proceed",
+    "ring",
+    "seed",
+    "speed",
+    "spring",
+    "string",
+    "swing",
+}
 
 
 def wrong_in(message: str) -> str:
@@ -66,5 +79,13 @@ def messages() -> list[tuple[str, str]]:
 
 
 read = messages()
-found = [f"{short} {message.splitlines()[0][:90] if message.strip() else '(no message)'}: {bad}" for short, message in read if (bad := wrong_in(message))]
-finish(found, "reword them, before they are merged: git rebase -i, `reword`; the form stands in CONTRIBUTING.md", f"{len(read)} commits keep their form")
+found = [
+    f"{short} {message.splitlines()[0][:90] if message.strip() else '(no message)'}: {bad}"
+    for short, message in read
+    if (bad := wrong_in(message))
+]
+finish(
+    found,
+    "reword them, before they are merged: git rebase -i, `reword`; the form stands in CONTRIBUTING.md",
+    f"{len(read)} commits keep their form",
+)

@@ -1,6 +1,7 @@
 """What the rules' scripts share: the files of the tree, and how they end.
 
-A rule that was broken prints each place and, last, the remedy; its script ends with 1. What cannot be asked here ends with 77.
+A rule that was broken prints each place and, last, the remedy; its script ends with 1.
+What cannot be asked here ends with 77.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def git(root: Path, *arguments: str) -> str | None:
 
 
 def files_of(root: Path) -> list[Path]:
-    """The project's files, relative: those that git knows and that are there, or all but build folders where git cannot be asked."""
+    """The project's files, relative: those of git that are there; where git cannot be asked, all but build folders."""
     listed = git(root, "ls-files", "-z", "--cached", "--others", "--exclude-standard")
     if listed is not None:
         return sorted(Path(name) for name in listed.split("\0") if name and (root / name).is_file())

@@ -1,6 +1,7 @@
-# Licences, releases and commits. motionrack_rule(NAME SCRIPT ARGUMENT...): Rules.NAME, which a script of this folder checks.
+# Licences, releases and commits. motionrack_rule(NAME SCRIPT ARGUMENT...): Rules.NAME, by a script of this folder.
 function(motionrack_rule name script)
-  add_test(NAME Rules.${name} COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_LIST_DIR}/${script} ${PROJECT_SOURCE_DIR} ${ARGN})
+  set(file ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${script})
+  add_test(NAME Rules.${name} COMMAND /usr/bin/python3 -B ${file} ${PROJECT_SOURCE_DIR} ${ARGN})
   set_tests_properties(Rules.${name} PROPERTIES TIMEOUT 120 SKIP_RETURN_CODE 77)
 endfunction()
 

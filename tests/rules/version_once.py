@@ -1,6 +1,7 @@
 """The version stands in the top CMakeLists.txt and nowhere else: version_once.py ROOT [PROGRAM]
 
-Everything else takes it from there, or has none. Releases are told in CHANGELOG.md; results of measurements say what was measured.
+Everything else takes it from there, or has none. Releases are told in CHANGELOG.md; results of measurements say what
+was measured.
 """
 
 from __future__ import annotations
@@ -44,12 +45,14 @@ def numbers() -> list[str]:
 def others() -> list[str]:
     """Files whose form has a version of its own."""
     wrong = []
-    page = json.loads(text_of(ROOT / "hmi/package.json"))["version"]
-    if page != "0.0.0":
-        wrong.append(f"hmi/package.json: the version is {page}; the page is a part of the program and has 0.0.0 for none")
+    page = json.loads(text_of(ROOT / "hmi/package.json")).get("version")
+    if page is not None:
+        wrong.append(f"hmi/package.json: the version is {page}; the page is a part of the program and has none")
     package = tomllib.loads(text_of(ROOT / "python/pyproject.toml"))["project"]
     if "version" in package or "version" not in package.get("dynamic", []):
-        wrong.append("python/pyproject.toml: has a version of its own; build_backend.py takes that of CMakeLists.txt: dynamic = [\"version\"]")
+        wrong.append(
+            'python/pyproject.toml: needs dynamic = ["version"]; build_backend.py takes that of CMakeLists.txt'
+        )
     if VERSION not in releases():
         wrong.append(f"CHANGELOG.md: has no heading `## [{VERSION}] - YYYY-MM-DD` for the version of CMakeLists.txt")
     elif releases()[0] != VERSION:
@@ -61,5 +64,9 @@ def others() -> list[str]:
     return wrong
 
 
-finish(numbers() + others(), "leave the number out or take it from CMakeLists.txt (PROJECT_VERSION, MOTIONRACK_VERSION); a new release "
-       "changes CMakeLists.txt and CHANGELOG.md, see CONTRIBUTING.md", f"{VERSION} stands in CMakeLists.txt alone")
+finish(
+    numbers() + others(),
+    "leave the number out or take it from CMakeLists.txt (PROJECT_VERSION, MOTIONRACK_VERSION); a new release "
+    "changes CMakeLists.txt and CHANGELOG.md, see CONTRIBUTING.md",
+    f"{VERSION} stands in CMakeLists.txt alone",
+)
