@@ -4,7 +4,7 @@
                                             an empty line
     why the behaviour is another            a body; feat, fix and perf need one
 
-Read are the commits that came after the one that brought this script, merges left out.
+Read are the commits that have this script in their history, merges left out.
 """
 
 from __future__ import annotations
@@ -73,7 +73,8 @@ def messages() -> list[tuple[str, str]]:
     added = (git(ROOT, "log", "--diff-filter=A", "--format=%H", "--", "tests/rules/commits_form.py") or "").split()
     if not added:
         skip("the rule itself is not committed yet")
-    printed = git(ROOT, "log", "--no-merges", "--format=%h%x00%B%x00", f"{added[-1]}..HEAD") or ""
+    since = f"{added[-1]}..HEAD"
+    printed = git(ROOT, "log", "--ancestry-path", "--no-merges", "--format=%h%x00%B%x00", since) or ""
     parts = printed.split("\0")
     return [(parts[at].strip(), parts[at + 1]) for at in range(0, len(parts) - 1, 2)]
 

@@ -66,13 +66,12 @@ def asked_by(file: Path) -> set[str]:
     )
 
 
-def package_of(library: Path) -> str | None:
-    """The package that the file came with; the list of a package may have it without /usr."""
-    for name in (str(library), str(library).removeprefix("/usr")):
-        said = subprocess.run(["dpkg", "-S", name], capture_output=True, text=True)
-        if said.returncode == 0:
-            return said.stdout.split(":")[0].split(",")[0]
-    return None
+def packages_of(libraries: set[Path]) -> dict[Path, str]:
+    """The packages that the files came with; a package's list may have a file without /usr."""
+    names = {name: file for file in libraries for name in (str(file), str(file).removeprefix("/usr"))}
+    said = subprocess.run(["dpkg", "-S", *sorted(names)], capture_output=True, text=True).stdout
+    lines = [line.rpartition(": ") for line in said.splitlines() if not line.startswith("diversion by ")]
+    return {names[name]: owner.split(",")[0].split(":")[0] for owner, _, name in lines if name in names}
 
 
 def gpl_alone(licence: str) -> bool:
@@ -130,9 +129,10 @@ def main() -> None:
     libraries = {library for file in FILES for library in libraries_of(file)}
     asked = {name for file in FILES for name in asked_by(file)}
     page = re.findall(r"`([^`]+)`", text_of(ROOT / PAGE))
+    owners = packages_of({library for library, _ in libraries})
     packages = set()
     for library, name in sorted(libraries):
-        package = package_of(library)
+        package = owners.get(library)
         if package is None:
             wrong.append(f"{library}: came with no Debian package")
             continue

@@ -73,10 +73,11 @@ def cmake_names() -> set[str]:
 
 
 def debian_names() -> set[str]:
-    """The packages of cmake/setup.sh."""
-    text = text_of(ROOT / "cmake/setup.sh")
-    lists = re.findall(r"^\w+_packages=\(([^)]*)\)", text, re.MULTILINE)
-    lists += re.findall(r"need_packages ([a-z][a-z0-9 .+-]*)", text)
+    """The packages that cmake/setup.sh lists and that scripts name themselves."""
+    lists = re.findall(r"^\w+_packages=\(([^)]*)\)", text_of(ROOT / "cmake/setup.sh"), re.MULTILINE)
+    for path in FILES:
+        if path.suffix in ("", ".sh") and "need_packages" in (text := text_of(ROOT / path)):
+            lists += re.findall(r"^[^#\n]*need_packages ([a-z][a-z0-9 .+-]*)", text, re.MULTILINE)
     return {word for each in lists for word in each.split() if re.fullmatch(r"[a-z0-9][a-z0-9.+-]+", word)}
 
 
@@ -89,7 +90,7 @@ def npm_names() -> set[str]:
 
 def not_on_the_page(page: Page) -> list[str]:
     wrong = [f"CMake looks for {name}" for name in sorted(cmake_names() - page.names)]
-    wrong += [f"cmake/setup.sh installs {name}" for name in sorted(debian_names() - page.packages)]
+    wrong += [f"cmake/setup.sh or a script installs {name}" for name in sorted(debian_names() - page.packages)]
     wrong += [f"hmi/package.json asks for {name}" for name in sorted(npm_names() - page.names)]
     beside = {"/".join(path.parts[at:]) for path in FILES for at in range(len(path.parts))}
     include = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.MULTILINE)
@@ -113,6 +114,7 @@ def not_on_the_page(page: Page) -> list[str]:
 def wrong_rows(page: Page) -> list[str]:
     wrong = []
     locked = json.loads(text_of(ROOT / "hmi/package-lock.json"))["packages"]
+    there_are = installed(page.packages)
     for row in page.rows:
         name = next(iter(Page.code(row, "npm") + page.debian(row)), "")
         empty = [key for key in row if key not in ("for CMake", "headers") and not row[key]]
@@ -123,21 +125,23 @@ def wrong_rows(page: Page) -> list[str]:
             wrong.append(f"{PAGE}: {name} is used {row['how']}, which is none of {', '.join(sorted(HOW))}")
         says = row.get("version", "")
         if re.fullmatch(r"[\d.~]+", says):
-            there = locked.get(f"node_modules/{name}", {}).get("version", "") if "npm" in row else installed(name)
+            there = (
+                locked.get(f"node_modules/{name}", {}).get("version", "") if "npm" in row else there_are.get(name, "")
+            )
             if there and not re.match(re.escape(says) + r"([.~+-]|$)", there):
                 wrong.append(f"{PAGE}: {name} is of version {there}, the page says {says}")
     return wrong
 
 
-def installed(package: str) -> str:
-    """The upstream version of an installed Debian package; nothing where it is not there or this is no Debian."""
+def installed(packages: set[str]) -> dict[str, str]:
+    """The upstream versions of those Debian packages that are installed; none where this is no Debian."""
+    command = ["dpkg-query", "-W", "-f=${Package} ${Version} ${db:Status-Status}\\n", *sorted(packages)]
     try:
-        command = ["dpkg-query", "-W", "-f=${Version} ${db:Status-Status}", package]
-        said = subprocess.run(command, capture_output=True, text=True)
+        said = subprocess.run(command, capture_output=True, text=True).stdout
     except FileNotFoundError:
-        return ""
-    version, _, status = said.stdout.partition(" ")
-    return version.split(":")[-1] if said.returncode == 0 and status == "installed" else ""
+        return {}
+    rows = [line.split() for line in said.splitlines() if line.endswith(" installed")]
+    return {name: version.split(":")[-1] for name, version, _ in rows}
 
 
 written = Page()
