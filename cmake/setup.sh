@@ -87,7 +87,8 @@ run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev 
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
+release_packages=(dpkg-dev file)
 bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigrok-cli)
 test_packages=("${run_packages[@]}" "${python_packages[@]}" mypy python3-matplotlib libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
     libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
-    bcnc xvfb xauth nats-server python3-h5py octave linuxcnc-uspace debootstrap dpkg-dev file)
+    bcnc xvfb xauth nats-server python3-h5py octave linuxcnc-uspace debootstrap "${release_packages[@]}")
