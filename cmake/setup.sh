@@ -1,9 +1,13 @@
 # Shared by ./run and ./test: installs what is missing (Debian packages), configures and builds. Sourced, not run.
+# shellcheck shell=bash
+# shellcheck source=cmake/machine.sh
+. "${BASH_SOURCE[0]%/*}/machine.sh"
 
 say() { printf '%s\n' "motionrack: $*" >&2; }
 
 # need_packages PACKAGE...: installs those that are not there, saying first which and why root is needed.
 need_packages() {
+    need_apt || return 1
     local missing=() package
     for package in "$@"; do
         dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
@@ -30,7 +34,7 @@ need_packages() {
                 apt-get -o DPkg::Lock::Timeout=300 -y -q install --no-install-recommends "${missing[@]}"
     } >"$log" 2>&1; then
         tail -n 25 "$log" >&2
-        say "the installation failed; the whole log is $log"
+        why_apt_failed "$log"
         return 1
     fi
     rm -f "$log"
@@ -42,21 +46,22 @@ build_in() {
     shift 2
     local stamp="$folder/.configured-with" want="$*"
     if [ ! -e "$folder/build.ninja" ] || [ "$(cat "$stamp" 2>/dev/null)" != "$want" ]; then
+        need_tools "$@" || return 1
         say "configuring in $folder"
         rm -f "$folder/CMakeCache.txt"
         cmake -S . -B "$folder" -G Ninja "$@" >"$folder.configure.log" 2>&1 || {
             cat "$folder.configure.log" >&2
-            say "cmake could not configure; see above"
+            no_room "$folder" || say "cmake could not configure; see above"
             return 1
         }
         printf '%s' "$want" >"$stamp"
     fi
-    # shellcheck disable=SC2086
-    if [ -n "$(ninja -C "$folder" -n $targets 2>&1 | grep -c 'no work to do' | grep -x 0)" ]; then
+    # shellcheck disable=SC2086  # the targets are words
+    if ! ninja -C "$folder" -n $targets 2>&1 | grep 'no work to do' >/dev/null; then
         say "building (the first time takes a few minutes)"
-        # shellcheck disable=SC2086
+        # shellcheck disable=SC2086  # the targets are words
         ninja -C "$folder" $targets >&2 || {
-            say "the build failed; see above"
+            no_room "$folder" || say "the build failed; see above"
             return 1
         }
     fi
@@ -88,7 +93,11 @@ run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev 
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
 release_packages=(dpkg-dev file)
+# shellcheck disable=SC2034  # bench/page has them installed
 bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigrok-cli)
-test_packages=("${run_packages[@]}" "${python_packages[@]}" mypy python3-matplotlib libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
-    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
-    bcnc xvfb xauth nats-server python3-h5py octave linuxcnc-uspace debootstrap "${release_packages[@]}")
+# shellcheck disable=SC2034  # ./test has them installed
+test_packages=("${run_packages[@]}" "${python_packages[@]}"
+    black flake8 mypy shellcheck
+    libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang libclang-rt-14-dev make
+    python3-matplotlib python3-h5py iverilog fp-compiler fp-units-rtl octave sigrok-cli linuxcnc-uspace
+    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap "${release_packages[@]}")

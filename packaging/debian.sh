@@ -4,7 +4,7 @@
 # debian_in FOLDER LOG: makes it, with nothing in it but what every Debian has.
 debian_in() {
     local folder=$1 log=$2 mirror
-    # shellcheck disable=SC2016
+    # shellcheck disable=SC2016  # apt-get's own fields
     mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME)' 'Created-By: Packages' 2>/dev/null |
         awk '$2 == "bookworm" && !found {print $1; found = 1}')
     debootstrap --variant=minbase bookworm "$folder" "${mirror:-http://deb.debian.org/debian}" >"$log" 2>&1 || {

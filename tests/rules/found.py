@@ -6,14 +6,12 @@ What cannot be asked here ends with 77.
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
 from typing import NoReturn
 
 SKIPPED = 77
-NOT_OURS = {".git", "build", "node_modules", "__pycache__"}
 
 
 def git(root: Path, *arguments: str) -> str | None:
@@ -28,15 +26,9 @@ def git(root: Path, *arguments: str) -> str | None:
 
 
 def files_of(root: Path) -> list[Path]:
-    """The project's files, relative: those of git that are there; where git cannot be asked, all but build folders."""
-    listed = git(root, "ls-files", "-z", "--cached", "--others", "--exclude-standard")
-    if listed is not None:
-        return sorted(Path(name) for name in listed.split("\0") if name and (root / name).is_file())
-    found: list[Path] = []
-    for folder, folders, names in os.walk(root):
-        folders[:] = [name for name in folders if name not in NOT_OURS and not name.startswith("build-")]
-        found += [(Path(folder) / name).relative_to(root) for name in names]
-    return sorted(found)
+    """The project's files, relative."""
+    listed = subprocess.run([Path(__file__).with_name("files"), root], check=True, capture_output=True, text=True)
+    return sorted(Path(name) for name in listed.stdout.split("\0") if name)
 
 
 def text_of(path: Path) -> str:
