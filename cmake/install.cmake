@@ -112,3 +112,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/packaging/motionrack.service DESTINATION lib
 install(FILES ${PROJECT_SOURCE_DIR}/motionrack/dds/cyclonedds.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack
         COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack COMPONENT program)
+
+# ---- the licence, those of all parts of others, what is new; packaging/copyright: cmake/package.cmake ----
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+              ${PROJECT_SOURCE_DIR}/docs/reference/third-party.md
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/motionrack COMPONENT program)

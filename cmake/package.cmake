@@ -6,7 +6,7 @@
 #                                                                   and pkg-config files, Pascal unit
 #   python3-motionrack    the Python package, where it was built
 #
-# packaging/test installs them in a clean Debian.
+# and an archive of all of it that runs from any folder: cpack -G TGZ. packaging/test tries both in a clean Debian.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME motionrack)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -16,6 +16,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_THREADS 0)
+set(CPACK_PACKAGE_FILE_NAME motionrack-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/archive_settings.cmake)
+set(CPACK_MOTIONRACK_SOURCE ${PROJECT_SOURCE_DIR})
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program library dev)
@@ -30,7 +33,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(same "(= ${PROJECT_VERSION}-1)")
 
-# motionrack_package(COMPONENT NAME SECTION SENTENCE [DEPENDS] [RECOMMENDS])
+# motionrack_package(COMPONENT NAME SECTION SENTENCE [DEPENDS] [RECOMMENDS]): with its file copyright.
 function(motionrack_package component name section sentence)
   string(TOUPPER ${component} c)
   set(CPACK_DEBIAN_${c}_PACKAGE_NAME ${name} PARENT_SCOPE)
@@ -42,12 +45,16 @@ function(motionrack_package component name section sentence)
   if(ARGC GREATER 5)
     set(CPACK_DEBIAN_${c}_PACKAGE_RECOMMENDS "${ARGV5}" PARENT_SCOPE)
   endif()
+  if(component IN_LIST CPACK_COMPONENTS_ALL)
+    install(FILES ${PROJECT_SOURCE_DIR}/packaging/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+            COMPONENT ${component})
+  endif()
 endfunction()
 motionrack_package(program motionrack science "the program, the page of its operator panel, examples" ""
                    "fonts-dejavu-core, cyclonedds-tools")
 motionrack_package(library libmotionrack0 libs "shared C libraries")
 motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, C++ and Pascal"
-                   "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev"
+                   "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev, libhdf5-dev"
                    "cyclonedds-dev, libpugixml-dev")
 motionrack_package(python python3-motionrack python "the Python package"
                    "python3 (>= 3.11), python3 (<< 3.12), python3-numpy" "python3-matplotlib")

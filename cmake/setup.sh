@@ -105,6 +105,7 @@ run_packages=(g++ cmake ninja-build ccache libfmt-dev libcli11-dev libtomlpluspl
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
+release_packages=(dpkg-dev file)
 # shellcheck disable=SC2034  # bench/page has them installed
 bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigrok-cli)
 # shellcheck disable=SC2034  # ./test has them installed
@@ -112,5 +113,5 @@ test_packages=("${run_packages[@]}" "${python_packages[@]}"
     black flake8 mypy shellcheck
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang libclang-rt-14-dev make
     python3-matplotlib python3-h5py iverilog fp-compiler fp-units-rtl octave sigrok-cli linuxcnc-uspace
-    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap dpkg-dev file
+    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap "${release_packages[@]}"
     clang-format clang-tidy universal-ctags)

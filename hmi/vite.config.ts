@@ -1,8 +1,10 @@
 // How the page is built: everything local, nothing inline, so that the strictest content policy holds.
 import { defineConfig } from 'vite';
+import { licences } from './licences.mjs';
 
 export default defineConfig({
   base: './',
+  plugins: [licences()],
   build: {
     outDir: process.env.MOTIONRACK_PAGE ?? '../build/release/share/motionrack/page',
     emptyOutDir: true,

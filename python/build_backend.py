@@ -24,6 +24,8 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
+# The project's own, and those of what is compiled into the module.
+LICENCES = ("LICENSE", "packaging/copyright")
 Settings = dict[str, Any] | None
 
 
@@ -78,15 +80,17 @@ def described() -> dict[str, str]:
     head = [
         (
             f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {version()}\n"
-            f"Summary: {project['description']}\nRequires-Python: {project['requires-python']}"
+            f"Summary: {project['description']}\nRequires-Python: {project['requires-python']}\n"
+            f"License: {project['license']['text']}"
         ),
+        *(f"License-File: {Path(each).name}" for each in LICENCES),
         *(f"Requires-Dist: {each}" for each in project["dependencies"]),
         "Description-Content-Type: text/markdown\n",
     ]
     return {
         "METADATA": "\n".join(head) + "\n" + (HERE / project["readme"]).read_text(encoding="utf-8"),
         "WHEEL": f"Wheel-Version: 1.0\nGenerator: motionrack\nRoot-Is-Purelib: false\nTag: {tag()}\n",
-    }
+    } | {Path(each).name: (ROOT / each).read_text(encoding="utf-8") for each in LICENCES}
 
 
 def dist_info() -> str:

@@ -3,7 +3,7 @@
 //
 //   motionrack point 1
 //   version 5
-//   0.1.0
+//   1.2.3
 //   rack 812
 //   rack.name = "router" ...
 #include <fmt/format.h>

@@ -73,7 +73,10 @@ class Install(unittest.TestCase):
                 )
                 made.append(next(Path(f"{folder}/{name}").iterdir()))
             self.assertEqual(made[0].read_bytes(), made[1].read_bytes())
-            names = {name for name in zipfile.ZipFile(made[0]).namelist() if name.startswith("motionrack/")}
+            every = zipfile.ZipFile(made[0]).namelist()
+            for licence in ("LICENSE", "copyright"):
+                self.assertEqual(sum(name.endswith(f".dist-info/{licence}") for name in every), 1, licence)
+            names = {name for name in every if name.startswith("motionrack/")}
             own = {
                 f"motionrack/{path.name}"
                 for path in (ROOT / "python" / "motionrack").iterdir()

@@ -121,7 +121,8 @@ TEST(Point, DamagedTextsAndOtherVersionsAreRefused) {
         (void)read_point(damaged);
     }
     std::string other = text;
-    other.replace(other.find("0.1.0"), 5, "9.9.9");
+    const std::size_t begin = other.find("version "), end = other.find('\n', other.find('\n', begin) + 1);
+    other.replace(begin, end - begin, "version 5\n9.9.9");
     EXPECT_THAT(read_point(other).error().message, HasSubstr("version 9.9.9"));
 }
 

@@ -28,7 +28,7 @@ class Running {
             "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
         ServedSettings settings;
         settings.factor = 20;
-        settings.version = "0.1.0";
+        settings.version = "0.0.0";
         settings.boot = "b007";
         settings.machine.on_status = [this](const operate::Status& status) { look(status); };
         settings.door.on_start_code = [](const std::string&) {};

@@ -1,0 +1,19 @@
+# Licences, releases and commits. What cannot be asked here is skipped with its reason.
+function(motionrack_legal_rule name script)
+  motionrack_rule(${name} /usr/bin/python3 -B ${here}/${script} ${PROJECT_SOURCE_DIR} ${ARGN})
+  set_tests_properties(Rules.${name} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+motionrack_legal_rule(TheVersionStandsOnce version_once.py $<TARGET_FILE:motionrack>)
+motionrack_legal_rule(TheChangelogKeepsItsForm changelog_form.py)
+motionrack_legal_rule(CommitsKeepTheirForm commits_form.py)
+motionrack_legal_rule(EveryPartOfOthersIsOnItsPage third_party.py)
+motionrack_legal_rule(TheCopyrightFileHasEveryLicence copyright_file.py)
+
+# What is given away: the program, the C libraries, the Python module.
+set(given motionrack motionrack_c mcx314lib rtc5sim)
+if(TARGET motionrack_python)
+  list(APPEND given motionrack_python)
+endif()
+list(TRANSFORM given REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+motionrack_legal_rule(NoGplLibraryIsLinked linked.py ${given})
