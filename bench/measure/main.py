@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Callable
 
 import benches
+import build
 import instructions
 import peers
 import whole
@@ -24,8 +25,8 @@ PAGE = ROOT / "docs/reference/performance.md"
 def options(argv: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="bench/page",
-        description="Runs every benchmark, counts instructions, measures memory, growth and peers, and writes "
-        "docs/reference/performance.md. Takes about half an hour on a machine that has nothing else to do; progress is "
+        description="Runs every benchmark, counts instructions, measures a build, memory, growth and peers, and writes "
+        "docs/reference/performance.md. Takes some 35 minutes on a machine that has nothing else to do; progress is "
         "told on the way.",
         epilog="Example: bench/page --quick    a small run of everything, into build/bench/performance.md",
     )
@@ -33,7 +34,7 @@ def options(argv: list[str]) -> argparse.Namespace:
         "--quick",
         action="store_true",
         help="a small run, whose times say little: each bench once, small files; the page goes to "
-        "build/bench/performance.md",
+        "build/bench/performance.md; no build is measured",
     )
     parser.add_argument(
         "--only",
@@ -41,7 +42,9 @@ def options(argv: list[str]) -> argparse.Namespace:
         default=[],
         metavar="PROGRAM",
         help="these benchmark programs alone, without peers, growth and whole programs; the page goes to "
-        "build/bench/performance.md. One of: " + ", ".join(sorted({program.name for program in PROGRAMS})),
+        "build/bench/performance.md. One of: " + ", ".join(sorted({program.name for program in PROGRAMS})) + ". Or "
+        "'build': how long a build takes, which is put into bench/measured.json beside the numbers that are there; the "
+        "whole page is written",
     )
     parser.add_argument(
         "--from",
@@ -71,7 +74,7 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
     """All results of a run. `folder`: where the build is."""
     begin = time.monotonic()
     programs = benches.chosen(names)
-    progress = Progress(2 * len(programs) + (0 if names else 8))
+    progress = Progress(2 * len(programs) + (0 if names else 8) + (0 if names or quick else 1))
     results: dict = {"quick": quick, "machine": machine(folder), "benches": {}, "growth": {}, "peers": {}}
     if results["machine"]["load"] > 0.5:
         say(
@@ -79,6 +82,8 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
             "what else runs, or take them as they are"
         )
     binaries, program = folder / "bench", folder / "bin/motionrack"
+    if not names and not quick:
+        results["build"] = tried(build.measure, progress)
     results["benches"] = benches.measure(binaries, programs, progress, quick)
     with tempfile.TemporaryDirectory(prefix="motionrack-page-") as name:
         scratch = Path(name)
@@ -101,6 +106,22 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
     return results
 
 
+def with_build() -> dict:
+    """The stored results, of which only the build is measured anew."""
+    return {**json.loads(STORED.read_text(encoding="utf-8")), "build": build.measure(Progress(1))}
+
+
+def measured(asked: argparse.Namespace, folder: Path) -> dict:
+    """What the options ask for. Raises Trouble if they ask for parts that are not measured together."""
+    if "build" not in asked.only:
+        return rounded(measure(folder, asked.only, asked.quick))
+    if asked.quick or asked.only != ["build"]:
+        raise Trouble(
+            "A build is measured whole, and alone; nothing was measured. Do bench/page --only build, then the rest."
+        )
+    return rounded(with_build())
+
+
 def rounded(value):
     """Five significant digits: more would only make two runs look more different."""
     if isinstance(value, float):
@@ -111,15 +132,22 @@ def rounded(value):
 
 
 def stored_text(results: dict) -> str:
-    """The results as JSON, a bench a line, so that two runs can be compared line by line."""
-    text = json.dumps({**results, "benches": None}, indent=1)
+    """The results as JSON, a bench or a compilation a line, so that two runs can be compared line by line."""
     sections = ",\n".join(
         f'  "{section}": {{\n'
         + ",\n".join(f"   {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items())
         + "\n  }"
         for section, rows in results["benches"].items()
     )
-    return text.replace('"benches": null', '"benches": {\n' + sections + "\n }") + "\n"
+    bare: dict = {**results, "benches": None}
+    made = results.get("build", {}).get("compilations")
+    if made:
+        bare["build"] = {**results["build"], "compilations": None}
+    text = json.dumps(bare, indent=1).replace('"benches": null', '"benches": {\n' + sections + "\n }")
+    if made:
+        lines = ",\n".join(f"   {json.dumps(each)}" for each in made)
+        text = text.replace('"compilations": null', '"compilations": [\n' + lines + "\n  ]")
+    return text + "\n"
 
 
 def main(argv: list[str]) -> int:
@@ -129,8 +157,8 @@ def main(argv: list[str]) -> int:
             results, output = json.loads(Path(asked.stored).read_text(encoding="utf-8")), asked.output or PAGE
         else:
             folder = ROOT / asked.build
-            results = rounded(measure(folder, asked.only, asked.quick))
-            partial = asked.quick or asked.only
+            results = measured(asked, folder)
+            partial = asked.quick or asked.only not in ([], ["build"])
             output = asked.output or (folder / "performance.md" if partial else PAGE)
             stored = STORED if output == PAGE else Path(output).with_suffix(".json")
             if output != "-":

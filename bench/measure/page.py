@@ -1,5 +1,6 @@
 """Writes the page from the results of a run."""
 from aims import verdicts
+from build_page import building
 from growth_page import growth, whole_programs
 from kinds import Bench, Program, bench_of
 from peers_page import peers
@@ -17,7 +18,7 @@ def _head(results: dict) -> list[str]:
             "Made by one command, [`bench/page`](../../bench/README.md), which runs everything here one after the "
             "other; each ratio is between two numbers of the same run."
         ),
-        "Every number is of one core.",
+        "Every number is of one core, but for those of a build.",
         "",
         *table(
             ("", ""),
@@ -130,6 +131,7 @@ def _program(program: Program, results: dict) -> list[str]:
 def page(results: dict) -> str:
     """The page as Markdown."""
     lines = _head(results) + _aims(results) + peers(results) + whole_programs(results) + growth(results)
+    lines += building(results)
     lines += ["", "## Every bench", "", "What the programs are is said in [bench/README.md](../../bench/README.md)."]
     for program in PROGRAMS:
         if program.name != "growth":

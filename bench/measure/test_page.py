@@ -3,14 +3,19 @@ and what others print is read rightly."""
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import benches
+import build
 import instructions
+import main as command
 import peers
 import whole
+from aims import verdicts
 from kinds import ROOT, Bench, Unit, bench_of, names_in_sources, plain_name
 from main import PAGE, STORED, stored_text
 from page import page
@@ -35,6 +40,21 @@ _MACHINE = {
 
 def results_of(**sections) -> dict:
     return {"quick": False, "minutes": 1.0, "machine": _MACHINE, "benches": {}, "growth": {}, "peers": {}, **sections}
+
+
+def build_of(wall_s: float = 200.0, cores: int = 2) -> dict:
+    """A build of twelve compilations: room 0 is the dearest, room 11 takes the most memory."""
+    return {
+        "machine": {"cpu": "C", "cores": cores, "compiler": "c++ 12", "day": "2000-01-02", "version": "1", "load": 0.3},
+        "ccache": False,
+        "wall_s": wall_s,
+        "cpu_s": 481.0,
+        "second_start_s": 0.5,
+        "compilations": [
+            {"what": f"room_{i}, 3 sources", "sources": 3, "cpu_s": 40.0 - i, "peak_bytes": 100_000_000 * (i + 1)}
+            for i in range(12)
+        ],
+    }
 
 
 def google(name: str, cpu: float, **counters) -> dict:
@@ -144,6 +164,103 @@ class ThePage(unittest.TestCase):
             ["0.250 ns", "57.5 ns", "43.1 us", "40.5 ms", "1.50 s"],
         )
         self.assertEqual(bytes_of(6_700), "6.70 kB")
+
+
+class ABuild(unittest.TestCase):
+    def test_is_on_the_page_with_its_ten_dearest_files(self):
+        text = page(results_of(build=build_of()))
+        for row in (
+            "| wall time | 200 s | at most 240 s on 2 cores |",
+            "| CPU time | 481 s | at most 480 s |",
+            "| compilations | 12, of 36 sources |  |",
+            "| the greatest peak memory of one | 1,200 MB: room_11, 3 sources |  |",
+            "| second start, wall time | 500 ms | at most 1 s |",
+            "| room_0, 3 sources | 40.0 s | 100 MB |",
+            "| room_9, 3 sources | 31.0 s | 1,000 MB |",
+            "Made 2000-01-02 with version 1 on 2 cores (C), c++ 12, load 0.3 at the start, ccache off.",
+        ):
+            self.assertIn(row + "\n", text)
+        self.assertNotIn("| room_10,", text)
+        gone = page(results_of(build={"missing": "no room on the disk"}))
+        self.assertIn("## Building\n\nNot measured in this run: no room on the disk\n", gone)
+
+    def test_meets_its_aims_or_not(self):
+        quick, slow, wide = (
+            {says: met for says, _, _, met in verdicts(results_of(build=build_of(*how)))}
+            for how in ((200.0, 2), (241.0, 2), (100.0, 16))
+        )
+        cold, cpu, start = (
+            "a build into an empty folder on two cores, s",
+            "its CPU time, s",
+            "`./run --version` with nothing to build, s",
+        )
+        self.assertEqual(quick, {cold: "met", cpu: "**not met**", start: "met"})
+        self.assertEqual(slow[cold], "**not met**")
+        self.assertNotIn(cold, wide, "the limit is of two cores")
+
+    def test_alone_keeps_the_other_numbers(self):
+        before = json.loads(STORED.read_text(encoding="utf-8"))
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(build, "measure", return_value=build_of()):
+            out = Path(folder) / "p.md"
+            self.assertEqual(command.main(["--only", "build", "--output", str(out)]), 0)
+            text = out.with_suffix(".json").read_text(encoding="utf-8")
+            self.assertEqual(json.loads(text), {**before, "build": build_of()})
+            self.assertIn('\n   {"what": "room_3, 3 sources", "sources": 3, ', text)
+            self.assertEqual(out.read_text(encoding="utf-8"), page(json.loads(text)))
+            out.unlink()
+            for refused in (["--only", "build", "chip"], ["--quick", "--only", "build"]):
+                self.assertEqual(command.main([*refused, "--output", str(out)]), 1)
+                self.assertFalse(out.exists())
+
+    def test_has_what_each_compilation_took(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "one.cpp").write_text("int main() { return 0; }\n", encoding="ascii")
+            (folder / "bad.cpp").write_text("int main() { return nothing; }\n", encoding="ascii")
+            log = folder / "log"
+            env = {**os.environ, "MOTIONRACK_COMPILATIONS": str(log), "CCACHE_DISABLE": "1"}
+
+            def compiled(source: str) -> int:
+                argv = [sys.executable, str(build.LAUNCHER), "c++", "-o", f"{source}.o", "-c", source]
+                return subprocess.run(argv, cwd=folder, env=env, capture_output=True, check=False).returncode
+
+            self.assertEqual(compiled("bad.cpp"), 1)
+            self.assertFalse(log.exists(), "what failed is not measured")
+            self.assertEqual(compiled("one.cpp"), 0)
+            self.assertTrue((folder / "one.cpp.o").exists())
+            (got,) = build.compilations(log.read_text(encoding="utf-8"), folder)
+        self.assertEqual((got.what, got.sources), ("one.cpp", 1))
+        self.assertTrue(0 < got.cpu_s < 60, got)
+        self.assertTrue(10_000_000 < got.peak_bytes < 1_000_000_000, got)
+
+    def test_names_sources_that_are_compiled_together_by_their_folder(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            unity = folder / "motionrack/server.dir/Unity"
+            unity.mkdir(parents=True)
+
+            def named(file: str, *sources: Path) -> tuple[str, int]:
+                lines = "".join(f'#include "{source}"\n\n' for source in sources)
+                (unity / file).write_text("/* generated by CMake */\n\n" + lines, encoding="ascii")
+                return build.named(unity / file, folder)
+
+            room = ROOT / "motionrack/frontends/server"
+            made = folder / "motionrack/frontends/server/made.cpp"
+            self.assertEqual(
+                named("unity_0_cxx.cxx", room / "a.cpp", made, room / "b/c.cpp"),
+                ("motionrack/frontends/server, 3 sources", 3),
+            )
+            self.assertEqual(named("unity_0_c.c", room / "a.c"), ("motionrack/frontends/server/a.c", 1))
+            two = (room / "a.cpp", room / "b.cpp")
+            self.assertEqual(named("unity_1_cxx.cxx", *two), ("motionrack/frontends/server, 2 sources, part 2", 2))
+            self.assertEqual(named("unity_0_cxx.cxx", *two), ("motionrack/frontends/server, 2 sources, part 1", 2))
+            with self.assertRaisesRegex(Trouble, "includes no source"):
+                named("unity_2_cxx.cxx")
+        with self.assertRaisesRegex(Trouble, "launcher.py"):
+            build.compilations("", folder)
+
+    def test_is_that_of_run(self):
+        self.assertEqual(build.build_of_run(), 'motionrack "${release_options[@]}" -DMOTIONRACK_TESTS=OFF')
 
 
 class Results(unittest.TestCase):
