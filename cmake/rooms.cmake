@@ -5,7 +5,8 @@ add_library(motionrack_flags INTERFACE)
 target_compile_features(motionrack_flags INTERFACE cxx_std_20)
 target_include_directories(motionrack_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-# Nobody replaces a function at load time, so position-independent code may inline it: the chip is a tenth to a third faster.
+# No function is replaced at load time, so position-independent code may inline it: the chip is a tenth to a third
+# faster.
 # Strangers need only the flag that decides bits.
 # In a test a local name may be that of a constant in the source beside it.
 set(local_shadow -Wshadow=local)
@@ -18,31 +19,35 @@ set(own_flags -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wconversion 
 if(MOTIONRACK_WERROR)
   list(APPEND own_flags -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    list(APPEND own_flags -Wno-error=restrict)  # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651)
+    # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651).
+    list(APPEND own_flags -Wno-error=restrict)
   endif()
 endif()
 target_compile_options(motionrack_flags INTERFACE -ffp-contract=off "$<BUILD_INTERFACE:${own_flags}>")
 set_target_properties(motionrack_flags PROPERTIES EXPORT_NAME flags)
 
-# The sources of a target are compiled together, some tens at a time: headers and templates are paid once, which makes a build several times as
-# quick. So names in their anonymous namespaces are unique within a target. Without it (MOTIONRACK_UNITY=OFF, a part of ./test --all) each source
-# is compiled alone and has to include all that it uses.
+# The sources of a target are compiled together, some tens at a time: headers and templates are paid once, which makes
+# a build several times as quick. So names in their anonymous namespaces are unique within a target. Without it
+# (MOTIONRACK_UNITY=OFF, a part of ./test --all) each source is compiled alone and has to include all that it uses.
 if(MOTIONRACK_UNITY)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 40)
   # g++ takes a source that is included for a header, whose classes should have no members of hidden types.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(motionrack_flags INTERFACE "$<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>>")
+    target_compile_options(motionrack_flags INTERFACE
+                           "$<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>>")
   endif()
 endif()
 
-# motionrack_compile_quickly(TARGET): what is compiled longer than it runs (the network, the command line, tests) is optimised less.
+# motionrack_compile_quickly(TARGET): code that is compiled longer than it runs (the network, the command line, tests) is
+# optimised less.
 function(motionrack_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# motionrack_room(NAME [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME, for others
-# motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the latter have no library.
+# motionrack_room(NAME [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME, for
+# others motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the latter
+# have no library.
 # COMPONENT: what strangers ask find_package for to have it, where it needs packages that the other rooms do not.
 function(motionrack_room name)
   cmake_parse_arguments(ROOM "" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
@@ -59,16 +64,18 @@ function(motionrack_room name)
   add_library(motionrack::${name} ALIAS motionrack_${name})
   set_target_properties(motionrack_${name} PROPERTIES EXPORT_NAME ${name})
   if(ROOM_COMPONENT)
-    install(TARGETS motionrack_${name} EXPORT motionrack-${ROOM_COMPONENT} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+    install(TARGETS motionrack_${name} EXPORT motionrack-${ROOM_COMPONENT}
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   else()
     set_property(GLOBAL APPEND PROPERTY motionrack_rooms motionrack_${name})
   endif()
 endfunction()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [ALONE]): the test program test_NAME, which ctest runs as
-# NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take minutes: ./test leaves them out, ./test --all has them. FAULTS: those
-# that rows of the catalogue of faults name, a filter of GoogleTest; they run as NAME.faults with the label fault. ALONE: each test is a process of
-# its own, where a library has one state for the whole process. tests/programs runs single tests by their names.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [ALONE]): the test program
+# test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take minutes:
+# ./test leaves them out, ./test --all has them. FAULTS: those that rows of the catalogue of faults name, a filter of
+# GoogleTest; they run as NAME.faults with the label fault. ALONE: each test is a process of its own, where a library has
+# one state for the whole process. tests/programs runs single tests by their names.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()

@@ -51,7 +51,8 @@ build_in() {
     fi
     local stamp="$folder/.configured-with" want="$*" is
     is=$(cat "$stamp" 2>/dev/null) || is=""
-    if [ ! -e "$folder/build.ninja" ] || { [ "$is" != "$want" ] && [ "$is" != "${want/MOTIONRACK_TESTS=OFF/MOTIONRACK_TESTS=ON}" ]; }; then
+    local wider=${want/MOTIONRACK_TESTS=OFF/MOTIONRACK_TESTS=ON}
+    if [ ! -e "$folder/build.ninja" ] || { [ "$is" != "$want" ] && [ "$is" != "$wider" ]; }; then
         need_tools "$@" || return 1
         say "configuring in $folder"
         rm -f "$folder/CMakeCache.txt"
@@ -101,7 +102,8 @@ build_page() {
 # shellcheck disable=SC2034  # both use it
 release_options=(-DCMAKE_BUILD_TYPE=Release -DMOTIONRACK_WERROR=ON -DCMAKE_INSTALL_PREFIX=/usr)
 
-run_packages=(g++ cmake ninja-build ccache libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
+run_packages=(g++ cmake ninja-build ccache
+    libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)

@@ -1,4 +1,5 @@
-// In libFuzzer's place: replay_NAME FILE|FOLDER... tries each input once, in the order of their names, and says how many there were.
+// In libFuzzer's place: replay_NAME FILE|FOLDER... tries each input once, in the order of their names, and says how
+// many there were.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -215,8 +215,7 @@ TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
 TEST(MarkingLine, EqualWordsCountAsWordsToo) {
     Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\n");
     ASSERT_TRUE(bench.session->set_part("line.speed_mm_s", 0));
-    ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77))
-        << "the line between sender and card, driven by hand";
+    ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77)) << "the line between sender and card, driven by hand";
     ASSERT_TRUE(bench.engine().set_multi_mcbsp_in(1, 16384, 0));
     bench.ms(1);
     // 77 = 9 * 8 + 5: words of type 5 fill the locations in turn.
@@ -283,8 +282,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
         EXPECT_FALSE(reading.config) << text;
         return reading.errors.empty() ? std::string() : all_texts(reading.errors);
     };
-    EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"),
-                HasSubstr("6:8: belt line: there is no card 'none'"));
+    EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"), HasSubstr("6:8: belt line: there is no card 'none'"));
     EXPECT_THAT(refused("[belt.line]\ncard = \"m\"\n"), HasSubstr("one of type rtc5 marks"));
     EXPECT_THAT(refused("[belt.scan]\n"), HasSubstr("cannot be the name"));
     EXPECT_THAT(refused("[belt.line]\ncentre_x_mm = 1\n"), HasSubstr("centre_x_mm"));
