@@ -23,7 +23,9 @@ export function number(text: string): number | null {
 }
 
 export const mayAccess = (): string =>
-  whyNot('maintain', true) || (!inControl.value ? 'Take control first.' : '') || (standsStill.value ? '' : 'The bus is used by hand only while the machine stands still.');
+  whyNot('maintain', true) ||
+  (!inControl.value ? 'Take control first.' : '') ||
+  (standsStill.value ? '' : 'The bus is used by hand only while the machine stands still.');
 
 export function Console({ card }: { card: CardInfo }): JSX.Element {
   const bits = card.bus.widths[0] ?? 8;
@@ -32,10 +34,15 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
   const value = useSignal('0');
   const places = card.registers.filter((one, i, all) => all.findIndex((other) => other.offset === one.offset) === i);
   const chosen = place.value === '' ? String(places[0]?.offset ?? 0) : place.value;
-  const placeName = (offset: string): string => card.registers.filter((one) => one.offset === Number(offset)).map((one) => one.name).join('/');
+  const placeName = (offset: string): string =>
+    card.registers
+      .filter((one) => one.offset === Number(offset))
+      .map((one) => one.name)
+      .join('/');
   const add = (text: string, answer: string): void => void (log.value = [...log.value, { text, answer }].slice(-40));
   const write = async (address: number, what: number, name: string): Promise<void> => {
-    if ((await orderFor('write_register', { card: card.name, bits, address, value: what })) !== null) add(name, hex(what, bits));
+    if ((await orderFor('write_register', { card: card.name, bits, address, value: what })) !== null)
+      add(name, hex(what, bits));
   };
   const read = async (): Promise<void> => {
     const reply = await orderFor('read_register', { card: card.name, bits, address: card.bus.base + Number(chosen) });
@@ -44,7 +51,11 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
   const why = mayAccess();
   const send = (): void => {
     const what = number(value.value);
-    if (what === null || what < 0 || what >= 2 ** bits) notice('refused', `"${value.value}" is no number of ${bits} bits; 255, 0xFF, FFh or 'G' are. Nothing was written.`);
+    if (what === null || what < 0 || what >= 2 ** bits)
+      notice(
+        'refused',
+        `"${value.value}" is no number of ${bits} bits; 255, 0xFF, FFh or 'G' are. Nothing was written.`,
+      );
     else void write(card.bus.base + Number(chosen), what, `write ${placeName(chosen)}`);
   };
   const commandPort = card.registers.find((one) => one.name === 'C2');
@@ -52,19 +63,41 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
     <div class="console">
       <div class="log" role="log" aria-label="Accesses" tabIndex={0}>
         {log.value.length === 0 && <Empty>Every access goes through the card's bus and has its effects.</Empty>}
-        {log.value.map((line, i) => <p key={i}><code>{line.text}</code><span class="tabular">{line.answer}</span></p>)}
+        {log.value.map((line, i) => (
+          <p key={i}>
+            <code>{line.text}</code>
+            <span class="tabular">{line.answer}</span>
+          </p>
+        ))}
       </div>
       <div class="row">
-        <Select label="Where" value={chosen} onChange={(to) => (place.value = to)}
-          options={places.map((one) => ({ value: String(one.offset), text: `${hex(one.offset, 8)} ${placeName(String(one.offset))}` }))} />
+        <Select
+          label="Where"
+          value={chosen}
+          onChange={(to) => (place.value = to)}
+          options={places.map((one) => ({
+            value: String(one.offset),
+            text: `${hex(one.offset, 8)} ${placeName(String(one.offset))}`,
+          }))}
+        />
         <Field label="Value" value={value.value} onInput={(text) => (value.value = text)} />
-        <Button why={why} onClick={send}>Write</Button>
-        <Button why={why} onClick={() => void read()}>Read</Button>
+        <Button why={why} onClick={send}>
+          Write
+        </Button>
+        <Button why={why} onClick={() => void read()}>
+          Read
+        </Button>
       </div>
       {commandPort !== undefined && (
         <div class="commands" role="group" aria-label="Commands">
           {card.commands.map((command) => (
-            <Button key={command.name} why={why} label={`${command.name}: ${command.meaning}`} onClick={() => void write(card.bus.base + commandPort.offset, command.code, `command ${command.name}`)}>{command.name}</Button>
+            <Button
+              key={command.name}
+              why={why}
+              label={`${command.name}: ${command.meaning}`}
+              onClick={() => void write(card.bus.base + commandPort.offset, command.code, `command ${command.name}`)}>
+              {command.name}
+            </Button>
           ))}
         </div>
       )}

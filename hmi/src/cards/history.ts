@@ -19,7 +19,10 @@ export function useHistory(names: readonly string[], rate: number, seconds: numb
       while (rows.length > 2 && (rows[0]?.at ?? 0) < picture.at - seconds) rows.shift();
       if (performance.now() - shown < 50) return;
       shown = performance.now();
-      data.value = [rows.map((row) => row.at - picture.at), ...known.map((_, i) => rows.map((row) => row.values[i] ?? null))];
+      data.value = [
+        rows.map((row) => row.at - picture.at),
+        ...known.map((_, i) => rows.map((row) => row.values[i] ?? null)),
+      ];
     });
     return () => {
       stop();

@@ -33,12 +33,32 @@ export function Marking({ card }: { card: CardInfo }): JSX.Element {
   const why = mayOperate();
   return (
     <Panel title="Mark" class="marking">
-      <label class="hint" for={id}>Marking job (TOML); optics, laser and belt are the rack's</label>
-      <textarea id={id} class="editor" spellcheck={false} value={job.value} onInput={(event) => (job.value = event.currentTarget.value)} />
+      <label class="hint" for={id}>
+        Marking job (TOML); optics, laser and belt are the rack's
+      </label>
+      <textarea
+        id={id}
+        class="editor"
+        spellcheck={false}
+        value={job.value}
+        onInput={(event) => (job.value = event.currentTarget.value)}
+      />
       <div class="row">
-        <Choice label="When" value={start.value} onChange={(to) => (start.value = to)} options={[{ value: 'now', text: 'at once' }, { value: 'parts', text: 'each part' }]} />
-        <Button why={why} kind="main" icon="run" onClick={() => void mark(card.name)}>Mark</Button>
-        <Button why={why} icon="standstill" onClick={() => void order('mark_stop', { card: card.name })}>Stop marking</Button>
+        <Choice
+          label="When"
+          value={start.value}
+          onChange={(to) => (start.value = to)}
+          options={[
+            { value: 'now', text: 'at once' },
+            { value: 'parts', text: 'each part' },
+          ]}
+        />
+        <Button why={why} kind="main" icon="run" onClick={() => void mark(card.name)}>
+          Mark
+        </Button>
+        <Button why={why} icon="standstill" onClick={() => void order('mark_stop', { card: card.name })}>
+          Stop marking
+        </Button>
       </div>
     </Panel>
   );

@@ -35,14 +35,33 @@ function sight(piece: PieceAnswer): [number, number, number, number] {
 
 function Picture({ piece }: { piece: PieceAnswer }): JSX.Element {
   const box = sight(piece);
-  const line = (marks: readonly Place[]): string => marks.map(([x, y], i) => `${i === 0 ? 'M' : 'L'}${x} ${-y}`).join('');
+  const line = (marks: readonly Place[]): string =>
+    marks.map(([x, y], i) => `${i === 0 ? 'M' : 'L'}${x} ${-y}`).join('');
   const { beam, field } = piece;
   const strokes = piece.marking === undefined ? piece.marks : [...piece.marks, piece.marking];
   return (
-    <svg class="piece" viewBox={box.join(' ')} preserveAspectRatio="xMidYMid meet" role="img" aria-label={`Work piece under ${piece.scanner}: ${strokes.length} marks`}>
-      <rect class="field-box" x={field.least[0]} y={-field.greatest[1]} width={field.greatest[0] - field.least[0]} height={field.greatest[1] - field.least[1]} vector-effect="non-scaling-stroke" />
+    <svg
+      class="piece"
+      viewBox={box.join(' ')}
+      preserveAspectRatio="xMidYMid meet"
+      role="img"
+      aria-label={`Work piece under ${piece.scanner}: ${strokes.length} marks`}>
+      <rect
+        class="field-box"
+        x={field.least[0]}
+        y={-field.greatest[1]}
+        width={field.greatest[0] - field.least[0]}
+        height={field.greatest[1] - field.least[1]}
+        vector-effect="non-scaling-stroke"
+      />
       <path class="marks" d={strokes.map(line).join('')} vector-effect="non-scaling-stroke" />
-      <circle class={`beam ${piece.laser ? 'on' : ''}`} cx={beam[0]} cy={-beam[1]} r={box[2] / 90} vector-effect="non-scaling-stroke" />
+      <circle
+        class={`beam ${piece.laser ? 'on' : ''}`}
+        cx={beam[0]}
+        cy={-beam[1]}
+        r={box[2] / 90}
+        vector-effect="non-scaling-stroke"
+      />
     </svg>
   );
 }
@@ -52,16 +71,47 @@ function WorkPiece({ scanner }: { scanner: string }): JSX.Element {
   const piece = data.value;
   return (
     <Panel title={`Work piece under ${scanner}`} class="wide workpiece">
-      {piece === null ? <Empty>{why.value || 'Asking for the work piece …'}</Empty> : (
+      {piece === null ? (
+        <Empty>{why.value || 'Asking for the work piece …'}</Empty>
+      ) : (
         <>
           <Picture piece={piece} />
           <dl class="facts-list">
-            <div><dt>marks</dt><dd class="tabular">{piece.marks.length}, {fixed(piece.marked_mm, 1)} mm</dd></div>
-            <div><dt>beam</dt><dd class="tabular">{fixed(piece.beam[0], 3)}, {fixed(piece.beam[1], 3)} mm</dd></div>
-            <div><dt>laser</dt><dd>{piece.laser ? 'on' : 'off'}</dd></div>
-            <div><dt>field</dt><dd class="tabular">{fixed(piece.field.greatest[0] - piece.field.least[0], 1)} mm square</dd></div>
-            {piece.part !== undefined && <div><dt>{piece.part.name}</dt><dd class="tabular">{fixed(piece.part.position, 2)} {unitName(piece.part.unit)}, {fixed(piece.part.speed, 1)} {unitName(piece.part.unit)}/s</dd></div>}
-            {piece.lost_points > 0 && <div><dt>not kept</dt><dd class="tabular">{piece.lost_points} points</dd></div>}
+            <div>
+              <dt>marks</dt>
+              <dd class="tabular">
+                {piece.marks.length}, {fixed(piece.marked_mm, 1)} mm
+              </dd>
+            </div>
+            <div>
+              <dt>beam</dt>
+              <dd class="tabular">
+                {fixed(piece.beam[0], 3)}, {fixed(piece.beam[1], 3)} mm
+              </dd>
+            </div>
+            <div>
+              <dt>laser</dt>
+              <dd>{piece.laser ? 'on' : 'off'}</dd>
+            </div>
+            <div>
+              <dt>field</dt>
+              <dd class="tabular">{fixed(piece.field.greatest[0] - piece.field.least[0], 1)} mm square</dd>
+            </div>
+            {piece.part !== undefined && (
+              <div>
+                <dt>{piece.part.name}</dt>
+                <dd class="tabular">
+                  {fixed(piece.part.position, 2)} {unitName(piece.part.unit)}, {fixed(piece.part.speed, 1)}{' '}
+                  {unitName(piece.part.unit)}/s
+                </dd>
+              </div>
+            )}
+            {piece.lost_points > 0 && (
+              <div>
+                <dt>not kept</dt>
+                <dd class="tabular">{piece.lost_points} points</dd>
+              </div>
+            )}
           </dl>
         </>
       )}
@@ -74,10 +124,16 @@ export function Laser({ card }: { card: CardInfo }): JSX.Element {
   const shown = card.registers.filter((one) => wordOf(data.value, one.name) !== null && one.fields.length > 0);
   return (
     <>
-      {(rack.value?.parts ?? []).filter((one) => one.kind === 'scanner' && one.card === card.name).map((one) => <WorkPiece key={one.name} scanner={one.name} />)}
+      {(rack.value?.parts ?? [])
+        .filter((one) => one.kind === 'scanner' && one.card === card.name)
+        .map((one) => (
+          <WorkPiece key={one.name} scanner={one.name} />
+        ))}
       <Marking card={card} />
       <Panel title={`${card.name}: ${card.title}`}>
-        {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
+        {shown.map((one) => (
+          <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
+        ))}
         <Quantities card={card} />
       </Panel>
     </>

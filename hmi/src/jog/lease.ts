@@ -42,7 +42,8 @@ interface Held {
 const held = new Map<string, Held>();
 let timer: ReturnType<typeof setInterval> | undefined;
 
-const speedOf = (axis: string, rapid: boolean): number => (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
+const speedOf = (axis: string, rapid: boolean): number =>
+  (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
 
 function renew(): void {
   for (const one of held.values())

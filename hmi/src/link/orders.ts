@@ -47,16 +47,22 @@ export async function orderFor(name: string, fields: Fields = {}): Promise<Reply
 }
 
 /** Asks. Throws Refusal. */
-export const query = async <T>(name: string, fields: Fields = {}): Promise<T> => (await ask({ ...fields, query: name })) as T;
+export const query = async <T>(name: string, fields: Fields = {}): Promise<T> =>
+  (await ask({ ...fields, query: name })) as T;
 
 /** STOP goes both ways, by the stream and by HTTP, and needs neither token nor lease. */
 export function stop(): void {
   ask({ order: 'stop' }).catch(() => undefined);
   fetch('api/stop', { method: 'POST', keepalive: true }).then(
     (answer) => {
-      if (!answer.ok) notice('refused', 'STOP did not reach the program by HTTP. If the machine moves, use its emergency stop.');
+      if (!answer.ok)
+        notice('refused', 'STOP did not reach the program by HTTP. If the machine moves, use its emergency stop.');
     },
-    () => notice('refused', 'STOP did not reach the program: there is no connection. If the machine moves, use its emergency stop.'),
+    () =>
+      notice(
+        'refused',
+        'STOP did not reach the program: there is no connection. If the machine moves, use its emergency stop.',
+      ),
   );
 }
 

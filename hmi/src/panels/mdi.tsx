@@ -29,7 +29,10 @@ async function send(): Promise<void> {
   localStorage.setItem(KEY, JSON.stringify(history.value));
   const one: Sent = { text, answer: '…', good: true };
   log.value = [...log.value, one].slice(-KEPT);
-  const answer = await ask({ order: 'line', text }).then(() => ({ answer: 'ok', good: true }), (why: unknown) => ({ answer: sentence(why), good: false }));
+  const answer = await ask({ order: 'line', text }).then(
+    () => ({ answer: 'ok', good: true }),
+    (why: unknown) => ({ answer: sentence(why), good: false }),
+  );
   log.value = log.value.map((other) => (other === one ? { ...one, ...answer } : other));
 }
 
@@ -56,14 +59,29 @@ export function Mdi(): JSX.Element {
         {log.value.slice(-30).map((one, i) => (
           <p key={i} class={one.good ? 'good' : 'bad'}>
             <code>{one.text}</code>
-            <span>{!one.good && <Icon name="alarm" size={13} />}{one.answer}</span>
+            <span>
+              {!one.good && <Icon name="alarm" size={13} />}
+              {one.answer}
+            </span>
           </p>
         ))}
       </div>
       <div class="entry-row">
-        <input ref={field} type="text" class="mdi-line" aria-label="Line of G-code" placeholder="G-code line" autocomplete="off" spellcheck={false} value={draft.value}
-          onInput={(event) => (draft.value = event.currentTarget.value)} onKeyDown={down} />
-        <Button why={why} machine onClick={() => void send()}>Send</Button>
+        <input
+          ref={field}
+          type="text"
+          class="mdi-line"
+          aria-label="Line of G-code"
+          placeholder="G-code line"
+          autocomplete="off"
+          spellcheck={false}
+          value={draft.value}
+          onInput={(event) => (draft.value = event.currentTarget.value)}
+          onKeyDown={down}
+        />
+        <Button why={why} machine onClick={() => void send()}>
+          Send
+        </Button>
       </div>
     </Panel>
   );

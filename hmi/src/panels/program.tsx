@@ -38,16 +38,35 @@ function Findings({ result }: { result: Check }): JSX.Element {
     <div class="findings">
       {problems.length === 0 ? (
         <dl class="facts-list">
-          <div><dt>lines</dt><dd class="tabular">{result.lines}</dd></div>
-          <div><dt>takes</dt><dd class="tabular">{duration(result.seconds)}</dd></div>
-          <div><dt>path</dt><dd class="tabular">{fixed(result.length_mm, 1)} mm</dd></div>
+          <div>
+            <dt>lines</dt>
+            <dd class="tabular">{result.lines}</dd>
+          </div>
+          <div>
+            <dt>takes</dt>
+            <dd class="tabular">{duration(result.seconds)}</dd>
+          </div>
+          <div>
+            <dt>path</dt>
+            <dd class="tabular">{fixed(result.length_mm, 1)} mm</dd>
+          </div>
           {Object.entries(result.least ?? {}).map(([letter, least]) => (
-            <div key={letter}><dt>{letter}</dt><dd class="tabular">{fixed(least, 3)} … {fixed(result.greatest?.[letter], 3)}</dd></div>
+            <div key={letter}>
+              <dt>{letter}</dt>
+              <dd class="tabular">
+                {fixed(least, 3)} … {fixed(result.greatest?.[letter], 3)}
+              </dd>
+            </div>
           ))}
         </dl>
       ) : (
         <ul class="problems" tabIndex={0} aria-label="Problems of the program">
-          {problems.map((one, i) => <li key={i}>{one.line > 0 ? <strong>Line {one.line}: </strong> : null}{one.message}</li>)}
+          {problems.map((one, i) => (
+            <li key={i}>
+              {one.line > 0 ? <strong>Line {one.line}: </strong> : null}
+              {one.message}
+            </li>
+          ))}
           {(result.more_problems ?? 0) > 0 && <li>and {result.more_problems} more</li>}
         </ul>
       )}
@@ -63,8 +82,16 @@ function Progress(): JSX.Element | null {
     <div class="progress">
       <div class="words">
         <strong>{now.name}</strong>
-        <span class="tabular">line {now.line} of {now.lines}</span>
-        <span class="tabular">{now.remaining_s === null || now.remaining_s === undefined ? (now.runs ? 'runs' : 'ended') : `${duration(now.remaining_s)} left`}</span>
+        <span class="tabular">
+          line {now.line} of {now.lines}
+        </span>
+        <span class="tabular">
+          {now.remaining_s === null || now.remaining_s === undefined
+            ? now.runs
+              ? 'runs'
+              : 'ended'
+            : `${duration(now.remaining_s)} left`}
+        </span>
       </div>
       <progress max="1" value={part} aria-label="Lines of the program that were driven" />
     </div>
@@ -78,28 +105,64 @@ export function Program(): JSX.Element {
   const runs = status.value?.program.runs === true;
   const single = status.value?.program.single_step === true;
   return (
-    <Panel title="Program" class="program" tools={<span class="file" title={programName.value}>{programName.value}</span>}>
+    <Panel
+      title="Program"
+      class="program"
+      tools={
+        <span class="file" title={programName.value}>
+          {programName.value}
+        </span>
+      }>
       <div class="row">
         <ActionButton action={actions.run} icon="run" kind={runs ? 'plain' : 'main'} />
-        <ActionButton action={actions.step} icon="step">Step</ActionButton>
-        <ActionButton action={actions.hold} icon="hold">Hold</ActionButton>
-        <Button machine icon="stop" onClick={() => perform(actions.stop)}>Stop</Button>
+        <ActionButton action={actions.step} icon="step">
+          Step
+        </ActionButton>
+        <ActionButton action={actions.hold} icon="hold">
+          Hold
+        </ActionButton>
+        <Button machine icon="stop" onClick={() => perform(actions.stop)}>
+          Stop
+        </Button>
       </div>
       <Progress />
       {editing.value ? (
-        <textarea class="editor" aria-label="Program text" spellcheck={false} value={program.value}
-          onInput={(event) => ((program.value = event.currentTarget.value), (checked.value = null))} />
+        <textarea
+          class="editor"
+          aria-label="Program text"
+          spellcheck={false}
+          value={program.value}
+          onInput={(event) => ((program.value = event.currentTarget.value), (checked.value = null))}
+        />
       ) : (
         <Listing />
       )}
       {checked.value !== null && <Findings result={checked.value} />}
       <div class="row">
-        <input ref={file} class="hidden" type="file" accept=".ngc,.nc,.gcode,.tap,.txt" tabIndex={-1} aria-label="Program file"
-          onChange={(event) => void open(event.currentTarget.files?.[0])} />
-        <Button icon="open" onClick={() => file.current?.click()}>Open</Button>
-        <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>Edit</Button>
-        <Button icon="check" why={mayCheck()} onClick={() => void check()}>Check</Button>
-        <Switch on={single} label="Single step" why={mayOperate()} onChange={(on) => void order('set_single_step', { on })} />
+        <input
+          ref={file}
+          class="hidden"
+          type="file"
+          accept=".ngc,.nc,.gcode,.tap,.txt"
+          tabIndex={-1}
+          aria-label="Program file"
+          onChange={(event) => void open(event.currentTarget.files?.[0])}
+        />
+        <Button icon="open" onClick={() => file.current?.click()}>
+          Open
+        </Button>
+        <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>
+          Edit
+        </Button>
+        <Button icon="check" why={mayCheck()} onClick={() => void check()}>
+          Check
+        </Button>
+        <Switch
+          on={single}
+          label="Single step"
+          why={mayOperate()}
+          onChange={(on) => void order('set_single_step', { on })}
+        />
       </div>
     </Panel>
   );

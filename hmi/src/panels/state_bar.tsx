@@ -26,7 +26,11 @@ const LOOKS: Record<StateName, Look> = {
 
 function Stop(): JSX.Element {
   return (
-    <button type="button" class="stop" onClick={() => perform(actions.stop)} title="STOP: controlled stop, the program is aborted (Esc). This is no emergency stop.">
+    <button
+      type="button"
+      class="stop"
+      onClick={() => perform(actions.stop)}
+      title="STOP: controlled stop, the program is aborted (Esc). This is no emergency stop.">
       <Icon name="stop" size={26} />
       <span>STOP</span>
     </button>
@@ -40,7 +44,11 @@ function StateChip(): JSX.Element {
     <div class={`state ${look.tone}`} role="status" aria-live="polite">
       <Icon name={look.icon} size={22} />
       <span class="word">{look.word}</span>
-      {why !== '' && <span class="why" title={why}>{why}</span>}
+      {why !== '' && (
+        <span class="why" title={why}>
+          {why}
+        </span>
+      )}
     </div>
   );
 }
@@ -80,9 +88,15 @@ function LinkAge(): JSX.Element {
   const { value: link } = state.link;
   const ms = state.age.value;
   const text = link === 'connecting' ? 'connecting' : link === 'lost' ? 'lost' : state.stale.value ? 'silent' : 'live';
-  const shown = Number.isFinite(ms) ? (ms >= state.STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.ceil((ms + 1) / 100) * 100} ms`) : '';
+  const shown = Number.isFinite(ms)
+    ? ms >= state.STALE_MS
+      ? `${(ms / 1000).toFixed(1)} s old`
+      : `< ${Math.ceil((ms + 1) / 100) * 100} ms`
+    : '';
   return (
-    <div class={`fact ${text === 'live' ? 'calm' : 'attention'}`} title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
+    <div
+      class={`fact ${text === 'live' ? 'calm' : 'attention'}`}
+      title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
       <span class="name">Data</span>
       <span class="value tabular">
         <Icon name={text === 'live' ? 'link' : 'lost'} size={15} />
@@ -93,7 +107,9 @@ function LinkAge(): JSX.Element {
 }
 
 export const Simulation = (): JSX.Element => (
-  <span class="simulation" title="Cards, motors and machine are simulated; nothing real moves.">SIMULATION</span>
+  <span class="simulation" title="Cards, motors and machine are simulated; nothing real moves.">
+    SIMULATION
+  </span>
 );
 
 export function StateBar(): JSX.Element {
@@ -127,7 +143,9 @@ export function AlarmBanner(): JSX.Element {
       {newest !== undefined && (
         <div class="banner">
           <Icon name="alarm" size={20} />
-          <p><strong>Alarm</strong> {newest.text}</p>
+          <p>
+            <strong>Alarm</strong> {newest.text}
+          </p>
           {unseen.length > 1 && <a href={address('events')}>and {unseen.length - 1} more</a>}
           {!narrow.value && <Acknowledge number={newest.number} />}
         </div>
@@ -138,5 +156,9 @@ export function AlarmBanner(): JSX.Element {
 
 function Acknowledge({ number }: { number: number }): JSX.Element {
   const action = acknowledge(number);
-  return <Button why={action.why()} icon="check" onClick={() => perform(action)}>Acknowledge</Button>;
+  return (
+    <Button why={action.why()} icon="check" onClick={() => perform(action)}>
+      Acknowledge
+    </Button>
+  );
 }

@@ -14,7 +14,9 @@ export const position = (value: number | null | undefined, unit: string): string
 
 export function whole(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
-  const text = Math.abs(Math.round(value)).toString().replace(/\B(?=(\d{3})+$)/g, '\u2009');
+  const text = Math.abs(Math.round(value))
+    .toString()
+    .replace(/\B(?=(\d{3})+$)/g, '\u2009');
   return value < 0 ? MINUS + text : text;
 }
 

@@ -59,8 +59,14 @@ async function look(): Promise<void> {
     if (answer.number !== have) show(answer.axes, answer.planned, 'running');
     have = answer.number;
     if (answer.driven.length === 0) return;
-    const places = inOrder(answer.axes, answer.driven.map(([, ...place]) => place));
-    driven.value = [...list, ...places.map((place, i) => ({ at: answer.driven[i]?.[0] ?? 0, place, error: answer.errors?.[i] ?? 0 }))].slice(-KEPT);
+    const places = inOrder(
+      answer.axes,
+      answer.driven.map(([, ...place]) => place),
+    );
+    driven.value = [
+      ...list,
+      ...places.map((place, i) => ({ at: answer.driven[i]?.[0] ?? 0, place, error: answer.errors?.[i] ?? 0 })),
+    ].slice(-KEPT);
   } catch {
     // Asked again soon.
   }
@@ -75,7 +81,9 @@ export function follow(): () => void {
     if (live) timer = setTimeout(() => void again(), EVERY_MS);
   };
   void again();
-  const stopShowing = checked.subscribe((result: Check | null) => result !== null && show(result.axes, result.path, 'checked'));
+  const stopShowing = checked.subscribe(
+    (result: Check | null) => result !== null && show(result.axes, result.path, 'checked'),
+  );
   return () => {
     live = false;
     clearTimeout(timer);

@@ -24,7 +24,12 @@ function niceStep(least: number): number {
 /** The part of the machine that is shown: all of the travel, or around the path. */
 function bounds(a: number, b: number, fit: boolean): [number, number, number, number] {
   const limits = [a, b].map((i) => state.axes.peek()[i]);
-  const whole: [number, number, number, number] = [limits[0]?.min ?? 0, limits[0]?.max ?? 1, limits[1]?.min ?? 0, limits[1]?.max ?? 1];
+  const whole: [number, number, number, number] = [
+    limits[0]?.min ?? 0,
+    limits[0]?.max ?? 1,
+    limits[1]?.min ?? 0,
+    limits[1]?.max ?? 1,
+  ];
   if (!fit) return whole;
   const points = [...planned.peek(), ...driven.peek().map((one) => one.place)];
   if (points.length < 2) return whole;
@@ -54,7 +59,13 @@ function inks(element: HTMLElement): Ink {
 }
 
 class Painter {
-  constructor(private readonly pen: CanvasRenderingContext2D, private readonly width: number, private readonly height: number, private readonly sight: Sight, private readonly ink: Ink) {}
+  constructor(
+    private readonly pen: CanvasRenderingContext2D,
+    private readonly width: number,
+    private readonly height: number,
+    private readonly sight: Sight,
+    private readonly ink: Ink,
+  ) {}
 
   x(value: number): number {
     return this.sight.left + value * this.sight.scale;
@@ -95,7 +106,12 @@ class Painter {
     pen.strokeStyle = this.ink.box;
     pen.lineWidth = 1.5;
     pen.setLineDash([7, 5]);
-    pen.strokeRect(this.x(a.min), this.y(b?.max ?? 1), (a.max - a.min) * this.sight.scale, ((b?.max ?? 1) - (b?.min ?? 0)) * this.sight.scale);
+    pen.strokeRect(
+      this.x(a.min),
+      this.y(b?.max ?? 1),
+      (a.max - a.min) * this.sight.scale,
+      ((b?.max ?? 1) - (b?.min ?? 0)) * this.sight.scale,
+    );
     pen.setLineDash([]);
   }
 
@@ -104,7 +120,11 @@ class Painter {
     pen.strokeStyle = this.ink.plan;
     pen.lineWidth = 1.2;
     pen.beginPath();
-    points.forEach((point, i) => (i === 0 ? pen.moveTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0)) : pen.lineTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0))));
+    points.forEach((point, i) =>
+      i === 0
+        ? pen.moveTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0))
+        : pen.lineTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0)),
+    );
     pen.stroke();
   }
 
@@ -164,7 +184,10 @@ function paint(canvas: HTMLCanvasElement, a: number, b: number, fit: boolean): v
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
   const [x0, x1, y0, y1] = bounds(a, b, fit);
-  const scale = Math.min((width - 2 * MARGIN) / Math.max(1e-9, x1 - x0), (height - 2 * MARGIN) / Math.max(1e-9, y1 - y0));
+  const scale = Math.min(
+    (width - 2 * MARGIN) / Math.max(1e-9, x1 - x0),
+    (height - 2 * MARGIN) / Math.max(1e-9, y1 - y0),
+  );
   const sight = { scale, left: width / 2 - ((x0 + x1) / 2) * scale, top: height / 2 + ((y0 + y1) / 2) * scale };
   const painter = new Painter(pen, width, height, sight, inks(canvas));
   const axes = state.axes.peek();
