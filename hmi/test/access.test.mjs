@@ -1,4 +1,5 @@
-// Accessibility and field use: axe-core on every view, sizes of targets, order of focus, live regions, themes, phone, motion.
+// Accessibility and field use: axe-core on every view, sizes of targets, order of focus, live regions, themes, phone,
+// motion.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';

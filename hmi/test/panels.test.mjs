@@ -1,4 +1,5 @@
-// The panels of the demonstration rack: each shows what its card or the machine really has; a picture of each is kept in the build folder.
+// The panels of the demonstration rack: each shows what its card or the machine really has; a picture of each is kept
+// in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { openTab, picture, RACKS, state, suite, takeControl, until } from './support.mjs';

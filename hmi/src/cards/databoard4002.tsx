@@ -18,19 +18,23 @@ interface SlopesAnswer {
 }
 
 /** Both halves of the table over one list of places. */
-const curves = (answer: SlopesAnswer): (number | null)[][] =>
-  uPlot
-    .join(
-      answer.slopes.map(
-        (slope) => [slope.points.map(([at]) => at), slope.points.map(([, hz]) => hz)] as uPlot.AlignedData,
-      ),
-    )
-    .map((row) => [...(row as (number | null | undefined)[])].map((value) => value ?? null));
+const curves = (slopes: SlopesAnswer['slopes']): (number | null)[][] =>
+  slopes.length === 0
+    ? []
+    : uPlot
+        .join(
+          slopes.map(
+            (slope) => [slope.points.map(([at]) => at), slope.points.map(([, hz]) => hz)] as uPlot.AlignedData,
+          ),
+        )
+        .map((row) => [...(row as (number | null | undefined)[])].map((value) => value ?? null));
 
 function Slope({ card }: { card: CardInfo }): JSX.Element {
   const { data, why } = usePoll<SlopesAnswer>('slopes', { name: card.name }, 2000);
   const names = (data.value?.slopes ?? []).map((slope) => slope.name);
-  const picture = useMemo(() => (data.value === null ? [] : curves(data.value)), [JSON.stringify(data.value?.slopes)]);
+  // Drawn anew when the table changes, not whenever it is asked for.
+  const table = JSON.stringify(data.value?.slopes ?? []);
+  const picture = useMemo(() => curves(JSON.parse(table) as SlopesAnswer['slopes']), [table]);
   const loaded = (picture[0]?.length ?? 0) > 1;
   return (
     <Panel title="Slope" class="slope">

@@ -7,27 +7,27 @@ import { whenPicture } from '../link/socket';
 
 /** x in seconds before now, then one array a channel. A chart takes it as it is. `rate` in samples a second. */
 export function useHistory(names: readonly string[], rate: number, seconds: number): Signal<(number | null)[][]> {
-  const known = names.filter((name) => channelNames.value.has(name));
-  const key = known.join(' ');
-  const data = useMemo(() => signal<(number | null)[][]>([[], ...known.map(() => [])]), [key]);
+  const key = names.filter((name) => channelNames.value.has(name)).join(' ');
+  const list = useMemo(() => (key === '' ? [] : key.split(' ')), [key]);
+  const data = useMemo(() => signal<(number | null)[][]>([[], ...list.map(() => [])]), [list]);
   useEffect(() => {
-    const stop = want(known, rate);
+    const stop = want(list, rate);
     const rows: { at: number; values: (number | null)[] }[] = [];
     let shown = 0;
     const unhook = whenPicture((picture) => {
-      rows.push({ at: picture.at, values: known.map((name) => channel(name).peek()) });
+      rows.push({ at: picture.at, values: list.map((name) => channel(name).peek()) });
       while (rows.length > 2 && (rows[0]?.at ?? 0) < picture.at - seconds) rows.shift();
       if (performance.now() - shown < 50) return;
       shown = performance.now();
       data.value = [
         rows.map((row) => row.at - picture.at),
-        ...known.map((_, i) => rows.map((row) => row.values[i] ?? null)),
+        ...list.map((_, i) => rows.map((row) => row.values[i] ?? null)),
       ];
     });
     return () => {
       stop();
       unhook();
     };
-  }, [key, rate, seconds]);
+  }, [list, data, rate, seconds]);
   return data;
 }

@@ -25,7 +25,10 @@ async function mark(card: string): Promise<void> {
   const reply = await orderFor('mark', { card, job: job.value, start: start.value });
   if (reply === null) return;
   const notes = Array.isArray(reply.notes) ? (reply.notes as string[]) : [];
-  notice('done', [`${String(reply.commands ?? '')} commands are in the card's list.`, ...notes].join(' '));
+  notice(
+    'done',
+    [`${(reply.commands as number | undefined) ?? ''} commands are in the card's list.`, ...notes].join(' '),
+  );
 }
 
 export function Marking({ card }: { card: CardInfo }): JSX.Element {

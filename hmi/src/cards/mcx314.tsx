@@ -1,4 +1,5 @@
-// The MCX314's panel: the counters of its channels, as often as its source's panel reads them, speeds as pictures, drive flags.
+// The MCX314's panel: the counters of its channels, as often as its source's panel reads them, speeds as pictures,
+// drive flags.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';

@@ -35,7 +35,7 @@ function Row({
   register: RegisterInfo | undefined;
   word: number | null;
   open: boolean;
-  onOpen(): void;
+  onOpen: () => void;
 }): JSX.Element {
   const has = (register?.fields.length ?? 0) > 0;
   const setBits =

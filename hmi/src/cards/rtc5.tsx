@@ -6,39 +6,12 @@ import { usePoll } from '../parts/poll';
 import { Empty, Panel } from '../parts/ui';
 import { Marking } from './marking';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
-
-type Place = [number, number];
-interface PieceAnswer {
-  scanner: string;
-  marks: Place[][];
-  marking?: [Place, Place];
-  points: number;
-  lost_points: number;
-  marked_mm: number;
-  beam: Place;
-  laser: boolean;
-  /** A square, mm. */
-  field: { least: Place; greatest: Place };
-  part?: { name: string; unit: string; position: number; speed: number };
-}
-
-/** What is to be in sight: the marks; without any, the field. */
-function sight(piece: PieceAnswer): [number, number, number, number] {
-  const marks = piece.marks.flat();
-  const points = marks.length > 0 ? marks : [piece.field.least, piece.field.greatest];
-  const xs = points.map(([x]) => x);
-  const ys = points.map(([, y]) => y);
-  const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const pad = Math.max(1, 0.04 * Math.max(x1 - x0, y1 - y0));
-  return [x0 - pad, -y1 - pad, x1 - x0 + 2 * pad, y1 - y0 + 2 * pad];
-}
+import { pathOf, sight, strokesOf, type PieceAnswer } from './piece';
 
 function Picture({ piece }: { piece: PieceAnswer }): JSX.Element {
   const box = sight(piece);
-  const line = (marks: readonly Place[]): string =>
-    marks.map(([x, y], i) => `${i === 0 ? 'M' : 'L'}${x} ${-y}`).join('');
   const { beam, field } = piece;
-  const strokes = piece.marking === undefined ? piece.marks : [...piece.marks, piece.marking];
+  const strokes = strokesOf(piece);
   return (
     <svg
       class="piece"
@@ -54,7 +27,7 @@ function Picture({ piece }: { piece: PieceAnswer }): JSX.Element {
         height={field.greatest[1] - field.least[1]}
         vector-effect="non-scaling-stroke"
       />
-      <path class="marks" d={strokes.map(line).join('')} vector-effect="non-scaling-stroke" />
+      <path class="marks" d={pathOf(strokes)} vector-effect="non-scaling-stroke" />
       <circle
         class={`beam ${piece.laser ? 'on' : ''}`}
         cx={beam[0]}

@@ -46,7 +46,7 @@ export function whenPicture(call: (picture: Picture) => void): () => void {
 /** Sends one request and waits for its answer. Throws Refusal with the program's sentence. */
 export function ask(fields: Fields): Promise<Reply> {
   const open = socket;
-  if (open === null || open.readyState !== WebSocket.OPEN)
+  if (open?.readyState !== WebSocket.OPEN)
     return Promise.reject(
       new Refusal({ trouble: 'io', message: 'There is no connection to the program. Nothing was sent.' }),
     );
@@ -62,8 +62,14 @@ export function ask(fields: Fields): Promise<Reply> {
       );
     }, GIVE_UP_MS);
     waiting.set(id, {
-      resolve: (reply) => (clearTimeout(timer), resolve(reply)),
-      reject: (why) => (clearTimeout(timer), reject(why)),
+      resolve: (reply) => {
+        clearTimeout(timer);
+        resolve(reply);
+      },
+      reject: (why) => {
+        clearTimeout(timer);
+        reject(why);
+      },
     });
     open.send(JSON.stringify({ id, ...fields }));
   });
@@ -121,7 +127,7 @@ export async function showToken(): Promise<void> {
     try {
       const reply = await ask({ token });
       state.role.value = reply.role as Role;
-      state.user.value = (reply.user as string) ?? '';
+      state.user.value = (reply.user as string | undefined) ?? '';
     } catch (why) {
       if (why instanceof Refusal && why.body.trouble === 'denied') localStorage.removeItem(TOKEN_KEY);
     }

@@ -21,6 +21,12 @@ export const STALE_MS = 500;
 const AGE_STEP_MS = 50;
 export const stale = computed(() => link.value !== 'open' || age.value >= STALE_MS);
 
+/** Tenths of a second once it matters; below that a bound that does not jump at every picture. */
+export function ageText(ms: number): string {
+  if (!Number.isFinite(ms)) return '';
+  return ms >= STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.ceil((ms + 1) / 100) * 100} ms`;
+}
+
 export function lookAtAge(): void {
   age.value =
     received.peek() === 0

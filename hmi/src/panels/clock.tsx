@@ -31,7 +31,7 @@ export function Clock(): JSX.Element {
       );
     else void order('step_clock', { seconds });
   };
-  const now = clock === undefined || clock === null ? '' : clock.mode === 'real' ? String(clock.factor) : clock.mode;
+  const now = clock === undefined ? '' : clock.mode === 'real' ? String(clock.factor) : clock.mode;
   return (
     <Panel
       title="Clock and E-stop input"

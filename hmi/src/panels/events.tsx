@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { acknowledge, perform } from '../actions';
+import { alarmState } from '../link/alarms';
 import type { Alarm } from '../link/contract';
 import { whyNot } from '../link/orders';
 import * as state from '../link/state';
@@ -9,15 +10,6 @@ import { Icon } from '../parts/icons';
 import { seconds } from '../parts/numbers';
 import { Button, Choice, Empty, Panel } from '../parts/ui';
 import { narrow } from '../view';
-
-/** The four states of an alarm, in words. */
-function alarmState(alarm: Alarm): { word: string; tone: string } {
-  if (alarm.active)
-    return alarm.acknowledged
-      ? { word: 'active, acknowledged', tone: 'attention' }
-      : { word: 'active, unacknowledged', tone: 'alarm' };
-  return alarm.acknowledged ? { word: 'over', tone: 'calm' } : { word: 'returned, unacknowledged', tone: 'attention' };
-}
 
 function Row({ alarm }: { alarm: Alarm }): JSX.Element {
   const { word, tone } = alarmState(alarm);

@@ -1,7 +1,7 @@
 // The jog pad: arrows that move while they are held, or by a step a press.
 import type { JSX } from 'preact';
 import { armed, begin, end, jogging, setArmed, setSpeedPart, setStep, speedPart, stepIndex, STEPS } from '../jog/lease';
-import { JOG_KEYS } from '../keys/table';
+import { padOf } from '../keys/table';
 import { mayOperate, notice } from '../link/orders';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
@@ -47,9 +47,7 @@ function Arrow(props: { axis: string; direction: 1 | -1; icon: IconName; place: 
 }
 
 function Pad(): JSX.Element {
-  const letters = state.axisLetters.value;
-  const [x, y, z, fourth] = JOG_KEYS.map((row) => row.axis([...letters]));
-  const others = [...letters].filter((one) => ![x, y, z, fourth].includes(one));
+  const { x, y, columns } = padOf([...state.axisLetters.value]);
   return (
     <div class="pad">
       <div class="cross">
@@ -58,24 +56,26 @@ function Pad(): JSX.Element {
         {x !== undefined && <Arrow axis={x} direction={1} icon="right" place="east" />}
         {y !== undefined && <Arrow axis={y} direction={-1} icon="down" place="south" />}
       </div>
-      {[z, fourth, ...others]
-        .filter((one): one is string => one !== undefined)
-        .map((one) => (
-          <div class="column" key={one}>
-            <Arrow axis={one} direction={1} icon="up" place="plus" />
-            <Arrow axis={one} direction={-1} icon="down" place="minus" />
-          </div>
-        ))}
+      {columns.map((one) => (
+        <div class="column" key={one}>
+          <Arrow axis={one} direction={1} icon="up" place="plus" />
+          <Arrow axis={one} direction={-1} icon="down" place="minus" />
+        </div>
+      ))}
     </div>
   );
 }
 
-export function Jog(): JSX.Element {
+/** How fast the first axis jogs, as a hint; empty: the machine has no axis. */
+function speedHint(): string {
   const first = state.axes.value[0];
-  const speed =
-    first === undefined
-      ? ''
-      : `${fixed(first.max_speed * speedPart.value, first.max_speed * speedPart.value < 10 ? 2 : 0)} ${unitName(first.unit)}/s on ${first.letter}`;
+  if (first === undefined) return '';
+  const speed = first.max_speed * speedPart.value;
+  return `${fixed(speed, speed < 10 ? 2 : 0)} ${unitName(first.unit)}/s on ${first.letter}`;
+}
+
+export function Jog(): JSX.Element {
+  const speed = speedHint();
   return (
     <Panel
       title="Jog"

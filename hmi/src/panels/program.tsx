@@ -1,5 +1,5 @@
 // The program: open or type it, check it dry, run, step, hold, stop; where it is.
-import { useSignal } from '@preact/signals';
+import { useSignal, type Signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { actions, perform } from '../actions';
@@ -74,7 +74,7 @@ function Findings({ result }: { result: Check }): JSX.Element {
   );
 }
 
-function Progress(): JSX.Element | null {
+export function Progress(): JSX.Element | null {
   const now = status.value?.program;
   if (now === undefined || now.name === '') return null;
   const part = now.lines > 0 ? Math.min(1, now.line / now.lines) : 0;
@@ -86,24 +86,83 @@ function Progress(): JSX.Element | null {
           line {now.line} of {now.lines}
         </span>
         <span class="tabular">
-          {now.remaining_s === null || now.remaining_s === undefined
-            ? now.runs
-              ? 'runs'
-              : 'ended'
-            : `${duration(now.remaining_s)} left`}
+          {now.remaining_s === null ? (now.runs ? 'runs' : 'ended') : `${duration(now.remaining_s)} left`}
         </span>
       </div>
       <progress max="1" value={part} aria-label="Lines of the program that were driven" />
     </div>
   );
 }
-export { Progress };
+function Motion(): JSX.Element {
+  const runs = status.value?.program.runs === true;
+  return (
+    <div class="row">
+      <ActionButton action={actions.run} icon="run" kind={runs ? 'plain' : 'main'} />
+      <ActionButton action={actions.step} icon="step">
+        Step
+      </ActionButton>
+      <ActionButton action={actions.hold} icon="hold">
+        Hold
+      </ActionButton>
+      <Button machine icon="stop" onClick={() => perform(actions.stop)}>
+        Stop
+      </Button>
+    </div>
+  );
+}
+
+function Editor(): JSX.Element {
+  const write = (text: string): void => {
+    program.value = text;
+    checked.value = null;
+  };
+  return (
+    <textarea
+      class="editor"
+      aria-label="Program text"
+      spellcheck={false}
+      value={program.value}
+      onInput={(event) => write(event.currentTarget.value)}
+    />
+  );
+}
+
+/** What is done to the text: another one, typed, checked dry, driven line by line. */
+function Work({ editing }: { editing: Signal<boolean> }): JSX.Element {
+  const file = useRef<HTMLInputElement>(null);
+  const single = status.value?.program.single_step === true;
+  return (
+    <div class="row">
+      <input
+        ref={file}
+        class="hidden"
+        type="file"
+        accept=".ngc,.nc,.gcode,.tap,.txt"
+        tabIndex={-1}
+        aria-label="Program file"
+        onChange={(event) => void open(event.currentTarget.files?.[0])}
+      />
+      <Button icon="open" onClick={() => file.current?.click()}>
+        Open
+      </Button>
+      <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>
+        Edit
+      </Button>
+      <Button icon="check" why={mayCheck()} onClick={() => void check()}>
+        Check
+      </Button>
+      <Switch
+        on={single}
+        label="Single step"
+        why={mayOperate()}
+        onChange={(on) => void order('set_single_step', { on })}
+      />
+    </div>
+  );
+}
 
 export function Program(): JSX.Element {
-  const file = useRef<HTMLInputElement>(null);
   const editing = useSignal(false);
-  const runs = status.value?.program.runs === true;
-  const single = status.value?.program.single_step === true;
   return (
     <Panel
       title="Program"
@@ -113,57 +172,11 @@ export function Program(): JSX.Element {
           {programName.value}
         </span>
       }>
-      <div class="row">
-        <ActionButton action={actions.run} icon="run" kind={runs ? 'plain' : 'main'} />
-        <ActionButton action={actions.step} icon="step">
-          Step
-        </ActionButton>
-        <ActionButton action={actions.hold} icon="hold">
-          Hold
-        </ActionButton>
-        <Button machine icon="stop" onClick={() => perform(actions.stop)}>
-          Stop
-        </Button>
-      </div>
+      <Motion />
       <Progress />
-      {editing.value ? (
-        <textarea
-          class="editor"
-          aria-label="Program text"
-          spellcheck={false}
-          value={program.value}
-          onInput={(event) => ((program.value = event.currentTarget.value), (checked.value = null))}
-        />
-      ) : (
-        <Listing />
-      )}
+      {editing.value ? <Editor /> : <Listing />}
       {checked.value !== null && <Findings result={checked.value} />}
-      <div class="row">
-        <input
-          ref={file}
-          class="hidden"
-          type="file"
-          accept=".ngc,.nc,.gcode,.tap,.txt"
-          tabIndex={-1}
-          aria-label="Program file"
-          onChange={(event) => void open(event.currentTarget.files?.[0])}
-        />
-        <Button icon="open" onClick={() => file.current?.click()}>
-          Open
-        </Button>
-        <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>
-          Edit
-        </Button>
-        <Button icon="check" why={mayCheck()} onClick={() => void check()}>
-          Check
-        </Button>
-        <Switch
-          on={single}
-          label="Single step"
-          why={mayOperate()}
-          onChange={(on) => void order('set_single_step', { on })}
-        />
-      </div>
+      <Work editing={editing} />
     </Panel>
   );
 }

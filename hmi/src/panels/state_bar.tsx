@@ -13,7 +13,7 @@ interface Look {
   tone: 'calm' | 'moves' | 'attention' | 'alarm';
 }
 
-const LOOKS: Record<StateName, Look> = {
+const LOOKS = {
   disabled: { icon: 'disabled', word: 'Disabled', tone: 'calm' },
   standstill: { icon: 'standstill', word: 'Standstill', tone: 'calm' },
   homing: { icon: 'home', word: 'Homing', tone: 'moves' },
@@ -22,7 +22,10 @@ const LOOKS: Record<StateName, Look> = {
   hold: { icon: 'hold', word: 'Hold', tone: 'attention' },
   stopping: { icon: 'stopping', word: 'Stopping', tone: 'attention' },
   'error stop': { icon: 'alarm', word: 'Error stop', tone: 'alarm' },
-};
+} satisfies Record<StateName, Look>;
+/** A program that is newer than the page may know states that the page does not. */
+const lookOf = (name: string): Look =>
+  (LOOKS as Partial<Record<string, Look>>)[name] ?? { icon: 'alarm', word: name, tone: 'attention' };
 
 function Stop(): JSX.Element {
   return (
@@ -38,7 +41,7 @@ function Stop(): JSX.Element {
 }
 
 function StateChip(): JSX.Element {
-  const look = LOOKS[state.machineState.value] ?? { icon: 'alarm', word: state.machineState.value, tone: 'attention' };
+  const look = lookOf(state.machineState.value);
   const why = state.status.value?.why ?? '';
   return (
     <div class={`state ${look.tone}`} role="status" aria-live="polite">
@@ -86,13 +89,7 @@ function Alarms(): JSX.Element {
 
 function LinkAge(): JSX.Element {
   const { value: link } = state.link;
-  const ms = state.age.value;
   const text = link === 'connecting' ? 'connecting' : link === 'lost' ? 'lost' : state.stale.value ? 'silent' : 'live';
-  const shown = Number.isFinite(ms)
-    ? ms >= state.STALE_MS
-      ? `${(ms / 1000).toFixed(1)} s old`
-      : `< ${Math.ceil((ms + 1) / 100) * 100} ms`
-    : '';
   return (
     <div
       class={`fact ${text === 'live' ? 'calm' : 'attention'}`}
@@ -100,7 +97,7 @@ function LinkAge(): JSX.Element {
       <span class="name">Data</span>
       <span class="value tabular">
         <Icon name={text === 'live' ? 'link' : 'lost'} size={15} />
-        {text} {shown}
+        {text} {state.ageText(state.age.value)}
       </span>
     </div>
   );

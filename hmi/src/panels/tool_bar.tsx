@@ -1,8 +1,8 @@
 // The second row: views, who holds control, the clock, who this browser is, its looks.
 import type { JSX } from 'preact';
-import { releaseControl, takeControl } from '../link/control';
+import { releaseControl, takeControl, whyNotControl } from '../link/control';
 import { dialogOpen, forget, inviteOpen } from '../link/pairing';
-import { hasRole, whyNot } from '../link/orders';
+import { hasRole } from '../link/orders';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { Button } from '../parts/ui';
@@ -19,13 +19,8 @@ const TABS: readonly { view: View; text: string; icon: IconName }[] = [
 
 function Control(): JSX.Element {
   const holder = state.holder.value;
-  const own = holder !== '' && holder === state.user.value;
   const mine = state.inControl.value;
-  const why =
-    whyNot('operate') ||
-    (holder !== '' && !mine && !own && !state.standsStill.value
-      ? `${holder} holds control and the machine moves. It can be taken over at standstill.`
-      : '');
+  const why = whyNotControl();
   return (
     <div class="control" role="group" aria-label="Control">
       <span class={`holder ${mine ? 'mine' : ''}`}>
@@ -37,10 +32,7 @@ function Control(): JSX.Element {
           Release
         </Button>
       ) : (
-        <Button
-          kind={why === '' && holder === '' ? 'main' : 'plain'}
-          why={why}
-          onClick={() => takeControl(holder !== '' && !(own && !state.standsStill.value))}>
+        <Button kind={why === '' && holder === '' ? 'main' : 'plain'} why={why} onClick={takeControl}>
           {holder === '' ? 'Take control' : 'Take over'}
         </Button>
       )}

@@ -6,7 +6,7 @@ import { Icon } from './icons';
 export function Dialog(props: {
   title: string;
   open: boolean;
-  onClose(): void;
+  onClose: () => void;
   children: ComponentChildren;
   class?: string;
 }): JSX.Element | null {

@@ -25,7 +25,7 @@ export function hex(value: number | null | undefined, bits: number): string {
   const digits = Math.max(1, Math.ceil(bits / 4));
   const span = 2 ** bits;
   const unsigned = ((value % span) + span) % span;
-  return unsigned.toString(16).toUpperCase().padStart(digits, '0') + 'h';
+  return `${unsigned.toString(16).toUpperCase().padStart(digits, '0')}h`;
 }
 
 export const percent = (part: number): string => `${Math.round(part * 100)} %`;

@@ -37,6 +37,6 @@ export function usePoll<T>(name: string, fields: Fields, every_ms: number): Poll
       live = false;
       clearTimeout(timer);
     };
-  }, [name, key, every_ms]);
+  }, [name, key, every_ms, data, why]);
   return { data, why };
 }

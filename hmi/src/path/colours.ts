@@ -1,4 +1,5 @@
-// The colours of errors: from blue over grey to amber and red, as light in the dark theme as needed; never green against red.
+// The colours of errors: from blue over grey to amber and red, as light in the dark theme as needed; never green
+// against red.
 
 const DARK: readonly (readonly [number, number, number])[] = [
   [72, 166, 236],

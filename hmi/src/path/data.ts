@@ -4,7 +4,10 @@ import { query } from '../link/orders';
 import * as state from '../link/state';
 import { checked, type Check } from './checked';
 
-/** `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one asked about. */
+/**
+ * `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one
+ * asked about.
+ */
 interface PathAnswer {
   number: number;
   axes: string;

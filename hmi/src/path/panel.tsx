@@ -9,6 +9,7 @@ import { dark } from '../view';
 import { css, errorColour } from './colours';
 import { clearDriven, follow, greatestError, letters, plannedIs } from './data';
 import { Flat } from './flat';
+import { planesOf } from './sight';
 
 const plane = signal('XY');
 const fit = signal(false);
@@ -42,10 +43,7 @@ const PLANNED = {
 
 export function Path(): JSX.Element {
   useEffect(follow, []);
-  const has = letters.value;
-  const planes = ['XY', 'XZ', 'YZ'].filter((one) => [...one].every((letter) => has.includes(letter)));
-  const shown = plane.value === '3D' || planes.includes(plane.value) ? plane.value : (planes[0] ?? has.slice(0, 2));
-  const options = [...(planes.length > 0 ? planes : [has.slice(0, 2)]), ...(has.length >= 3 ? ['3D'] : [])];
+  const { options, shown } = planesOf(letters.value, plane.value);
   const of = (i: number): number => state.axes.value.findIndex((axis) => axis.letter === shown[i]);
   return (
     <Panel

@@ -23,12 +23,7 @@ import * as state from '../link/state';
 import { dark } from '../view';
 import { errorColour } from './colours';
 import { driven, greatestError, planned } from './data';
-
-interface Sphere {
-  turn: number;
-  tilt: number;
-  far: number;
-}
+import { KEY_TURNS, turned, type Eye, type Turn } from './eye';
 
 function geometry(points: readonly number[][]): BufferGeometry {
   const flat = new Float32Array(points.length * 3);
@@ -45,7 +40,7 @@ class View {
   private readonly real = new Line(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
   private readonly tool: Mesh<SphereGeometry, MeshBasicMaterial>;
   private readonly middle = new Vector3();
-  readonly eye: Sphere = { turn: -0.9, tilt: 0.6, far: 1 };
+  eye: Eye = { turn: -0.9, tilt: 0.6, far: 1 };
   private wanted = false;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -155,27 +150,20 @@ export function Space(): JSX.Element {
       one.dispose();
     };
   }, []);
-  const turn = (by: number, tilt: number, nearer = 1): void => {
-    const eye = view.current?.eye;
-    if (eye === undefined) return;
-    eye.turn += by;
-    eye.tilt = Math.min(1.5, Math.max(-1.5, eye.tilt + tilt));
-    eye.far = Math.min(1e4, Math.max(1, eye.far * nearer));
-    view.current?.draw();
+  const turn = (by: Turn): void => {
+    if (view.current === null) return;
+    view.current.eye = turned(view.current.eye, by);
+    view.current.draw();
   };
   const key = (event: KeyboardEvent): void => {
-    const moves: Record<string, [number, number, number?]> = {
-      ArrowLeft: [-0.1, 0],
-      ArrowRight: [0.1, 0],
-      ArrowUp: [0, 0.1],
-      ArrowDown: [0, -0.1],
-      '+': [0, 0, 0.9],
-      '-': [0, 0, 1.1],
-    };
-    const move = moves[event.key];
-    if (move === undefined) return;
+    const by = KEY_TURNS[event.key];
+    if (by === undefined) return;
     event.preventDefault();
-    turn(...move);
+    turn(by);
+  };
+  const wheel = (event: WheelEvent): void => {
+    event.preventDefault();
+    turn({ far: event.deltaY > 0 ? 1.1 : 0.9 });
   };
   return (
     <canvas
@@ -186,8 +174,10 @@ export function Space(): JSX.Element {
       aria-label="Path in space: travel, planned and driven line. Arrow keys turn it, plus and minus go nearer and farther."
       onKeyDown={key}
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
-      onPointerMove={(event) => event.buttons === 1 && turn(-event.movementX / 150, event.movementY / 150)}
-      onWheel={(event) => (event.preventDefault(), turn(0, 0, event.deltaY > 0 ? 1.1 : 0.9))}
+      onPointerMove={(event) =>
+        event.buttons === 1 && turn({ turn: -event.movementX / 150, tilt: event.movementY / 150 })
+      }
+      onWheel={wheel}
     />
   );
 }

@@ -18,9 +18,9 @@ interface ChartProps {
   label: string;
   marks?: readonly Mark[];
   /** Whether a line holds its value until the next one. */
-  stepped?(name: string): boolean;
+  stepped?: (name: string) => boolean;
   height?: number;
-  onPick?(x: number): void;
+  onPick?: (x: number) => void;
 }
 
 /** Lines differ by dash, too, not by colour alone. */
@@ -91,21 +91,22 @@ const drawable = (data: (number | null)[][]): uPlot.AlignedData =>
 export function Chart(props: ChartProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  const marks = useRef(props.marks ?? []);
-  const pick = useRef(props.onPick);
-  marks.current = props.marks ?? [];
-  pick.current = props.onPick;
-  const made = `${props.names.join(' ')}|${dark.value}|${props.names.map((name) => props.stepped?.(name) === true)}`;
+  // The plot lives longer than what it is given: it reads the newest.
+  const now = useRef(props);
+  now.current = props;
+  const steps = props.names.map((name) => props.stepped?.(name) === true).join();
+  const made = `${props.names.join(' ')}|${dark.value}|${steps}`;
+  const marks = JSON.stringify(props.marks);
   useEffect(() => {
     const element = box.current;
     if (element === null) return undefined;
     const one = new uPlot(
-      options(element, props, () => marks.current),
-      drawable(props.data),
+      options(element, now.current, () => now.current.marks ?? []),
+      drawable(now.current.data),
       element,
     );
     plot.current = one;
-    one.over.addEventListener('click', (event) => pick.current?.(one.posToVal(event.offsetX, 'x')));
+    one.over.addEventListener('click', (event) => now.current.onPick?.(one.posToVal(event.offsetX, 'x')));
     const watch = new ResizeObserver(() =>
       one.setSize({ width: Math.max(100, element.clientWidth), height: Math.max(80, element.clientHeight) }),
     );
@@ -117,7 +118,7 @@ export function Chart(props: ChartProps): JSX.Element {
     };
   }, [made]);
   useEffect(() => plot.current?.setData(drawable(props.data)), [props.data]);
-  useEffect(() => plot.current?.redraw(false, true), [JSON.stringify(props.marks)]);
+  useEffect(() => plot.current?.redraw(false, true), [marks]);
   return (
     <div
       ref={box}

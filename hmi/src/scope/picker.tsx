@@ -5,6 +5,7 @@ import { channelList } from '../link/rack';
 import { notice } from '../link/orders';
 import { Icon } from '../parts/icons';
 import { Field } from '../parts/ui';
+import { matching } from './matching';
 
 const SHOWN = 30;
 
@@ -14,12 +15,7 @@ export function Picker(props: {
   onChange(chosen: string[]): void;
 }): JSX.Element {
   const filter = useSignal('');
-  const part = filter.value.toLowerCase();
-  const fits = channelList.value.filter(
-    (one) =>
-      !props.chosen.includes(one.name) &&
-      (one.name.toLowerCase().includes(part) || (part.length > 3 && one.text.toLowerCase().includes(part))),
-  );
+  const fits = matching(channelList.value, props.chosen, filter.value);
   const add = (name: string): void => {
     if (props.chosen.length >= props.most)
       notice('refused', `${props.most} channels are the most at once. Take one away first.`);
