@@ -8,8 +8,28 @@ target_include_directories(motionrack_flags INTERFACE $<BUILD_INTERFACE:${PROJEC
 # Nobody replaces a function at load time, so position-independent code may inline it: the chip is a tenth to a third faster.
 # Strangers need only the flag that decides bits.
 set(own_flags -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(MOTIONRACK_WERROR)
+  list(APPEND own_flags -Werror)
+endif()
 target_compile_options(motionrack_flags INTERFACE -ffp-contract=off "$<BUILD_INTERFACE:${own_flags}>")
 set_target_properties(motionrack_flags PROPERTIES EXPORT_NAME flags)
+
+# The sources of a target are compiled together, some tens at a time: headers and templates are paid once, which makes a build several times as
+# quick. So names in their anonymous namespaces are unique within a target. Without it (MOTIONRACK_UNITY=OFF, a part of ./test --all) each source
+# is compiled alone and has to include all that it uses.
+if(MOTIONRACK_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 40)
+  # g++ takes a source that is included for a header, whose classes should have no members of hidden types.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(motionrack_flags INTERFACE "$<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>>")
+  endif()
+endif()
+
+# motionrack_compile_quickly(TARGET): what is compiled longer than it runs (the network, the command line, tests) is optimised less.
+function(motionrack_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
 
 # motionrack_room(NAME [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME, for others
 # motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the latter have no library.
@@ -35,23 +55,47 @@ function(motionrack_room name)
   endif()
 endfunction()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [FAULTS FILTER]): one test program; each of its tests is a ctest test. Those with the
-# label deep take minutes; ./test leaves them out, ctest -L deep passes them. FAULTS: those that rows of the catalogue of faults name, which get the
-# label fault; a filter of GoogleTest.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [ALONE]): the test program test_NAME, which ctest runs as
+# NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take minutes: ./test leaves them out, ./test --all has them. FAULTS: those
+# that rows of the catalogue of faults name, a filter of GoogleTest; they run as NAME.faults with the label fault. ALONE: each test is a process of
+# its own, where a library has one state for the whole process. tests/programs runs single tests by their names.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "" "FAULTS" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "ALONE" "FAULTS;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
+  # What replaces operator new is seen by its caller only at the link.
+  foreach(source IN LISTS T_SOURCES)
+    if(source MATCHES "allocation_count")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} rapidcheck GTest::gmock GTest::gtest_main)
+  motionrack_compile_quickly(test_${name})
   target_compile_definitions(test_${name} PRIVATE MOTIONRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  if(T_FAULTS)
-    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${T_FAULTS}" PROPERTIES TIMEOUT 600 LABELS fault)
-    set(others TEST_FILTER "-${T_FAULTS}")
+  if(T_ALONE)
+    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
+    return()
   endif()
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 ${others} PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
+  set(others --gtest_brief=1)
+  if(T_FAULTS)
+    add_test(NAME ${name}.faults COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${T_FAULTS}")
+    set_tests_properties(${name}.faults PROPERTIES TIMEOUT 1200 LABELS "fault;${T_LABELS}")
+    list(APPEND others "--gtest_filter=-${T_FAULTS}")
+  endif()
+  if(NOT T_SHARDS)
+    add_test(NAME ${name} COMMAND test_${name} ${others})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 1200 LABELS "${T_LABELS}")
+    return()
+  endif()
+  foreach(shard RANGE 1 ${T_SHARDS})
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${name}.${shard} COMMAND test_${name} ${others})
+    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT 1200 LABELS "${T_LABELS}"
+                         ENVIRONMENT "GTEST_TOTAL_SHARDS=${T_SHARDS};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()

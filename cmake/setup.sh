@@ -1,9 +1,13 @@
 # Shared by ./run and ./test: installs what is missing (Debian packages), configures and builds. Sourced, not run.
+# shellcheck shell=bash
+# shellcheck source=cmake/machine.sh
+. "${BASH_SOURCE[0]%/*}/machine.sh"
 
 say() { printf '%s\n' "motionrack: $*" >&2; }
 
 # need_packages PACKAGE...: installs those that are not there, saying first which and why root is needed.
 need_packages() {
+    need_apt || return 1
     local missing=() package
     for package in "$@"; do
         dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
@@ -30,33 +34,39 @@ need_packages() {
                 apt-get -o DPkg::Lock::Timeout=300 -y -q install --no-install-recommends "${missing[@]}"
     } >"$log" 2>&1; then
         tail -n 25 "$log" >&2
-        say "the installation failed; the whole log is $log"
+        why_apt_failed "$log"
         return 1
     fi
     rm -f "$log"
 }
 
-# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long.
+# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long. A folder that has
+# the tests too does for what is asked without them, so ./run and ./test share one.
 build_in() {
     local folder=$1 targets=$2
     shift 2
-    local stamp="$folder/.configured-with" want="$*"
-    if [ ! -e "$folder/build.ninja" ] || [ "$(cat "$stamp" 2>/dev/null)" != "$want" ]; then
+    if command -v ccache >/dev/null 2>&1; then
+        set -- "$@" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+    fi
+    local stamp="$folder/.configured-with" want="$*" is
+    is=$(cat "$stamp" 2>/dev/null) || is=""
+    if [ ! -e "$folder/build.ninja" ] || { [ "$is" != "$want" ] && [ "$is" != "${want/MOTIONRACK_TESTS=OFF/MOTIONRACK_TESTS=ON}" ]; }; then
+        need_tools "$@" || return 1
         say "configuring in $folder"
         rm -f "$folder/CMakeCache.txt"
         cmake -S . -B "$folder" -G Ninja "$@" >"$folder.configure.log" 2>&1 || {
             cat "$folder.configure.log" >&2
-            say "cmake could not configure; see above"
+            no_room "$folder" || say "cmake could not configure; see above"
             return 1
         }
         printf '%s' "$want" >"$stamp"
     fi
-    # shellcheck disable=SC2086
-    if [ -n "$(ninja -C "$folder" -n $targets 2>&1 | grep -c 'no work to do' | grep -x 0)" ]; then
-        say "building (the first time takes a few minutes)"
-        # shellcheck disable=SC2086
+    # shellcheck disable=SC2086  # the targets are words
+    if ! ninja -C "$folder" -n $targets 2>&1 | grep 'no work to do' >/dev/null; then
+        say "building in $folder (the first time takes about four minutes on two cores)"
+        # shellcheck disable=SC2086  # the targets are words
         ninja -C "$folder" $targets >&2 || {
-            say "the build failed; see above"
+            no_room "$folder" || say "the build failed; see above"
             return 1
         }
     fi
@@ -83,11 +93,19 @@ build_page() {
     printf '%s' "$want" >"$stamp"
 }
 
-run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
+# What ./run and ./test configure build/release with, besides MOTIONRACK_TESTS.
+# shellcheck disable=SC2034  # both use it
+release_options=(-DCMAKE_BUILD_TYPE=Release -DMOTIONRACK_WERROR=ON -DCMAKE_INSTALL_PREFIX=/usr)
+
+run_packages=(g++ cmake ninja-build ccache libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
+# shellcheck disable=SC2034  # bench/page has them installed
 bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigrok-cli)
-test_packages=("${run_packages[@]}" "${python_packages[@]}" mypy python3-matplotlib libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
-    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
-    bcnc xvfb xauth nats-server python3-h5py octave linuxcnc-uspace debootstrap dpkg-dev file)
+# shellcheck disable=SC2034  # ./test has them installed
+test_packages=("${run_packages[@]}" "${python_packages[@]}"
+    black flake8 mypy shellcheck
+    libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang libclang-rt-14-dev make
+    python3-matplotlib python3-h5py iverilog fp-compiler fp-units-rtl octave sigrok-cli linuxcnc-uspace
+    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap dpkg-dev file)

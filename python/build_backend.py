@@ -1,8 +1,10 @@
 """Makes the wheel of the package with nothing but CMake, a compiler and Python's own library: PEP 517, without network.
 
-    pip ──build_wheel──► cmake -S .. -B ../build/python ──► _core.*.so and the package's files ──► motionrack-VERSION-cp311-cp311-linux_x86_64.whl
+    pip ──build_wheel──► cmake -S .. -B ../build/python ──► _core.*.so and the package's files
+                                                          ──► motionrack-VERSION-cp311-cp311-linux_x86_64.whl
 
-A build folder that is there already is taken by  --config-settings=build-dir=FOLDER,  so that nothing is compiled twice.
+A build folder that is there already is taken by  --config-settings=build-dir=FOLDER, so that nothing is compiled
+twice.
 """
 
 from __future__ import annotations
@@ -27,9 +29,13 @@ Settings = dict[str, Any] | None
 
 def version() -> str:
     """The project's, which CMakeLists.txt has."""
-    match = re.search(r"^project\(motionrack VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+    match = re.search(
+        r"^project\(motionrack VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE
+    )
     if match is None:
-        raise SystemExit("motionrack: ../CMakeLists.txt has no version; the package is built in its own tree, beside motionrack/")
+        raise SystemExit(
+            "motionrack: ../CMakeLists.txt has no version; the package is built in its own tree, beside motionrack/"
+        )
     return match[1]
 
 
@@ -44,19 +50,43 @@ def compiled(settings: Settings) -> Path:
     folder = Path(str(chosen)).resolve() if chosen else ROOT / "build" / "python"
     if not chosen or not (folder / "CMakeCache.txt").exists():
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-        subprocess.run(["cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DMOTIONRACK_TESTS=OFF", "-DMOTIONRACK_PYTHON=ON",
-                        f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
-    subprocess.run(["cmake", "--build", folder, "--target", "motionrack_python", "--parallel", str(os.cpu_count() or 1)], check=True)
+        subprocess.run(
+            [
+                "cmake",
+                "-S",
+                ROOT,
+                "-B",
+                folder,
+                *generator,
+                "-DCMAKE_BUILD_TYPE=Release",
+                "-DMOTIONRACK_TESTS=OFF",
+                "-DMOTIONRACK_PYTHON=ON",
+                f"-DPython3_EXECUTABLE={sys.executable}",
+            ],
+            check=True,
+        )
+    subprocess.run(
+        ["cmake", "--build", folder, "--target", "motionrack_python", "--parallel", str(os.cpu_count() or 1)],
+        check=True,
+    )
     return folder / "python" / "motionrack"
 
 
 def described() -> dict[str, str]:
     """The files of the wheel's dist-info, RECORD left out."""
     project = tomllib.loads((HERE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    head = [f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {version()}\nSummary: {project['description']}\nRequires-Python: {project['requires-python']}",
-            *(f"Requires-Dist: {each}" for each in project["dependencies"]), "Description-Content-Type: text/markdown\n"]
-    return {"METADATA": "\n".join(head) + "\n" + (HERE / project["readme"]).read_text(encoding="utf-8"),
-            "WHEEL": f"Wheel-Version: 1.0\nGenerator: motionrack\nRoot-Is-Purelib: false\nTag: {tag()}\n"}
+    head = [
+        (
+            f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {version()}\n"
+            f"Summary: {project['description']}\nRequires-Python: {project['requires-python']}"
+        ),
+        *(f"Requires-Dist: {each}" for each in project["dependencies"]),
+        "Description-Content-Type: text/markdown\n",
+    ]
+    return {
+        "METADATA": "\n".join(head) + "\n" + (HERE / project["readme"]).read_text(encoding="utf-8"),
+        "WHEEL": f"Wheel-Version: 1.0\nGenerator: motionrack\nRoot-Is-Purelib: false\nTag: {tag()}\n",
+    }
 
 
 def dist_info() -> str:
@@ -77,7 +107,11 @@ def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: S
 
 def build_wheel(wheel_directory: str, config_settings: Settings = None, metadata_directory: str | None = None) -> str:
     package = compiled(config_settings)
-    files = {f"motionrack/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.suffix in (".py", ".pyi", ".so") or path.name == "py.typed"}
+    files = {
+        f"motionrack/{path.name}": path.read_bytes()
+        for path in sorted(package.iterdir())
+        if path.suffix in (".py", ".pyi", ".so") or path.name == "py.typed"
+    }
     files |= {f"{dist_info()}/{name}": text.encode() for name, text in described().items()}
     name = f"motionrack-{version()}-{tag()}.whl"
     record = ""
@@ -86,9 +120,16 @@ def build_wheel(wheel_directory: str, config_settings: Settings = None, metadata
             wheel.writestr(zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED)
             digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
             record += f"{path},sha256={digest},{len(data)}\n"
-        wheel.writestr(zipfile.ZipInfo(f"{dist_info()}/RECORD", (1980, 1, 1, 0, 0, 0)), record + f"{dist_info()}/RECORD,,\n", zipfile.ZIP_DEFLATED)
+        wheel.writestr(
+            zipfile.ZipInfo(f"{dist_info()}/RECORD", (1980, 1, 1, 0, 0, 0)),
+            record + f"{dist_info()}/RECORD,,\n",
+            zipfile.ZIP_DEFLATED,
+        )
     return name
 
 
 def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
-    raise SystemExit("motionrack: the package is a part of the project's tree and has no source archive of its own; install it from the tree")
+    raise SystemExit(
+        "motionrack: the package is a part of the project's tree and has no source archive of its own; install it from "
+        "the tree"
+    )

@@ -24,7 +24,7 @@ std::string trimmed(const std::string& line) {
     return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> lines_in(const std::string& text) {
     std::istringstream in(text);
     std::vector<std::string> out;
     for (std::string line; std::getline(in, line);) out.push_back(line);
@@ -32,10 +32,10 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// The texts between ```LANGUAGE and ``` of a page.
-std::vector<std::string> code_of(const fs::path& page, const std::string& language) {
+std::vector<std::string> code_in_page(const fs::path& page, const std::string& language) {
     std::vector<std::string> out;
     bool inside = false;
-    for (const std::string& line : lines_of(text_of(page))) {
+    for (const std::string& line : lines_in(text_of(page))) {
         if (inside && line == "```")
             inside = false;
         else if (inside)
@@ -68,7 +68,7 @@ std::string anchor_of(const std::string& heading) {
 }
 
 bool has_heading(const fs::path& page, const std::string& anchor) {
-    for (const std::string& line : lines_of(text_of(page)))
+    for (const std::string& line : lines_in(text_of(page)))
         if (!line.empty() && line[0] == '#' && anchor_of(line) == anchor) return true;
     return false;
 }
@@ -108,9 +108,9 @@ TEST(Docs, LinksLeadSomewhere) {
 
 TEST(Docs, TheCppOfTheReadmeIsTheLibraryExample) {
     const std::string example = text_of(root / "examples/06_library/main.cpp");
-    const auto shown = code_of(root / "README.md", "cpp");
+    const auto shown = code_in_page(root / "README.md", "cpp");
     ASSERT_EQ(shown.size(), 1u);
-    for (const std::string& line : lines_of(shown[0]))
+    for (const std::string& line : lines_in(shown[0]))
         EXPECT_NE(example.find("\n    " + trimmed(line) + "\n"), std::string::npos) << line;
 }
 
@@ -118,7 +118,7 @@ TEST(Docs, GcodeOfThePagesRuns) {
     const rack::RackConfig config = *rack::read_rack_text(*rack::rack_template("router")).config;
     int programs = 0;
     for (const fs::path& page : pages())
-        for (const std::string& program : code_of(page, "gcode")) {
+        for (const std::string& program : code_in_page(page, "gcode")) {
             rack::Rack rack(config);
             rack::JobSettings settings;
             settings.program = program;

@@ -9,6 +9,7 @@
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <string>
+#include <tests/environment.hpp>
 
 namespace motionrack::rack {
 
@@ -17,12 +18,6 @@ inline RackConfig router(const std::string& profile = "trapezoid") {
     RackConfig config = *read_rack_text(*rack_template("router")).config;
     config.controller.profile = profile;
     return config;
-}
-
-/// Of the environment: what picks random programs.
-inline std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-    const char* text = std::getenv(variable);
-    return text ? std::strtoull(text, nullptr, 0) : otherwise;
 }
 
 struct Done {

@@ -18,7 +18,7 @@ double most_beside(const test::RandomProgram& program) {
 
 /// Drives them one after the other; returns how many the reader took (an arc may bulge beyond the travel).
 int drive_random(const std::string& profile, test::ProgramSize size) {
-    const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 40);
+    const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_PROGRAMS", 40);
     const RackConfig config = router(profile);
     int driven = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
@@ -59,7 +59,7 @@ TEST_P(JourneyAtRandom, TinyMovesEndExactlyStayOnTheirPathAndKeepSpeedAndAcceler
 }
 
 TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLimits) {
-    const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 40);
+    const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_PROGRAMS", 40);
     const RackConfig config = router(GetParam());
     int stopped = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
@@ -99,7 +99,7 @@ std::string four_axes(std::uint64_t seed) {
 }
 
 TEST(FourAxesTogether, TakeTheTimeOfThePlanWithLimitedJerkAndLoseNoStep) {
-    const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 40);
+    const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_PROGRAMS", 40);
     const RackConfig config = router("jerk_limited");
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         const std::string program = four_axes(seed);

@@ -9,6 +9,7 @@
 #include <motionrack/journal/journal.hpp>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <tests/environment.hpp>
 #include <tests/ran.hpp>
 
 namespace motionrack {
@@ -133,8 +134,8 @@ class AServedRack : public InFolder {
 constexpr const char* long_way = "G1 X500 F3000\nX0\nX500\nX0\nM30\n";
 
 TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
-    const std::uint32_t seed = std::random_device{}();
-    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto seed = static_cast<std::uint32_t>(seed_from_environment());
+    SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
     std::mt19937 random(seed);
     const auto among = [&](int least, int greatest) {
         return std::uniform_int_distribution<int>(least, greatest)(random);

@@ -37,25 +37,78 @@ def _late(results: dict) -> float:
 
 def _widest(kind: str, size: int, counter: str) -> Callable[[dict], float]:
     """Of the widest kernels that the CPU has."""
-    return lambda results: max(row[counter] for name, row in results["benches"]["decode"].items() if name.startswith(kind + "/") and name.endswith(f"/{size}"))
+    return lambda results: max(
+        row[counter]
+        for name, row in results["benches"]["decode"].items()
+        if name.startswith(kind + "/") and name.endswith(f"/{size}")
+    )
 
 
 AIMS = [
-    Aim("four axes cruise at 4 Mpps, the host looks each ms: virtual seconds a second", _own("chip", "cruise/look_each_ms", "sim_s/s"), 10_000, "{:,.0f}"),
-    Aim("a whole move with its ramps, nobody listening: times the twin", _times("chip", "moves/servo", "moves_twin/servo"), 1_000, "{:,.0f}"),
-    Aim("edges listened to and decoded: millions a second", _millions("chip", "edges_in_batches/4_Mpps"), 200, "{:,.0f}"),
-    Aim("a step of an axis' speed that a machine hears, ns", _of("chip", "speed_steps/t_curve_machines"), 60, "{:.1f}", True),
+    Aim(
+        "four axes cruise at 4 Mpps, the host looks each ms: virtual seconds a second",
+        _own("chip", "cruise/look_each_ms", "sim_s/s"),
+        10_000,
+        "{:,.0f}",
+    ),
+    Aim(
+        "a whole move with its ramps, nobody listening: times the twin",
+        _times("chip", "moves/servo", "moves_twin/servo"),
+        1_000,
+        "{:,.0f}",
+    ),
+    Aim(
+        "edges listened to and decoded: millions a second", _millions("chip", "edges_in_batches/4_Mpps"), 200, "{:,.0f}"
+    ),
+    Aim(
+        "a step of an axis' speed that a machine hears, ns",
+        _of("chip", "speed_steps/t_curve_machines"),
+        60,
+        "{:.1f}",
+        True,
+    ),
     Aim("an edge at an even speed, made and decoded, ns", _of("chip", "edges_in_batches/4_Mpps"), 1, "{:.2f}", True),
     Aim("an edge on a line, ns", _of("chip", "path_edges/line"), 1, "{:.2f}", True),
     Aim("an edge on a circle, ns", _of("chip", "path_edges/arc"), 1, "{:.2f}", True),
-    Aim("an edge on a circle at constant vector speed, ns", _of("chip", "path_edges/arc_at_constant_vector_speed"), 1, "{:.2f}", True),
-    Aim("sampled lines of one axis, a byte a sample: times a table of 16, with the CPU's widest kernels", _widest("one_axis_bytes", 16384, "ratio"), 20, "{:.1f}"),
+    Aim(
+        "an edge on a circle at constant vector speed, ns",
+        _of("chip", "path_edges/arc_at_constant_vector_speed"),
+        1,
+        "{:.2f}",
+        True,
+    ),
+    Aim(
+        "sampled lines of one axis, a byte a sample: times a table of 16, with the CPU's widest kernels",
+        _widest("one_axis_bytes", 16384, "ratio"),
+        20,
+        "{:.1f}",
+    ),
     Aim("four axes in a byte: times a table of 65,536", _widest("four_axes_in_a_byte", 16384, "ratio"), 8, "{:.1f}"),
-    Aim("frames of the grating bus, eight scales and eleven cards: times a clocked simulation", _times("grating", "frames_of_cards/alone", "frames_clocked"), 1_000, "{:,.0f}"),
-    Aim("the same with every wire listened to", _times("grating", "frames_of_cards/every_wire_watched", "frames_clocked"), 1_000, "{:,.0f}"),
+    Aim(
+        "frames of the grating bus, eight scales and eleven cards: times a clocked simulation",
+        _times("grating", "frames_of_cards/alone", "frames_clocked"),
+        1_000,
+        "{:,.0f}",
+    ),
+    Aim(
+        "the same with every wire listened to",
+        _times("grating", "frames_of_cards/every_wire_watched", "frames_clocked"),
+        1_000,
+        "{:,.0f}",
+    ),
     Aim("200 WebSocket clients at 20 Hz: lateness that 99 % of the slices stay within, ms", _late, 5, "{:.1f}", True),
-    Aim("RTC5, a vector each tick with encoder correction and table: millions of ticks a second", _millions("rtc5", "run_card/micro_vectors_fly_table"), 100, "{:,.0f}"),
-    Aim("RTC5, long vectors that nobody looks at: millions of ticks a second", _millions("rtc5", "run_card/long_marks_unseen"), 10_000, "{:,.0f}"),
+    Aim(
+        "RTC5, a vector each tick with encoder correction and table: millions of ticks a second",
+        _millions("rtc5", "run_card/micro_vectors_fly_table"),
+        100,
+        "{:,.0f}",
+    ),
+    Aim(
+        "RTC5, long vectors that nobody looks at: millions of ticks a second",
+        _millions("rtc5", "run_card/long_marks_unseen"),
+        10_000,
+        "{:,.0f}",
+    ),
 ]
 
 

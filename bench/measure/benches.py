@@ -1,4 +1,5 @@
-"""Runs the benchmark programs (Google Benchmark) and makes one number of each: the median of its repetitions, and how far they differ."""
+"""Runs the benchmark programs (Google Benchmark) and makes one number of each:
+the median of its repetitions, and how far they differ."""
 import json
 import re
 import statistics
@@ -6,16 +7,31 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from kinds import Bench, Program, bench_of, plain_name
 from running import Progress, Trouble, run, say
-from table import PROGRAMS, Bench, Program, bench_of, plain_name
+from table import PROGRAMS
 
 #: Counters that are kept as they are, where a bench has them.
-KEPT = ("ratio", "sim_s/s", "real time", "p50_us", "p99_us", "p999_us", "p99.9_us", "max_us", "most_us", "lost", "dropped", "snapshot_bytes")
+KEPT = (
+    "ratio",
+    "sim_s/s",
+    "real time",
+    "p50_us",
+    "p99_us",
+    "p999_us",
+    "p99.9_us",
+    "max_us",
+    "most_us",
+    "lost",
+    "dropped",
+    "snapshot_bytes",
+)
 SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 def nanoseconds_each(row: dict, counter: str) -> float:
-    """Nanoseconds of one thing, from a run as Google Benchmark writes it. Raises Trouble if the run has no such counter."""
+    """Nanoseconds of one thing, from a run as Google Benchmark writes it.
+    Raises Trouble if the run has no such counter."""
     if not counter:
         clock = row["real_time"] if "/real_time" in row["name"] else row["cpu_time"]
         return clock * SECONDS[row["time_unit"]] * 1e9
@@ -25,7 +41,8 @@ def nanoseconds_each(row: dict, counter: str) -> float:
 
 
 def summary_of(rows: list[dict], bench: Bench) -> dict:
-    """Median and, of more than one, spread (the greatest distance from the median, as a part of it) of the repetitions of one bench."""
+    """Median and, of more than one, spread (the greatest distance from the median,
+    as a part of it) of the repetitions of one bench."""
     times = [nanoseconds_each(row, bench.unit.counter) for row in rows]
     median = statistics.median(times)
     out: dict = {"ns": median}
@@ -49,7 +66,10 @@ def read_results(text: str, program: Program) -> dict[str, dict]:
     for name, runs in rows.items():
         bench = bench_of(program, name)
         if not bench:
-            raise Trouble(f"bench_{program.name} has the bench {name}, which is not in bench/measure/table.py; add it there with what it means.")
+            raise Trouble(
+                f"bench_{program.name} has the bench {name}, which is not in bench/measure/table.py; add it there with "
+                "what it means."
+            )
         out[name] = summary_of(runs, bench)
     return out
 
@@ -69,7 +89,7 @@ def _follow(argv: list[str], expected: int) -> None:
     with subprocess.Popen(argv, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         done: set[str] = set()
         said = []
-        for line in process.stdout:
+        for line in process.stdout or ():
             said.append(line)
             name = line.split(" ")[0]
             if " ns " in line or " ms " in line or " us " in line:
@@ -87,11 +107,23 @@ def names_of(binary: Path, pattern: str = ".") -> list[str]:
 def run_program(folder: Path, program: Program, quick: bool) -> dict[str, dict]:
     """Runs one program. `quick`: each bench once and shortly, and no bench that lasts."""
     binary = folder / f"bench_{program.name}"
-    pattern = "|".join(f"^{re.escape(bench.name)}(/|$)" for bench in program.benches if not (quick and bench.name == "network"))
+    pattern = "|".join(
+        f"^{re.escape(bench.name)}(/|$)" for bench in program.benches if not (quick and bench.name == "network")
+    )
     with tempfile.TemporaryDirectory() as scratch:
         results = Path(scratch) / "results.json"
-        _follow([*program.prefix, str(binary), f"--benchmark_filter={pattern}", f"--benchmark_out={results}", "--benchmark_out_format=json",
-                 f"--benchmark_repetitions={1 if quick else 5}", f"--benchmark_min_time={0.005 if quick else 0.25}"], len(names_of(binary, pattern)))
+        _follow(
+            [
+                *program.prefix,
+                str(binary),
+                f"--benchmark_filter={pattern}",
+                f"--benchmark_out={results}",
+                "--benchmark_out_format=json",
+                f"--benchmark_repetitions={1 if quick else 5}",
+                f"--benchmark_min_time={0.005 if quick else 0.25}",
+            ],
+            len(names_of(binary, pattern)),
+        )
         return read_results(results.read_text(encoding="utf-8"), program)
 
 
@@ -99,7 +131,10 @@ def measure(folder: Path, programs: list[Program], progress: Progress, quick: bo
     """All programs' benches: {section: {name: summary}}."""
     out: dict[str, dict] = {}
     for program in programs:
-        progress.step(f"bench_{program.name}{' under ' + ' '.join(program.prefix) if program.prefix else ''}: {len(program.benches)} benches")
+        progress.step(
+            f"bench_{program.name}{' under ' + ' '.join(program.prefix) if program.prefix else ''}: "
+            f"{len(program.benches)} benches"
+        )
         if quick and program.prefix:
             say("left out in a quick run")
         elif not allowed(program.prefix):

@@ -6,7 +6,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from table import ROOT
+from kinds import ROOT
 
 
 def _said(*argv: str) -> str:
@@ -39,11 +39,13 @@ def machine(folder: Path) -> dict:
         "virtual": bool(re.search(r"\bhypervisor\b", _from("/proc/cpuinfo", r"^flags\s*:\s*(.*)$"))),
         "cores": os.cpu_count(),
         "memory_gb": round(kilobytes / 1e6),
-        "kernel": re.match(r"[\d.]+", platform.release())[0].rstrip("."),
+        "kernel": re.sub(r"[^\d.].*", "", platform.release()).rstrip("."),
         "system": _from("/etc/os-release", r'^PRETTY_NAME="(.*)"$'),
         "compiler": _said(compiler, "--version"),
         "load": os.getloadavg()[0],
         "day": time.strftime("%Y-%m-%d"),
         "version": _from(str(ROOT / "CMakeLists.txt"), r"project\(motionrack VERSION ([\d.]+)"),
-        "peers": {package: version_of(package) for package in ("verilator", "linuxcnc-uspace", "sigrok-cli", "valgrind")},
+        "peers": {
+            package: version_of(package) for package in ("verilator", "linuxcnc-uspace", "sigrok-cli", "valgrind")
+        },
     }

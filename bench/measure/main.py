@@ -11,24 +11,49 @@ import benches
 import instructions
 import peers
 import whole
+from kinds import ROOT
 from machine import machine
 from page import page
 from running import Progress, Trouble, say
-from table import PROGRAMS, ROOT
+from table import PROGRAMS
 
 STORED = ROOT / "bench/measured.json"
 PAGE = ROOT / "docs/reference/performance.md"
 
 
 def options(argv: list[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="bench/page", description="Runs every benchmark, counts instructions, measures memory, growth and peers, and writes docs/reference/performance.md. "
-                                     "Takes about half an hour on a machine that has nothing else to do; progress is told on the way.",
-                                     epilog="Example: bench/page --quick    a small run of everything, into build/bench/performance.md")
-    parser.add_argument("--quick", action="store_true", help="a small run, whose times say little: each bench once, small files; the page goes to build/bench/performance.md")
-    parser.add_argument("--only", nargs="+", default=[], metavar="PROGRAM", help="these benchmark programs alone, without peers, growth and whole programs; the page goes to "
-                        "build/bench/performance.md. One of: " + ", ".join(sorted({program.name for program in PROGRAMS})))
-    parser.add_argument("--from", dest="stored", metavar="FILE", help="measure nothing, write the page from these results (a run's are in bench/measured.json)")
-    parser.add_argument("--output", metavar="FILE", help="where the page goes, '-': standard output; its results go beside it, as FILE with .json")
+    parser = argparse.ArgumentParser(
+        prog="bench/page",
+        description="Runs every benchmark, counts instructions, measures memory, growth and peers, and writes "
+        "docs/reference/performance.md. Takes about half an hour on a machine that has nothing else to do; progress is "
+        "told on the way.",
+        epilog="Example: bench/page --quick    a small run of everything, into build/bench/performance.md",
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="a small run, whose times say little: each bench once, small files; the page goes to "
+        "build/bench/performance.md",
+    )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="PROGRAM",
+        help="these benchmark programs alone, without peers, growth and whole programs; the page goes to "
+        "build/bench/performance.md. One of: " + ", ".join(sorted({program.name for program in PROGRAMS})),
+    )
+    parser.add_argument(
+        "--from",
+        dest="stored",
+        metavar="FILE",
+        help="measure nothing, write the page from these results (a run's are in bench/measured.json)",
+    )
+    parser.add_argument(
+        "--output",
+        metavar="FILE",
+        help="where the page goes, '-': standard output; its results go beside it, as FILE with .json",
+    )
     parser.add_argument("--build", default="build/bench", metavar="FOLDER", help=argparse.SUPPRESS)
     return parser.parse_args(argv)
 
@@ -49,17 +74,28 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
     progress = Progress(2 * len(programs) + (0 if names else 8))
     results: dict = {"quick": quick, "machine": machine(folder), "benches": {}, "growth": {}, "peers": {}}
     if results["machine"]["load"] > 0.5:
-        say(f"the machine is busy (load {results['machine']['load']:.1f}): times and ratios of peers will be off; end what else runs, or take them as they are")
+        say(
+            f"the machine is busy (load {results['machine']['load']:.1f}): times and ratios of peers will be off; end "
+            "what else runs, or take them as they are"
+        )
     binaries, program = folder / "bench", folder / "bin/motionrack"
     results["benches"] = benches.measure(binaries, programs, progress, quick)
     with tempfile.TemporaryDirectory(prefix="motionrack-page-") as name:
         scratch = Path(name)
         if not names:
             of_file, of_benches = (program, scratch, progress, quick), (binaries, progress, quick)
-            results["peers"] = {"linuxcnc": tried(peers.linuxcnc_steps, scratch, progress, quick), "sigrok": tried(peers.sigrok, *of_file), "rs274": tried(peers.interpreter, *of_file)}
+            results["peers"] = {
+                "linuxcnc": tried(peers.linuxcnc_steps, scratch, progress, quick),
+                "sigrok": tried(peers.sigrok, *of_file),
+                "rs274": tried(peers.interpreter, *of_file),
+            }
             results["programs"] = tried(whole.programs, *of_file, ROOT / "examples/02_part/part.ngc")
-            results["growth"] = {"lines": tried(whole.growth_with_lines, *of_file), "edges": tried(whole.growth_with_edges, *of_file),
-                                 "cards": tried(whole.growth_with_cards, *of_benches), "clients": tried(whole.growth_with_clients, *of_benches)}
+            results["growth"] = {
+                "lines": tried(whole.growth_with_lines, *of_file),
+                "edges": tried(whole.growth_with_edges, *of_file),
+                "cards": tried(whole.growth_with_cards, *of_benches),
+                "clients": tried(whole.growth_with_clients, *of_benches),
+            }
     instructions.measure(binaries, programs, progress, quick, results["benches"])
     results["minutes"] = (time.monotonic() - begin) / 60
     return results
@@ -77,8 +113,12 @@ def rounded(value):
 def stored_text(results: dict) -> str:
     """The results as JSON, a bench a line, so that two runs can be compared line by line."""
     text = json.dumps({**results, "benches": None}, indent=1)
-    sections = ",\n".join(f'  "{section}": {{\n' + ",\n".join(f"   {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items()) + "\n  }"
-                          for section, rows in results["benches"].items())
+    sections = ",\n".join(
+        f'  "{section}": {{\n'
+        + ",\n".join(f"   {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items())
+        + "\n  }"
+        for section, rows in results["benches"].items()
+    )
     return text.replace('"benches": null', '"benches": {\n' + sections + "\n }") + "\n"
 
 

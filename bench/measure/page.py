@@ -1,8 +1,9 @@
 """Writes the page from the results of a run."""
 from aims import verdicts
 from growth_page import growth, whole_programs
+from kinds import Bench, Program, bench_of
 from peers_page import peers
-from table import PROGRAMS, Bench, Program, bench_of
+from table import PROGRAMS
 from text import count, ratio, table, time_of
 
 
@@ -12,19 +13,39 @@ def _head(results: dict) -> list[str]:
     return [
         "# Performance",
         "",
-        "Made by one command, [`bench/page`](../../bench/README.md), which runs everything here one after the other; each ratio is between two numbers of the same run.",
+        (
+            "Made by one command, [`bench/page`](../../bench/README.md), which runs everything here one after the "
+            "other; each ratio is between two numbers of the same run."
+        ),
         "Every number is of one core.",
         "",
-        *table(("", ""), [
-            ("machine", f"{machine['cpu']}{' (virtual)' if machine['virtual'] else ''}, {machine['cores']} cores, {machine['memory_gb']} GB"),
-            ("system", f"{machine['system']}, kernel {machine['kernel']}, {machine['compiler']}, Release"),
-            ("beside", others),
-            ("made", f"{machine['day']}, version {machine['version']}, load {machine['load']:.1f} at the start, {results['minutes']:.0f} minutes"
-                     + ("; **a quick run, whose times say little**" if results["quick"] else "")),
-        ]),
+        *table(
+            ("", ""),
+            [
+                (
+                    "machine",
+                    f"{machine['cpu']}{' (virtual)' if machine['virtual'] else ''}, {machine['cores']} cores, "
+                    f"{machine['memory_gb']} GB",
+                ),
+                ("system", f"{machine['system']}, kernel {machine['kernel']}, {machine['compiler']}, Release"),
+                ("beside", others),
+                (
+                    "made",
+                    f"{machine['day']}, version {machine['version']}, load {machine['load']:.1f} at the start, "
+                    f"{results['minutes']:.0f} minutes"
+                    + ("; **a quick run, whose times say little**" if results["quick"] else ""),
+                ),
+            ],
+        ),
         "",
-        "*each*: the time of one pulse, edge, frame or whatever the row is of: the median of five repetitions, and the greatest distance of a repetition from it.",
-        "*instructions*: of the same thing, counted by callgrind, so that other work on the machine does not change them. *times as fast*: as the row named, or as the",
+        (
+            "*each*: the time of one pulse, edge, frame or whatever the row is of: the median of five repetitions, and "
+            "the greatest distance of a repetition from it."
+        ),
+        (
+            "*instructions*: of the same thing, counted by callgrind, so that other work on the machine does not "
+            "change them. *times as fast*: as the row named, or as the"
+        ),
         "baseline inside the bench; below 1 the baseline is faster.",
     ]
 
@@ -43,26 +64,49 @@ def _compared(bench: Bench, row: dict, rows: dict[str, dict]) -> str:
 
 def _bench_rows(program: Program, measured: dict[str, dict]) -> list[tuple[str, ...]]:
     """A row for each bench of the table, measured or not, with what it was measured with."""
-    out = []
+    out: list[tuple[str, ...]] = []
     for bench in program.benches:
         names = [name for name in measured if bench_of(program, name) is bench]
         if not names:
             out.append((f"`{bench.name}`", bench.means, bench.unit.thing, "not measured", "", ""))
         for name in names:
             row = measured[name]
-            out.append((f"`{name}`", bench.means, bench.unit.thing, time_of(row["ns"]) + (f" ± {100 * row['spread']:.0f} %" if "spread" in row else ""),
-                        count(row["instructions"]) if "instructions" in row else "", _compared(bench, row, measured)))
+            out.append(
+                (
+                    f"`{name}`",
+                    bench.means,
+                    bench.unit.thing,
+                    time_of(row["ns"]) + (f" ± {100 * row['spread']:.0f} %" if "spread" in row else ""),
+                    count(row["instructions"]) if "instructions" in row else "",
+                    _compared(bench, row, measured),
+                )
+            )
     return out
 
 
 def _below(program: Program, measured: dict[str, dict]) -> list[str]:
     """What a few programs tell beside times: ages of frames, slowest blocks."""
     if program.name == "dds":
-        rows = [(f"`{name}`", *(f"{row[key]:,.0f}" for key in ("p50_us", "p99_us", "p999_us", "max_us")), f"{row['lost']:.0f}, {row['dropped']:.0f}")
-                for name, row in measured.items() if "p50_us" in row]
-        return ["", *table(("age of a frame, us", "half within", "99 %", "99.9 %", "the oldest", "lost, dropped"), rows)] if rows else []
+        rows = [
+            (
+                f"`{name}`",
+                *(f"{row[key]:,.0f}" for key in ("p50_us", "p99_us", "p999_us", "max_us")),
+                f"{row['lost']:.0f}, {row['dropped']:.0f}",
+            )
+            for name, row in measured.items()
+            if "p50_us" in row
+        ]
+        return (
+            ["", *table(("age of a frame, us", "half within", "99 %", "99.9 %", "the oldest", "lost, dropped"), rows)]
+            if rows
+            else []
+        )
     if program.name == "curve":
-        rows = [(f"`{name}`", f"{row['p99.9_us']:,.1f} us", f"{row['most_us']:,.0f} us") for name, row in measured.items() if "most_us" in row]
+        rows = [
+            (f"`{name}`", f"{row['p99.9_us']:,.1f} us", f"{row['most_us']:,.0f} us")
+            for name, row in measured.items()
+            if "most_us" in row
+        ]
         return ["", *table(("a block", "999 of 1,000 within", "the slowest"), rows)] if rows else []
     return []
 
@@ -72,7 +116,15 @@ def _program(program: Program, results: dict) -> list[str]:
     if program.prefix and not measured:
         return ["", f"### {program.title}", "", f"{program.text} Not measured in this run."]
     heads = ("bench", "what", "of one", "each", "instructions", "times as fast")
-    return ["", f"### {program.title}", "", f"`bench_{program.name}`. {program.text}", "", *table(heads, _bench_rows(program, measured)), *_below(program, measured)]
+    return [
+        "",
+        f"### {program.title}",
+        "",
+        f"`bench_{program.name}`. {program.text}",
+        "",
+        *table(heads, _bench_rows(program, measured)),
+        *_below(program, measured),
+    ]
 
 
 def page(results: dict) -> str:

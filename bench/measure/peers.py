@@ -1,4 +1,5 @@
-"""Others on the same work in the same run: sigrok-cli, LinuxCNC's stepgen and encoder under halrun, LinuxCNC's interpreter.
+"""Others on the same work in the same run: sigrok-cli, LinuxCNC's stepgen and encoder under halrun,
+LinuxCNC's interpreter.
 
 (verilator is inside bench_axis and bench_grating.)
 """
@@ -54,32 +55,47 @@ def missing(*programs: str) -> str:
 
 def hal_text(file: Path, periods: int) -> str:
     """A HAL configuration in which stepgen's quadrature outputs turn the encoder counters of as many channels."""
-    return _HAL.format(base=BASE_NS, slow=SLOW_NS, types=",".join(["2"] * AXES), controls=",".join(["v"] * AXES), axes=AXES, periods=periods, file=file,
-                       channels="\n".join(_CHANNEL.format(n=n, speed=STEPS_A_SECOND) for n in range(AXES)))
+    return _HAL.format(
+        base=BASE_NS,
+        slow=SLOW_NS,
+        types=",".join(["2"] * AXES),
+        controls=",".join(["v"] * AXES),
+        axes=AXES,
+        periods=periods,
+        file=file,
+        channels="\n".join(_CHANNEL.format(n=n, speed=STEPS_A_SECOND) for n in range(AXES)),
+    )
 
 
 def clock_ghz() -> float:
-    """Ticks a nanosecond of the counter that LinuxCNC takes its times with (x86: the TSC, whose rate the kernel tells by BogoMIPS)."""
-    found = re.search(r"^bogomips\s*:\s*([\d.]+)", Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"), re.M | re.I)
+    """Ticks a nanosecond of the counter that LinuxCNC takes its times with (x86:
+    the TSC, whose rate the kernel tells by BogoMIPS)."""
+    found = re.search(
+        r"^bogomips\s*:\s*([\d.]+)", Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"), re.M | re.I
+    )
     if not found:
         raise Trouble("/proc/cpuinfo does not tell the rate of the CPU's counter.")
     return float(found[1]) / 2000
 
 
 def read_periods(text: str) -> dict:
-    """Means, over the quickest nine tenths of the periods, of what halsampler wrote: ticks of make-pulses, of update-counters, of the whole
-    thread; and counts a period. The slowest tenth is where something else had the core.
+    """Means, over the quickest nine tenths of the periods, of what halsampler wrote: ticks of make-pulses, of
+    update-counters, of the whole thread; and counts a period. The slowest tenth is where something else had the core.
 
     Raises Trouble if fewer than 1,000 periods came, or the encoder did not turn.
     """
-    rows = [[int(word) for word in line.split()[:4]] for line in text.splitlines() if re.match(r"-?\d+ -?\d+ -?\d+ -?\d+", line)]
-    rows = rows[len(rows) // 10:]
+    rows = [
+        [int(word) for word in line.split()[:4]]
+        for line in text.splitlines()
+        if re.match(r"-?\d+ -?\d+ -?\d+ -?\d+", line)
+    ]
+    rows = rows[len(rows) // 10 :]
     if len(rows) < 1000:
         raise Trouble(f"halsampler wrote {len(rows)} periods, at least 1,000 were expected.")
     counts = abs(rows[-1][2] - rows[0][2]) / (len(rows) - 1)
     if counts < 0.1:
         raise Trouble(f"LinuxCNC's encoder counted {counts:g} a period; stepgen did not turn it.")
-    made, read, whole = (statistics.mean(sorted(row[i] for row in rows)[:len(rows) * 9 // 10]) for i in (0, 1, 3))
+    made, read, whole = (statistics.mean(sorted(row[i] for row in rows)[: len(rows) * 9 // 10]) for i in (0, 1, 3))
     return {"periods": len(rows), "make": made, "count": read, "thread": whole, "counts_a_period": counts}
 
 
@@ -91,7 +107,12 @@ def linuxcnc_steps(scratch: Path, progress: Progress, quick: bool) -> dict:
     file, script, pipes = scratch / "periods.txt", scratch / "steps.hal", scratch / "pipes"
     script.write_text(hal_text(file, 5_000 if quick else PERIODS), encoding="ascii")
     # HAL refuses to run as root; it takes the user that this variable names.
-    env = {**os.environ, "HOME": str(scratch), "RTAPI_FIFO_PATH": str(pipes / "fifo"), **({"RTAPI_UID": "65534"} if os.geteuid() == 0 else {})}
+    env = {
+        **os.environ,
+        "HOME": str(scratch),
+        "RTAPI_FIFO_PATH": str(pipes / "fifo"),
+        **({"RTAPI_UID": "65534"} if os.geteuid() == 0 else {}),
+    }
     pipes.mkdir()
     pipes.chmod(0o777)
     scratch.chmod(0o711)
@@ -104,8 +125,15 @@ def linuxcnc_steps(scratch: Path, progress: Progress, quick: bool) -> dict:
     got = read_periods(file.read_text(encoding="ascii", errors="replace"))
     ghz = clock_ghz()
     steps = AXES * got["counts_a_period"]
-    return {"periods": got["periods"], "realtime": "non-realtime" not in out, "steps_a_period": steps, "make_ns": got["make"] / ghz / steps, "count_ns": got["count"] / ghz / steps,
-            "period_ns": (got["make"] + got["count"]) / ghz, "thread_ns": got["thread"] / ghz}
+    return {
+        "periods": got["periods"],
+        "realtime": "non-realtime" not in out,
+        "steps_a_period": steps,
+        "make_ns": got["make"] / ghz / steps,
+        "count_ns": got["count"] / ghz / steps,
+        "period_ns": (got["make"] + got["count"]) / ghz,
+        "thread_ns": got["thread"] / ghz,
+    }
 
 
 def last_number(text: str) -> int:
@@ -124,17 +152,43 @@ def sigrok(program: Path, scratch: Path, progress: Progress, quick: bool) -> dic
     edges = 8_000 if quick else 400_000
     moves, waves = scratch / "sigrok.ngc", scratch / "sigrok.vcd"
     moves.write_text(passes(edges), encoding="ascii")
-    run([str(program), "trace", str(moves), str(waves), "--signals", "X.enc_a", "--signals", "X.enc_b", "--timescale-ns", "1000", "-q"], cwd=scratch)
-    theirs = best_of(1 if quick else 3, ["sigrok-cli", "-I", "vcd", "-i", str(waves), "-P", "graycode:d0=X_enc_a:d1=X_enc_b", "-A", "graycode=count"], cwd=scratch,
-                     codes=(0, -signal.SIGABRT))  # Debian's aborts when its Python ends, after it has told everything
+    run(
+        [
+            str(program),
+            "trace",
+            str(moves),
+            str(waves),
+            "--signals",
+            "X.enc_a",
+            "--signals",
+            "X.enc_b",
+            "--timescale-ns",
+            "1000",
+            "-q",
+        ],
+        cwd=scratch,
+    )
+    theirs = best_of(
+        1 if quick else 3,
+        ["sigrok-cli", "-I", "vcd", "-i", str(waves), "-P", "graycode:d0=X_enc_a:d1=X_enc_b", "-A", "graycode=count"],
+        cwd=scratch,
+        codes=(0, -signal.SIGABRT),
+    )  # Debian's aborts when its Python ends, after it has told everything
     ours = best_of(1 if quick else 5, [str(program), "decode", str(waves), "-q"], cwd=scratch)
     counts = counts_decoded(ours.out)
-    end = int(re.search(r"_enc_b\s+(-?\d+)", ours.out)[1])
+    told = re.search(r"_enc_b\s+(-?\d+)", ours.out)
+    if not told:
+        raise Trouble(f"motionrack decode told no place of X:\n{ours.out[-2000:]}")
+    end = int(told[1])
     # sigrok tells each place when it is left.
     if abs(last_number(theirs.out) - end) > 1:
         raise Trouble(f"sigrok-cli counted {last_number(theirs.out)}, motionrack decode {end}.")
-    return {"edges": counts, "file_bytes": waves.stat().st_size, "theirs": {"cpu_s": theirs.cpu_s, "peak_bytes": theirs.peak_bytes},
-            "ours": {"cpu_s": ours.cpu_s, "peak_bytes": ours.peak_bytes}}
+    return {
+        "edges": counts,
+        "file_bytes": waves.stat().st_size,
+        "theirs": {"cpu_s": theirs.cpu_s, "peak_bytes": theirs.peak_bytes},
+        "ours": {"cpu_s": ours.cpu_s, "peak_bytes": ours.peak_bytes},
+    }
 
 
 def interpreter(program: Path, scratch: Path, progress: Progress, quick: bool) -> dict:
@@ -151,5 +205,12 @@ def interpreter(program: Path, scratch: Path, progress: Progress, quick: bool) -
     # rs274 makes a call of the line with the feed alone, too.
     moves = [re.findall(r"STRAIGHT_FEED(.*)", ran.out)[-lines:] for ran in (theirs, ours)]
     if moves[0] != moves[1] or len(moves[0]) < lines:
-        raise Trouble(f"rs274 read {len(moves[0])} straight feeds of {lines}, motionrack canon {len(moves[1])}, or not the same ones.")
-    return {"lines": lines, "theirs": {"cpu_s": theirs.cpu_s, "peak_bytes": theirs.peak_bytes}, "ours": {"cpu_s": ours.cpu_s, "peak_bytes": ours.peak_bytes}}
+        raise Trouble(
+            f"rs274 read {len(moves[0])} straight feeds of {lines}, motionrack canon {len(moves[1])}, or not the same "
+            "ones."
+        )
+    return {
+        "lines": lines,
+        "theirs": {"cpu_s": theirs.cpu_s, "peak_bytes": theirs.peak_bytes},
+        "ours": {"cpu_s": ours.cpu_s, "peak_bytes": ours.peak_bytes},
+    }

@@ -51,21 +51,34 @@ class Progress:
 def peak_of(pid: int) -> int:
     """The peak resident memory of a running process so far, in bytes; 0 if it is gone."""
     try:
-        found = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text(encoding="ascii", errors="replace"))
+        found = re.search(
+            r"VmHWM:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text(encoding="ascii", errors="replace")
+        )
     except OSError:
         return 0
     return int(found[1]) * 1024 if found else 0
 
 
-def run(argv: list[str], *, cwd: str | Path | None = None, codes: tuple[int, ...] = (0,), limit_s: float = 1800, env: dict[str, str] | None = None,
-        memory: bool = True) -> Ran:
-    """Runs a program to its end. Raises Trouble if it ends with another code than `codes` or takes longer than `limit_s`.
+def run(
+    argv: list[str],
+    *,
+    cwd: str | Path | None = None,
+    codes: tuple[int, ...] = (0,),
+    limit_s: float = 1800,
+    env: dict[str, str] | None = None,
+    memory: bool = True,
+) -> Ran:
+    """Runs a program to its end. Raises Trouble if it ends with another code than `codes` or takes longer than
+    `limit_s`.
 
-    The kernel's own count of the peak memory includes this Python before the program took its place, so that it is used only where it is
-    greater; smaller programs are looked at each 2 ms while they run (`memory`).
+    The kernel's own count of the peak memory includes this Python before the program took its place, so that it is used
+    only where it is greater; smaller programs are looked at each 2 ms while they run (`memory`).
     """
     begin = time.monotonic()
-    with subprocess.Popen(argv, cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=env) as process:
+    with subprocess.Popen(
+        argv, cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=env
+    ) as process:
+        assert process.stdout
         os.set_blocking(process.stdout.fileno(), False)
         parts: list[bytes] = []
         peak = 0

@@ -1,23 +1,22 @@
 """The benches: what each number means, what it is the time of, and what it is compared with.
 
-A bench is named as its program prints it, without arguments. `baseline` is another bench of the same program that does the same in another way;
-where a program compares by itself, its counter "ratio" is used. `counted`: a pattern of the names whose instructions are counted.
+A bench is named as its program prints it, without arguments. `baseline` is another bench of the same program that does
+the same in another way; where a program compares by itself, its counter "ratio" is used.
+`counted`: a pattern of the names whose instructions are counted.
 """
-import re
-from pathlib import Path
-from typing import NamedTuple
-
-ROOT = Path(__file__).resolve().parents[2]
-
-
-class Unit(NamedTuple):
-    thing: str  # one of it is what a bench's time is of
-    counter: str = ""  # that counts it: a rate ("pulses/s") or a time of one ("each"); "": one call of the bench is one thing
-
+from kinds import Bench, Program, Unit
 
 PULSE, EDGE, STEP = Unit("pulse", "pulses/s"), Unit("edge", "edges/s"), Unit("step of the speed", "steps/s")
-SAMPLE, PERIOD, TICK = Unit("sample", "samples/s"), Unit("period of all cards", "frames/s"), Unit("tick of 10 us", "ticks/s")
-AXIS_SAMPLE, LINE, JOB_LINE = Unit("sample of an axis", "per_axis"), Unit("line", "items_per_second"), Unit("line", "lines/s")
+SAMPLE, PERIOD, TICK = (
+    Unit("sample", "samples/s"),
+    Unit("period of all cards", "frames/s"),
+    Unit("tick of 10 us", "ticks/s"),
+)
+AXIS_SAMPLE, LINE, JOB_LINE = (
+    Unit("sample of an axis", "per_axis"),
+    Unit("line", "items_per_second"),
+    Unit("line", "lines/s"),
+)
 ITEM_BLOCK, BLOCK, ONE_PULSE = Unit("block", "items_per_second"), Unit("block", "each"), Unit("pulse", "each")
 EVENT, FRAME, CARD_FRAME = Unit("event", "each"), Unit("frame", "items_per_second"), Unit("frame of a card", "each")
 PLAN, CALL, RUN, MIB64 = Unit("plan"), Unit("call"), Unit("run"), Unit("64 MiB")
@@ -25,215 +24,326 @@ PLAN, CALL, RUN, MIB64 = Unit("plan"), Unit("call"), Unit("run"), Unit("64 MiB")
 #: Of `counted`: what depends on the time of day or needs minutes under valgrind.
 NEVER = ""
 
-
-class Bench(NamedTuple):
-    name: str
-    means: str
-    unit: Unit
-    baseline: str = ""
-    counted: str = "."
-
-
-class Program(NamedTuple):
-    name: str
-    title: str
-    text: str
-    benches: list[Bench]
-    prefix: tuple[str, ...] = ()
-    section: str = ""  # of the results; by default the program's name
-
-    @property
-    def key(self) -> str:
-        return self.section or self.name
-
-
-_NETWORK = "frames of so many scales, each so many us (0: as fast as they go), from the publisher to the listener's queue"
+_NETWORK = (
+    "frames of so many scales, each so many us (0: as fast as they go), from the publisher to the listener's queue"
+)
 
 PROGRAMS = [
-    Program("chip", "The virtual MCX314", "Four axes unless it says otherwise. *Machines*: with a motor and an encoder on each axis, which hear every step of the speed. "
-            "The *twin* is the same chip written to be plainly right, tick by tick; a tuned ticking model would be faster.", [
-        Bench("cruise/look_each_second", "4 Mpps for a second between two looks of the host", PULSE, "cruise_twin"),
-        Bench("cruise/look_each_second_machines", "the same with machines", PULSE, "cruise_twin"),
-        Bench("cruise/look_each_ms", "4 Mpps, a look each ms: cruising costs what looking costs", PULSE, "cruise_twin"),
-        Bench("cruise/look_each_ms_machines", "the same with machines", PULSE, "cruise_twin"),
-        Bench("cruise_twin", "the twin at the same speed", PULSE),
-        Bench("moves/servo", "a whole move: to 4 Mpps in 0.16 s, one second there, and down", PULSE, "moves_twin/servo"),
-        Bench("moves/servo_machines", "the same with machines", PULSE, "moves_twin/servo"),
-        Bench("moves_twin/servo", "the twin's", PULSE),
-        Bench("moves/servo_s", "the same with S-curves", PULSE, "moves_twin/servo_s"),
-        Bench("moves_twin/servo_s", "the twin's", PULSE),
-        Bench("moves/stepper", "a whole move: to 40 kpps in 0.30 s, one second there, and down", PULSE, "moves_twin/stepper"),
-        Bench("moves/stepper_machines", "the same with machines", PULSE, "moves_twin/stepper"),
-        Bench("moves_twin/stepper", "the twin's", PULSE),
-        Bench("moves/stepper_s", "the same with S-curves", PULSE, "moves_twin/stepper_s"),
-        Bench("moves_twin/stepper_s", "the twin's", PULSE),
-        Bench("speed_steps/t_curve", "a ramp of one axis that nobody hears", STEP),
-        Bench("speed_steps/t_curve_machines", "the same with machines: each step is an event", STEP),
-        Bench("speed_steps/s_curve", "an S-curve that nobody hears", STEP),
-        Bench("speed_steps/s_curve_machines", "the same with machines", STEP),
-        Bench("edges_in_batches/20_kpps", "pulses that turn encoders whose edges are all made, and decoded in batches", EDGE, "edges_one_by_one/20_kpps"),
-        Bench("edges_in_batches/100_kpps", "the same, faster", EDGE, "edges_one_by_one/100_kpps"),
-        Bench("edges_in_batches/4_Mpps", "the same at full speed", EDGE, "edges_one_by_one/4_Mpps"),
-        Bench("edges_in_batches/3_997_Mpps", "the same with unevenly spaced pulses", EDGE),
-        Bench("edges_one_by_one/20_kpps", "the same, decoded one by one through a table of 16 transitions", EDGE),
-        Bench("edges_one_by_one/100_kpps", "the same, faster", EDGE),
-        Bench("edges_one_by_one/4_Mpps", "the same at full speed", EDGE),
-        Bench("decode_only<sim::BatchDecoder>", "the decoder alone, in batches", EDGE, "decode_only<OneByOne>"),
-        Bench("decode_only<OneByOne>", "the decoder alone, one by one", EDGE),
-        Bench("path_edges/line", "interpolated lines of two axes, every edge made and decoded", EDGE),
-        Bench("path_edges/arc", "full circles", EDGE),
-        Bench("path_edges/arc_at_constant_vector_speed", "full circles at constant vector speed", EDGE),
-        Bench("snapshot", "the state of a chip with machines, taken", CALL),
-        Bench("restore", "and put back", CALL),
-    ]),
-    Program("axis", "One axis beside verilator", "One drive from rest to rest. *Heard*: the instant of every pulse is made and handed over; else pulses are counted. *Clocked*: what verilator "
-            "makes of `tests/verilog/mcx314_axis.v`. Before anything is measured, the pulses of both are compared, to the tick.", [
-        Bench("drive/servo", "4.5 million pulses: to 4 Mpps in 0.16 s, a second there, and down", PULSE, "drive_clocked/servo"),
-        Bench("drive/servo_heard", "the same, heard", PULSE, "drive_clocked/servo"),
-        Bench("drive_clocked/servo", "the same, clocked: 2.3 clocks a pulse", PULSE),
-        Bench("drive/servo_s", "with S-curves", PULSE, "drive_clocked/servo_s"),
-        Bench("drive/servo_s_heard", "the same, heard", PULSE, "drive_clocked/servo_s"),
-        Bench("drive_clocked/servo_s", "the same, clocked", PULSE),
-        Bench("drive/stepper", "52,000 pulses: to 40 kpps in 0.30 s, a second there, and down", PULSE, "drive_clocked/stepper"),
-        Bench("drive/stepper_heard", "the same, heard", PULSE, "drive_clocked/stepper"),
-        Bench("drive_clocked/stepper", "the same, clocked: 244 clocks a pulse", PULSE),
-    ]),
-    Program("grating", "Frames of the grating bus", "Eight moving scales, a host and ten slaves, 200 us a period; *clocked*: what verilator makes of "
-            "`tests/verilog/grating`, 20,000 clocks a period.", [
-        Bench("frames_clocked", "the same frames, clocked", PERIOD),
-        Bench("frames_of_cards/alone", "nobody looks: a frame is one step", PERIOD, "frames_clocked"),
-        Bench("frames_of_cards/every_card_claims", "the processor of every card claims every frame and reads its sequence", PERIOD, "frames_clocked"),
-        Bench("frames_of_cards/every_wire_watched", "every wire is listened to", PERIOD, "frames_clocked"),
-    ]),
-    Program("decode", "Sampled encoder lines", "The ratio is to a table of 16 transitions (four axes: of 65,536), the best of many runs. The last number of a name is the bytes of the data: in the first "
-            "cache, in the second, in memory; of planes, the bytes of one line. Each kind of CPU's kernels that there is; valgrind knows no AVX-512.", [
-        Bench("one_axis_bytes", "A and B of one axis in each byte", SAMPLE, counted="16384$"),
-        Bench("reading_alone", "the bytes read and nothing else: the most that data of this size allows", MIB64, counted=NEVER),
-        Bench("one_axis_with_index", "with an index each 40,000 samples", SAMPLE, counted=NEVER),
-        Bench("four_axes_in_a_byte", "four axes; a sample of all four is one", SAMPLE, counted="16384$"),
-        Bench("bit_planes", "A and B as bits, 64 samples a word", SAMPLE, counted="8192$"),
-    ]),
-    Program("gcode", "Reading G-code", "200,000 lines from text. *Naive*: a line from a stream, and words by `strtod`, without meaning or checks.", [
-        Bench("read_with_meaning/G1_X_Y_F", "`G1 X1.234 Y-5.678 F1000`, read, understood and checked", LINE, "tokenise_naively/G1_X_Y_F"),
-        Bench("tokenise_naively/G1_X_Y_F", "the same, naively", LINE),
-        Bench("read_with_meaning/X_Y", "`X1.234 Y5.678`", LINE, "tokenise_naively/X_Y"),
-        Bench("tokenise_naively/X_Y", "the same, naively", LINE),
-        Bench("read_with_meaning/arcs", "`G2 X25 Y0 I12.5 J0`, with the arc's geometry", LINE, "tokenise_naively/arcs"),
-        Bench("tokenise_naively/arcs", "the same, naively", LINE),
-    ]),
-    Program("planner", "Profiles and look-ahead", "16,384 random moves of all cases, so that no branch predictor learns them.", [
-        Bench("trapezoid_plan", "a trapezoid from rest to rest", PLAN, "trapezoid_plan_by_steps_of_1_ms"),
-        Bench("trapezoid_plan_between_speeds", "between two speeds", PLAN),
-        Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, counted=NEVER),
-        Bench("s_curve_plan", "an S-curve from rest to rest", PLAN, "s_curve_plan_by_bisection"),
-        Bench("s_curve_plan_by_bisection", "its top speed found by bisection", PLAN),
-        Bench("sample_s_curve", "where four axes are at an instant, for each of them", AXIS_SAMPLE, "sample_s_curve_through_all_phases"),
-        Bench("sample_trapezoid", "the same of trapezoids", AXIS_SAMPLE),
-        Bench("sample_s_curve_through_all_phases", "one axis, its phases run through from the start", CALL),
-        Bench("look_ahead_0_1_mm", "blocks of 0.1 mm into a window of 1,024", ITEM_BLOCK, "look_ahead_with_full_passes", counted=NEVER),
-        Bench("look_ahead_2_um", "blocks of 2 um: stopping takes more than the window holds", ITEM_BLOCK, "look_ahead_with_full_passes", counted=NEVER),
-        Bench("look_ahead_with_full_passes", "both passes over the whole window for each block", ITEM_BLOCK, counted=NEVER),
-        Bench("geometry_of_a_line", "length and directions of a line", CALL),
-        Bench("sine_and_cosine", "both, with the same bits on every CPU", CALL, "sine_and_cosine_of_the_c_library"),
-        Bench("sine_and_cosine_of_the_c_library", "both, by the C library", CALL),
-    ]),
-    Program("profile", "Motions between any two states", "8,192 random tasks for one axis, with limits of speed, acceleration and jerk.", [
-        Bench("s_curve_from_rest_to_rest", "the S-curve, which knows rest to rest alone", PLAN),
-        Bench("travel_from_rest_to_rest", "the quickest motion, from rest to rest", PLAN, "s_curve_from_rest_to_rest"),
-        Bench("travel_between_any_states", "between any two speeds and accelerations", PLAN),
-        Bench("travel_between_any_states_near", "to near targets, where nearly each needs an equation solved", PLAN),
-        Bench("travel_from_outside", "from up to twice the speed and acceleration that are allowed", PLAN),
-        Bench("change_of_speed", "to another speed, wherever that is", PLAN),
-        Bench("stop_of_any_motion", "to rest, wherever that is", PLAN),
-        Bench("sample_of_a_travel", "where it is at an instant", CALL),
-    ]),
-    Program("curve", "Jerk-limited paths", "*Curve*: moves made into cubic pieces. *Ride*: the speed along 20,000 blocks, planned as one. *Rider*: block by block through a window, which plans all that it "
-            "knows when it has to; its slowest block in a thousand is told below the table.", [
-        Bench("curve/chords_of_0_1_mm", "lines of 0.1 mm on a smooth curve", ITEM_BLOCK, counted=NEVER),
-        Bench("curve/chords_of_0_1_mm_rounded", "the same, rounded to 1 um as CAM systems write them", ITEM_BLOCK, counted=NEVER),
-        Bench("curve/chords_of_2_um", "lines of 2 um", ITEM_BLOCK, counted=NEVER),
-        Bench("curve/chords_in_inverse_time", "each with another feed, so that none is merged", ITEM_BLOCK, counted=NEVER),
-        Bench("curve/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
-        Bench("curve/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
-        Bench("curve/arcs_of_20_mm", "and of 20 mm", ITEM_BLOCK, counted=NEVER),
-        Bench("ride/chords_of_0_1_mm", "lines of 0.1 mm", BLOCK),
-        Bench("ride/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", BLOCK, counted=NEVER),
-        Bench("ride/long_lines", "lines of 25 mm with corners", BLOCK, counted=NEVER),
-        Bench("ride/arcs_of_1_mm", "quarters of circles of 1 mm", BLOCK, counted=NEVER),
-        Bench("rider/chords_of_0_1_mm", "lines of 0.1 mm", ITEM_BLOCK, counted=NEVER),
-        Bench("rider/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", ITEM_BLOCK, counted=NEVER),
-        Bench("rider/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
-        Bench("rider/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
-    ]),
-    Program("job", "Whole jobs", "G-code read, planned and run on the router of the examples, with motors, encoders, switches and the monitor that watches them.", [
-        Bench("run_example_part", "the example part: 85 lines, 40 s", RUN),
-        Bench("run_20000_short_lines", "20,000 lines of 0.3 mm along a spiral", JOB_LINE),
-        Bench("snapshot_of_a_rack", "the state of the whole rack, taken", CALL),
-        Bench("restore_of_a_rack", "and put back", CALL),
-    ]),
-    Program("recording", "Recordings", "`watched_by` 0: nobody, 1: a VCD file with exact ticks, 2: a recording (HDF5) of everything.", [
-        Bench("write_events", "a million pulses and counts into a recording", EVENT),
-        Bench("compare_events", "two such recordings compared", EVENT),
-        Bench("run_example_part", "the example part, recorded or not", RUN, counted="0$"),
-    ]),
-    Program("rtc5", "The virtual RTC5", "Two lists in a loop. *Fly*: positions corrected by an encoder. *Table*: a field correction. *Unseen*: nobody asks for the samples.", [
-        Bench("run_card/micro_vectors_plain", "a vector each tick", TICK),
-        Bench("run_card/micro_vectors_fly", "with fly", TICK),
-        Bench("run_card/micro_vectors_table", "with table", TICK),
-        Bench("run_card/micro_vectors_fly_table", "with both", TICK, "run_twin/micro_vectors_fly_table"),
-        Bench("run_card/short_marks_fly_table", "marks of some ticks, with both", TICK),
-        Bench("run_card/long_marks_fly_table", "long marks, with both", TICK, "run_twin/long_marks_fly_table"),
-        Bench("run_card/long_marks_rotary_table", "long marks, with a rotary correction and table", TICK),
-        Bench("run_card/short_marks_unseen", "marks of some ticks, unseen", TICK),
-        Bench("run_card/long_marks_unseen", "long marks, unseen", TICK, "run_twin/long_marks_fly_table"),
-        Bench("run_recorded/short_marks_ideal", "with a work piece that keeps what was marked, ideal mirrors", TICK),
-        Bench("run_recorded/short_marks_mirrors", "with mirrors that lag", TICK),
-        Bench("run_recorded/short_marks_mirrors_lens", "and a lens", TICK),
-        Bench("run_twin/micro_vectors_fly_table", "the tick-by-tick twin, a vector each tick, with both", TICK),
-        Bench("run_twin/long_marks_fly_table", "the twin, long marks, with both", TICK),
-    ]),
-    Program("dds", "Frames between two processes", "Over Cyclone DDS on the loopback; the ages of the frames are told below the table. A time here is real time between two frames, so that "
-            "at 200 us it says only that none was late for long.", [
-        Bench("network", _NETWORK, FRAME, counted=NEVER),
-        Bench("judging", "a frame judged: its CRC, its place in the order", FRAME),
-    ]),
-    Program("dds", "The same with a real-time priority", "Both processes under `chrt -f 50`, where the machine allows it.", [
-        Bench("network", _NETWORK, FRAME, counted=NEVER),
-    ], ("chrt", "-f", "50"), "dds_chrt"),
-    Program("growth", "Growth of a rack", "Every axis makes the move `stepper`, with machines; cards of a grating bus publish frames each 200 us. What stays the same down the rows grows with the work and no "
-            "faster. More cards cost more a pulse: for each event the kernel looks through all devices for the one that is next.", [
-        Bench("axes", "so many axes of one card", ONE_PULSE),
-        Bench("cards", "all four axes of so many cards in one kernel", ONE_PULSE, counted="/(1|8)$"),
-        Bench("frames", "a grating bus with so many slaves and scales, nobody looking", CARD_FRAME, counted=NEVER),
-    ]),
+    Program(
+        "chip",
+        "The virtual MCX314",
+        "Four axes unless it says otherwise. *Machines*: with a motor and an encoder on each axis, which hear every "
+        "step of the speed. The *twin* is the same chip written to be plainly right, tick by tick; a tuned ticking "
+        "model would be faster.",
+        [
+            Bench("cruise/look_each_second", "4 Mpps for a second between two looks of the host", PULSE, "cruise_twin"),
+            Bench("cruise/look_each_second_machines", "the same with machines", PULSE, "cruise_twin"),
+            Bench(
+                "cruise/look_each_ms", "4 Mpps, a look each ms: cruising costs what looking costs", PULSE, "cruise_twin"
+            ),
+            Bench("cruise/look_each_ms_machines", "the same with machines", PULSE, "cruise_twin"),
+            Bench("cruise_twin", "the twin at the same speed", PULSE),
+            Bench(
+                "moves/servo",
+                "a whole move: to 4 Mpps in 0.16 s, one second there, and down",
+                PULSE,
+                "moves_twin/servo",
+            ),
+            Bench("moves/servo_machines", "the same with machines", PULSE, "moves_twin/servo"),
+            Bench("moves_twin/servo", "the twin's", PULSE),
+            Bench("moves/servo_s", "the same with S-curves", PULSE, "moves_twin/servo_s"),
+            Bench("moves_twin/servo_s", "the twin's", PULSE),
+            Bench(
+                "moves/stepper",
+                "a whole move: to 40 kpps in 0.30 s, one second there, and down",
+                PULSE,
+                "moves_twin/stepper",
+            ),
+            Bench("moves/stepper_machines", "the same with machines", PULSE, "moves_twin/stepper"),
+            Bench("moves_twin/stepper", "the twin's", PULSE),
+            Bench("moves/stepper_s", "the same with S-curves", PULSE, "moves_twin/stepper_s"),
+            Bench("moves_twin/stepper_s", "the twin's", PULSE),
+            Bench("speed_steps/t_curve", "a ramp of one axis that nobody hears", STEP),
+            Bench("speed_steps/t_curve_machines", "the same with machines: each step is an event", STEP),
+            Bench("speed_steps/s_curve", "an S-curve that nobody hears", STEP),
+            Bench("speed_steps/s_curve_machines", "the same with machines", STEP),
+            Bench(
+                "edges_in_batches/20_kpps",
+                "pulses that turn encoders whose edges are all made, and decoded in batches",
+                EDGE,
+                "edges_one_by_one/20_kpps",
+            ),
+            Bench("edges_in_batches/100_kpps", "the same, faster", EDGE, "edges_one_by_one/100_kpps"),
+            Bench("edges_in_batches/4_Mpps", "the same at full speed", EDGE, "edges_one_by_one/4_Mpps"),
+            Bench("edges_in_batches/3_997_Mpps", "the same with unevenly spaced pulses", EDGE),
+            Bench("edges_one_by_one/20_kpps", "the same, decoded one by one through a table of 16 transitions", EDGE),
+            Bench("edges_one_by_one/100_kpps", "the same, faster", EDGE),
+            Bench("edges_one_by_one/4_Mpps", "the same at full speed", EDGE),
+            Bench("decode_only<sim::BatchDecoder>", "the decoder alone, in batches", EDGE, "decode_only<OneByOne>"),
+            Bench("decode_only<OneByOne>", "the decoder alone, one by one", EDGE),
+            Bench("path_edges/line", "interpolated lines of two axes, every edge made and decoded", EDGE),
+            Bench("path_edges/arc", "full circles", EDGE),
+            Bench("path_edges/arc_at_constant_vector_speed", "full circles at constant vector speed", EDGE),
+            Bench("snapshot", "the state of a chip with machines, taken", CALL),
+            Bench("restore", "and put back", CALL),
+        ],
+    ),
+    Program(
+        "axis",
+        "One axis beside verilator",
+        "One drive from rest to rest. *Heard*: the instant of every pulse is made and handed over; else pulses are "
+        "counted. *Clocked*: what verilator makes of `tests/verilog/mcx314_axis.v`. Before anything is measured, the "
+        "pulses of both are compared, to the tick.",
+        [
+            Bench(
+                "drive/servo",
+                "4.5 million pulses: to 4 Mpps in 0.16 s, a second there, and down",
+                PULSE,
+                "drive_clocked/servo",
+            ),
+            Bench("drive/servo_heard", "the same, heard", PULSE, "drive_clocked/servo"),
+            Bench("drive_clocked/servo", "the same, clocked: 2.3 clocks a pulse", PULSE),
+            Bench("drive/servo_s", "with S-curves", PULSE, "drive_clocked/servo_s"),
+            Bench("drive/servo_s_heard", "the same, heard", PULSE, "drive_clocked/servo_s"),
+            Bench("drive_clocked/servo_s", "the same, clocked", PULSE),
+            Bench(
+                "drive/stepper",
+                "52,000 pulses: to 40 kpps in 0.30 s, a second there, and down",
+                PULSE,
+                "drive_clocked/stepper",
+            ),
+            Bench("drive/stepper_heard", "the same, heard", PULSE, "drive_clocked/stepper"),
+            Bench("drive_clocked/stepper", "the same, clocked: 244 clocks a pulse", PULSE),
+        ],
+    ),
+    Program(
+        "grating",
+        "Frames of the grating bus",
+        "Eight moving scales, a host and ten slaves, 200 us a period; *clocked*: what verilator makes of "
+        "`tests/verilog/grating`, 20,000 clocks a period.",
+        [
+            Bench("frames_clocked", "the same frames, clocked", PERIOD),
+            Bench("frames_of_cards/alone", "nobody looks: a frame is one step", PERIOD, "frames_clocked"),
+            Bench(
+                "frames_of_cards/every_card_claims",
+                "the processor of every card claims every frame and reads its sequence",
+                PERIOD,
+                "frames_clocked",
+            ),
+            Bench("frames_of_cards/every_wire_watched", "every wire is listened to", PERIOD, "frames_clocked"),
+        ],
+    ),
+    Program(
+        "decode",
+        "Sampled encoder lines",
+        "The ratio is to a table of 16 transitions (four axes: of 65,536), the best of many runs. The last number of a "
+        "name is the bytes of the data: in the first cache, in the second, in memory; of planes, the bytes of one "
+        "line. Each kind of CPU's kernels that there is; valgrind knows no AVX-512.",
+        [
+            Bench("one_axis_bytes", "A and B of one axis in each byte", SAMPLE, counted="16384$"),
+            Bench(
+                "reading_alone",
+                "the bytes read and nothing else: the most that data of this size allows",
+                MIB64,
+                counted=NEVER,
+            ),
+            Bench("one_axis_with_index", "with an index each 40,000 samples", SAMPLE, counted=NEVER),
+            Bench("four_axes_in_a_byte", "four axes; a sample of all four is one", SAMPLE, counted="16384$"),
+            Bench("bit_planes", "A and B as bits, 64 samples a word", SAMPLE, counted="8192$"),
+        ],
+    ),
+    Program(
+        "gcode",
+        "Reading G-code",
+        "200,000 lines from text. *Naive*: a line from a stream, and words by `strtod`, without meaning or checks.",
+        [
+            Bench(
+                "read_with_meaning/G1_X_Y_F",
+                "`G1 X1.234 Y-5.678 F1000`, read, understood and checked",
+                LINE,
+                "tokenise_naively/G1_X_Y_F",
+            ),
+            Bench("tokenise_naively/G1_X_Y_F", "the same, naively", LINE),
+            Bench("read_with_meaning/X_Y", "`X1.234 Y5.678`", LINE, "tokenise_naively/X_Y"),
+            Bench("tokenise_naively/X_Y", "the same, naively", LINE),
+            Bench(
+                "read_with_meaning/arcs", "`G2 X25 Y0 I12.5 J0`, with the arc's geometry", LINE, "tokenise_naively/arcs"
+            ),
+            Bench("tokenise_naively/arcs", "the same, naively", LINE),
+        ],
+    ),
+    Program(
+        "planner",
+        "Profiles and look-ahead",
+        "16,384 random moves of all cases, so that no branch predictor learns them.",
+        [
+            Bench("trapezoid_plan", "a trapezoid from rest to rest", PLAN, "trapezoid_plan_by_steps_of_1_ms"),
+            Bench("trapezoid_plan_between_speeds", "between two speeds", PLAN),
+            Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, counted=NEVER),
+            Bench("s_curve_plan", "an S-curve from rest to rest", PLAN, "s_curve_plan_by_bisection"),
+            Bench("s_curve_plan_by_bisection", "its top speed found by bisection", PLAN),
+            Bench(
+                "sample_s_curve",
+                "where four axes are at an instant, for each of them",
+                AXIS_SAMPLE,
+                "sample_s_curve_through_all_phases",
+            ),
+            Bench("sample_trapezoid", "the same of trapezoids", AXIS_SAMPLE),
+            Bench("sample_s_curve_through_all_phases", "one axis, its phases run through from the start", CALL),
+            Bench(
+                "look_ahead_0_1_mm",
+                "blocks of 0.1 mm into a window of 1,024",
+                ITEM_BLOCK,
+                "look_ahead_with_full_passes",
+                counted=NEVER,
+            ),
+            Bench(
+                "look_ahead_2_um",
+                "blocks of 2 um: stopping takes more than the window holds",
+                ITEM_BLOCK,
+                "look_ahead_with_full_passes",
+                counted=NEVER,
+            ),
+            Bench(
+                "look_ahead_with_full_passes",
+                "both passes over the whole window for each block",
+                ITEM_BLOCK,
+                counted=NEVER,
+            ),
+            Bench("geometry_of_a_line", "length and directions of a line", CALL),
+            Bench("sine_and_cosine", "both, with the same bits on every CPU", CALL, "sine_and_cosine_of_the_c_library"),
+            Bench("sine_and_cosine_of_the_c_library", "both, by the C library", CALL),
+        ],
+    ),
+    Program(
+        "profile",
+        "Motions between any two states",
+        "8,192 random tasks for one axis, with limits of speed, acceleration and jerk.",
+        [
+            Bench("s_curve_from_rest_to_rest", "the S-curve, which knows rest to rest alone", PLAN),
+            Bench(
+                "travel_from_rest_to_rest", "the quickest motion, from rest to rest", PLAN, "s_curve_from_rest_to_rest"
+            ),
+            Bench("travel_between_any_states", "between any two speeds and accelerations", PLAN),
+            Bench(
+                "travel_between_any_states_near", "to near targets, where nearly each needs an equation solved", PLAN
+            ),
+            Bench("travel_from_outside", "from up to twice the speed and acceleration that are allowed", PLAN),
+            Bench("change_of_speed", "to another speed, wherever that is", PLAN),
+            Bench("stop_of_any_motion", "to rest, wherever that is", PLAN),
+            Bench("sample_of_a_travel", "where it is at an instant", CALL),
+        ],
+    ),
+    Program(
+        "curve",
+        "Jerk-limited paths",
+        "*Curve*: moves made into cubic pieces. *Ride*: the speed along 20,000 blocks, planned as one. *Rider*: block "
+        "by block through a window, which plans all that it knows when it has to; its slowest block in a thousand is "
+        "told below the table.",
+        [
+            Bench("curve/chords_of_0_1_mm", "lines of 0.1 mm on a smooth curve", ITEM_BLOCK, counted=NEVER),
+            Bench(
+                "curve/chords_of_0_1_mm_rounded",
+                "the same, rounded to 1 um as CAM systems write them",
+                ITEM_BLOCK,
+                counted=NEVER,
+            ),
+            Bench("curve/chords_of_2_um", "lines of 2 um", ITEM_BLOCK, counted=NEVER),
+            Bench(
+                "curve/chords_in_inverse_time",
+                "each with another feed, so that none is merged",
+                ITEM_BLOCK,
+                counted=NEVER,
+            ),
+            Bench("curve/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
+            Bench("curve/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
+            Bench("curve/arcs_of_20_mm", "and of 20 mm", ITEM_BLOCK, counted=NEVER),
+            Bench("ride/chords_of_0_1_mm", "lines of 0.1 mm", BLOCK),
+            Bench("ride/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", BLOCK, counted=NEVER),
+            Bench("ride/long_lines", "lines of 25 mm with corners", BLOCK, counted=NEVER),
+            Bench("ride/arcs_of_1_mm", "quarters of circles of 1 mm", BLOCK, counted=NEVER),
+            Bench("rider/chords_of_0_1_mm", "lines of 0.1 mm", ITEM_BLOCK, counted=NEVER),
+            Bench("rider/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", ITEM_BLOCK, counted=NEVER),
+            Bench("rider/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
+            Bench("rider/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
+        ],
+    ),
+    Program(
+        "job",
+        "Whole jobs",
+        "G-code read, planned and run on the router of the examples, with motors, encoders, switches and the monitor "
+        "that watches them.",
+        [
+            Bench("run_example_part", "the example part: 85 lines, 40 s", RUN),
+            Bench("run_20000_short_lines", "20,000 lines of 0.3 mm along a spiral", JOB_LINE),
+            Bench("snapshot_of_a_rack", "the state of the whole rack, taken", CALL),
+            Bench("restore_of_a_rack", "and put back", CALL),
+        ],
+    ),
+    Program(
+        "recording",
+        "Recordings",
+        "`watched_by` 0: nobody, 1: a VCD file with exact ticks, 2: a recording (HDF5) of everything.",
+        [
+            Bench("write_events", "a million pulses and counts into a recording", EVENT),
+            Bench("compare_events", "two such recordings compared", EVENT),
+            Bench("run_example_part", "the example part, recorded or not", RUN, counted="0$"),
+        ],
+    ),
+    Program(
+        "rtc5",
+        "The virtual RTC5",
+        "Two lists in a loop. *Fly*: positions corrected by an encoder. *Table*: a field correction. *Unseen*: nobody "
+        "asks for the samples.",
+        [
+            Bench("run_card/micro_vectors_plain", "a vector each tick", TICK),
+            Bench("run_card/micro_vectors_fly", "with fly", TICK),
+            Bench("run_card/micro_vectors_table", "with table", TICK),
+            Bench("run_card/micro_vectors_fly_table", "with both", TICK, "run_twin/micro_vectors_fly_table"),
+            Bench("run_card/short_marks_fly_table", "marks of some ticks, with both", TICK),
+            Bench("run_card/long_marks_fly_table", "long marks, with both", TICK, "run_twin/long_marks_fly_table"),
+            Bench("run_card/long_marks_rotary_table", "long marks, with a rotary correction and table", TICK),
+            Bench("run_card/short_marks_unseen", "marks of some ticks, unseen", TICK),
+            Bench("run_card/long_marks_unseen", "long marks, unseen", TICK, "run_twin/long_marks_fly_table"),
+            Bench(
+                "run_recorded/short_marks_ideal", "with a work piece that keeps what was marked, ideal mirrors", TICK
+            ),
+            Bench("run_recorded/short_marks_mirrors", "with mirrors that lag", TICK),
+            Bench("run_recorded/short_marks_mirrors_lens", "and a lens", TICK),
+            Bench("run_twin/micro_vectors_fly_table", "the tick-by-tick twin, a vector each tick, with both", TICK),
+            Bench("run_twin/long_marks_fly_table", "the twin, long marks, with both", TICK),
+        ],
+    ),
+    Program(
+        "dds",
+        "Frames between two processes",
+        "Over Cyclone DDS on the loopback; the ages of the frames are told below the table. A time here is real time "
+        "between two frames, so that at 200 us it says only that none was late for long.",
+        [
+            Bench("network", _NETWORK, FRAME, counted=NEVER),
+            Bench("judging", "a frame judged: its CRC, its place in the order", FRAME),
+        ],
+    ),
+    Program(
+        "dds",
+        "The same with a real-time priority",
+        "Both processes under `chrt -f 50`, where the machine allows it.",
+        [
+            Bench("network", _NETWORK, FRAME, counted=NEVER),
+        ],
+        ("chrt", "-f", "50"),
+        "dds_chrt",
+    ),
+    Program(
+        "growth",
+        "Growth of a rack",
+        "Every axis makes the move `stepper`, with machines; cards of a grating bus publish frames each 200 us. What "
+        "stays the same down the rows grows with the work and no faster. More cards cost more a pulse: for each event "
+        "the kernel looks through all devices for the one that is next.",
+        [
+            Bench("axes", "so many axes of one card", ONE_PULSE),
+            Bench("cards", "all four axes of so many cards in one kernel", ONE_PULSE, counted="/(1|8)$"),
+            Bench("frames", "a grating bus with so many slaves and scales, nobody looking", CARD_FRAME, counted=NEVER),
+        ],
+    ),
 ]
-
-
-def names_in_sources() -> dict[str, set[str]]:
-    """The benches that the sources declare, by program."""
-    out: dict[str, set[str]] = {}
-    for path in sorted((ROOT / "bench").glob("*_bench.cpp")):
-        text = path.read_text(encoding="utf-8")
-        names = set(re.findall(r"\bBENCHMARK\((\w+)\)", text))
-        names |= {f"{family}/{case}" for family, case in re.findall(r"\bBENCHMARK_CAPTURE\((\w+),\s*(\w+)", text)}
-        names |= {f"{family}<{kind}>" for family, kind in re.findall(r"\bBENCHMARK_TEMPLATE\((\w+),\s*([\w:]+)\)", text)}
-        names |= set(re.findall(r'\badd\("(\w+)"', text))
-        if names:
-            out[path.name.removesuffix("_bench.cpp")] = names
-    return out
-
-
-def plain_name(name: str) -> str:
-    """A name as Google Benchmark prints it, without what only says how it was timed."""
-    return re.sub(r"/(min_time:[\d.]+|real_time|process_time|repeats:\d+)", "", name)
-
-
-def belongs(measured: str, bench: Bench) -> bool:
-    """Whether a measured name is of this bench, with whatever arguments."""
-    return measured == bench.name or measured.startswith(bench.name + "/")
-
-
-def bench_of(program: Program, measured: str) -> Bench | None:
-    """The bench with the longest name that a measured one is of."""
-    found = [bench for bench in program.benches if belongs(measured, bench)]
-    return max(found, key=lambda bench: len(bench.name)) if found else None

@@ -1,4 +1,5 @@
-"""The page of the benchmarks: every bench of the sources is on it, it is what its stored results say, and what others print is read rightly."""
+"""The page of the benchmarks: every bench of the sources is on it, it is what its stored results say,
+and what others print is read rightly."""
 import json
 import os
 import subprocess
@@ -10,13 +11,26 @@ import benches
 import instructions
 import peers
 import whole
+from kinds import ROOT, Bench, Unit, bench_of, names_in_sources, plain_name
 from main import PAGE, STORED, stored_text
 from page import page
 from running import Trouble, peak_of, run
-from table import PROGRAMS, ROOT, Bench, Unit, bench_of, names_in_sources, plain_name
+from table import PROGRAMS
 from text import bytes_of, digits, time_of
 
-_MACHINE = {"cpu": "C", "virtual": False, "cores": 2, "memory_gb": 4, "system": "S", "kernel": "6.1", "compiler": "c++", "load": 0.0, "day": "2000-01-01", "version": "1", "peers": {"verilator": "5"}}
+_MACHINE = {
+    "cpu": "C",
+    "virtual": False,
+    "cores": 2,
+    "memory_gb": 4,
+    "system": "S",
+    "kernel": "6.1",
+    "compiler": "c++",
+    "load": 0.0,
+    "day": "2000-01-01",
+    "version": "1",
+    "peers": {"verilator": "5"},
+}
 
 
 def results_of(**sections) -> dict:
@@ -24,7 +38,15 @@ def results_of(**sections) -> dict:
 
 
 def google(name: str, cpu: float, **counters) -> dict:
-    return {"name": name, "run_type": "iteration", "iterations": 10, "cpu_time": cpu, "real_time": 2 * cpu, "time_unit": "ns", **counters}
+    return {
+        "name": name,
+        "run_type": "iteration",
+        "iterations": 10,
+        "cpu_time": cpu,
+        "real_time": 2 * cpu,
+        "time_unit": "ns",
+        **counters,
+    }
 
 
 class EveryBench(unittest.TestCase):
@@ -34,14 +56,19 @@ class EveryBench(unittest.TestCase):
             told.setdefault(program.name, set()).update(bench.name for bench in program.benches)
             for bench in program.benches:
                 self.assertTrue(bench.means and bench.unit.thing, bench.name)
-                self.assertTrue(not bench.baseline or any(bench.baseline == other.name for other in program.benches), bench.name)
+                self.assertTrue(
+                    not bench.baseline or any(bench.baseline == other.name for other in program.benches), bench.name
+                )
         self.assertEqual(told, names_in_sources(), "bench/measure/table.py has a line for each bench of the sources")
 
     def test_is_on_the_page(self):
         text = PAGE.read_text(encoding="utf-8")
         for program, names in names_in_sources().items():
             for name in names:
-                self.assertTrue(f"`{name}`" in text or f"`{name}/" in text, f"{program}: {name} is not in {PAGE}; make it anew: bench/page")
+                self.assertTrue(
+                    f"`{name}`" in text or f"`{name}/" in text,
+                    f"{program}: {name} is not in {PAGE}; make it anew: bench/page",
+                )
 
     def test_that_was_not_measured_is_on_the_page_as_such(self):
         text = page(results_of())
@@ -53,18 +80,34 @@ class EveryBench(unittest.TestCase):
 class ThePage(unittest.TestCase):
     def test_is_what_its_stored_results_say(self):
         results = json.loads(STORED.read_text(encoding="utf-8"))
-        self.assertEqual(page(results), PAGE.read_text(encoding="utf-8"), "make it anew: bench/page --from bench/measured.json")
+        self.assertEqual(
+            page(results), PAGE.read_text(encoding="utf-8"), "make it anew: bench/page --from bench/measured.json"
+        )
         self.assertEqual(json.loads(stored_text(results)), results)
 
     def test_tells_times_ratios_and_aims(self):
-        rows = {"cruise/look_each_ms": {"ns": 0.004, "spread": 0.02, "sim_s/s": 15_000, "instructions": 0.0251}, "cruise_twin": {"ns": 32.0, "spread": 0.0}}
+        rows = {
+            "cruise/look_each_ms": {"ns": 0.004, "spread": 0.02, "sim_s/s": 15_000, "instructions": 0.0251},
+            "cruise_twin": {"ns": 32.0, "spread": 0.0},
+        }
         text = page(results_of(benches={"chip": rows}))
         self.assertIn("0.00400 ns ± 2 % | 0.0251 | 8,000 `cruise_twin` |", text)
         self.assertIn("| at least 10,000 | 15,000 | met |", text)
 
     def test_tells_where_others_are_faster(self):
         alike = {"peak_bytes": 1_000_000}
-        text = page(results_of(peers={"sigrok": {"edges": 10, "file_bytes": 100, "theirs": {"cpu_s": 1, **alike}, "ours": {"cpu_s": 2, **alike}}}))
+        text = page(
+            results_of(
+                peers={
+                    "sigrok": {
+                        "edges": 10,
+                        "file_bytes": 100,
+                        "theirs": {"cpu_s": 1, **alike},
+                        "ours": {"cpu_s": 2, **alike},
+                    }
+                }
+            )
+        )
         self.assertIn("| motionrack decode | 200 ms | 1.00 MB | 0.500 |", text)
 
     def test_tells_why_a_part_of_a_run_is_missing(self):
@@ -76,17 +119,30 @@ class ThePage(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             results, out = Path(folder) / "r.json", Path(folder) / "p.md"
             results.write_text(json.dumps(results_of()), encoding="utf-8")
-            subprocess.run([ROOT / "bench/page", "--from", "r.json", "--output", "p.md"], cwd=folder, check=True, capture_output=True)
+            subprocess.run(
+                [ROOT / "bench/page", "--from", "r.json", "--output", "p.md"],
+                cwd=folder,
+                check=True,
+                capture_output=True,
+            )
             self.assertEqual(out.read_text(encoding="utf-8"), page(results_of()))
-            broken = subprocess.run([ROOT / "bench/page", "--from", "none.json"], cwd=folder, capture_output=True, text=True, check=False)
+            broken = subprocess.run(
+                [ROOT / "bench/page", "--from", "none.json"], cwd=folder, capture_output=True, text=True, check=False
+            )
             self.assertEqual(broken.returncode, 1)
             self.assertIn("none.json", broken.stderr)
         said = subprocess.run([ROOT / "bench/page", "--help"], check=True, capture_output=True, text=True).stdout
         self.assertIn("Example:", said)
 
     def test_shows_three_digits(self):
-        self.assertEqual([digits(value) for value in (0, 0.00394, 0.5, 1, 12.34, 123.4, 12_345)], ["0", "0.00394", "0.500", "1.00", "12.3", "123", "12,300"])
-        self.assertEqual([time_of(ns) for ns in (0.25, 57.5, 43_100, 4.05e7, 1.5e9)], ["0.250 ns", "57.5 ns", "43.1 us", "40.5 ms", "1.50 s"])
+        self.assertEqual(
+            [digits(value) for value in (0, 0.00394, 0.5, 1, 12.34, 123.4, 12_345)],
+            ["0", "0.00394", "0.500", "1.00", "12.3", "123", "12,300"],
+        )
+        self.assertEqual(
+            [time_of(ns) for ns in (0.25, 57.5, 43_100, 4.05e7, 1.5e9)],
+            ["0.250 ns", "57.5 ns", "43.1 us", "40.5 ms", "1.50 s"],
+        )
         self.assertEqual(bytes_of(6_700), "6.70 kB")
 
 
@@ -101,16 +157,24 @@ class Results(unittest.TestCase):
     def test_of_failed_or_unknown_benches_are_refused_with_a_sentence(self):
         program = PROGRAMS[0]
         failed = {**google("snapshot", 1), "error_occurred": True, "error_message": "an edge was lost"}
-        for row, part in ((failed, "an edge was lost"), (google("unheard_of", 1), "table.py"), (google("cruise_twin", 1), "pulses/s")):
+        for row, part in (
+            (failed, "an edge was lost"),
+            (google("unheard_of", 1), "table.py"),
+            (google("cruise_twin", 1), "pulses/s"),
+        ):
             with self.assertRaisesRegex(Trouble, part):
                 benches.read_results(json.dumps({"benchmarks": [row]}), program)
         with self.assertRaisesRegex(Trouble, "there are: axis"):
             benches.chosen(["unheard_of"])
 
     def test_have_names_without_what_only_says_how_they_were_timed(self):
-        self.assertEqual(plain_name("network/period_us:200/scales:8/min_time:20.000/real_time"), "network/period_us:200/scales:8")
+        self.assertEqual(
+            plain_name("network/period_us:200/scales:8/min_time:20.000/real_time"), "network/period_us:200/scales:8"
+        )
         program = next(program for program in PROGRAMS if program.name == "dds")
-        self.assertEqual(bench_of(program, "network/period_us:200/scales:8").name, "network")
+        bench = bench_of(program, "network/period_us:200/scales:8")
+        assert bench
+        self.assertEqual(bench.name, "network")
 
     def test_take_real_time_where_the_bench_does(self):
         self.assertEqual(benches.nanoseconds_each(google("a", 5), ""), 5)
@@ -123,9 +187,24 @@ class Instructions(unittest.TestCase):
     def test_are_those_of_the_last_loop_without_its_pauses(self):
         def dump(trigger: str, cost: int) -> str:
             return f"version: 1\ndesc: Trigger: {trigger}\nevents: Ir\nsummary: {cost}\nfn=(1)\ntotals: {cost}\n"
-        start, pause = "--dump-after=benchmark::State::StartKeepRunning()", "--dump-before=benchmark::State::PauseTiming()"
-        resume, finish = "--dump-after=benchmark::State::ResumeTiming()", "--dump-before=benchmark::State::FinishKeepRunning()"
-        dumps = [dump(start, 7), dump(finish, 5), dump(start, 900), dump(pause, 30), dump(resume, 800), dump(finish, 12), dump("Program termination", 99)]
+
+        start, pause = (
+            "--dump-after=benchmark::State::StartKeepRunning()",
+            "--dump-before=benchmark::State::PauseTiming()",
+        )
+        resume, finish = (
+            "--dump-after=benchmark::State::ResumeTiming()",
+            "--dump-before=benchmark::State::FinishKeepRunning()",
+        )
+        dumps = [
+            dump(start, 7),
+            dump(finish, 5),
+            dump(start, 900),
+            dump(pause, 30),
+            dump(resume, 800),
+            dump(finish, 12),
+            dump("Program termination", 99),
+        ]
         self.assertEqual(instructions.instructions_in(dumps), 42)
         with self.assertRaises(Trouble):
             instructions.instructions_in([dump("Program termination", 99)])
@@ -137,10 +216,15 @@ class Instructions(unittest.TestCase):
 
 class Others(unittest.TestCase):
     def test_are_read_as_they_print(self):
-        self.assertEqual(whole.counts_decoded("X          X_enc_a,X_enc_b          400         1600         1200         1010.7"), 2800)
+        self.assertEqual(
+            whole.counts_decoded("X          X_enc_a,X_enc_b          400         1600         1200         1010.7"),
+            2800,
+        )
         self.assertEqual(peers.last_number("graycode-1: 1\ngraycode-1: -2\n"), -2)
         rows = "".join(f"120 200 {i} 900 \n" for i in range(2000))
-        self.assertEqual(peers.read_periods(rows), {"periods": 1800, "make": 120, "count": 200, "thread": 900, "counts_a_period": 1})
+        self.assertEqual(
+            peers.read_periods(rows), {"periods": 1800, "make": 120, "count": 200, "thread": 900, "counts_a_period": 1}
+        )
         for bad in ("1 2 3 4\n", "120 200 5 900\n" * 2000):
             with self.assertRaises(Trouble):
                 peers.read_periods(bad)
@@ -154,7 +238,7 @@ class Others(unittest.TestCase):
         own = bytearray(80_000_000)
         self.assertLess(run(["true"]).peak_bytes, 10_000_000)
         self.assertGreater(peak_of(os.getpid()), len(own))
-        self.assertEqual(peak_of(2 ** 30), 0)
+        self.assertEqual(peak_of(2**30), 0)
 
 
 if __name__ == "__main__":

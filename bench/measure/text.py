@@ -1,4 +1,5 @@
 """Numbers and tables as a page shows them: three digits, thousands with commas."""
+from collections.abc import Sequence
 
 _SCALES = ((1e9, "s"), (1e6, "ms"), (1e3, "us"), (1, "ns"))
 
@@ -42,8 +43,10 @@ def not_measured(got: dict) -> str:
     return "Not measured in this run" + (f": {got['missing']}" if got else ".")
 
 
-def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
+def table(heads: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
     """A Markdown table. Bars inside cells are escaped."""
+
     def line(cells: tuple[str, ...]) -> str:
         return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
     return [line(heads), "|" + "---|" * len(heads), *(line(row) for row in rows)]

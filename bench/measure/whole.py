@@ -63,17 +63,34 @@ def growth_with_edges(program: Path, scratch: Path, progress: Progress, quick: b
         Progress.within(f"{edges} edges")
         moves, waves = scratch / "passes.ngc", scratch / "passes.vcd"
         moves.write_text(passes(edges), encoding="ascii")
-        trace = run([str(program), "trace", str(moves), str(waves), "--signals", "X.enc_a", "--signals", "X.enc_b", "-q"], cwd=scratch)
+        trace = run(
+            [str(program), "trace", str(moves), str(waves), "--signals", "X.enc_a", "--signals", "X.enc_b", "-q"],
+            cwd=scratch,
+        )
         decode = best_of(1 if quick else 3, [str(program), "decode", str(waves), "-q"], cwd=scratch)
-        rows.append({"n": counts_decoded(decode.out), "file_bytes": waves.stat().st_size,
-                     "trace": {"cpu_s": trace.cpu_s, "peak_bytes": trace.peak_bytes}, "decode": {"cpu_s": decode.cpu_s, "peak_bytes": decode.peak_bytes}})
+        rows.append(
+            {
+                "n": counts_decoded(decode.out),
+                "file_bytes": waves.stat().st_size,
+                "trace": {"cpu_s": trace.cpu_s, "peak_bytes": trace.peak_bytes},
+                "decode": {"cpu_s": decode.cpu_s, "peak_bytes": decode.peak_bytes},
+            }
+        )
         waves.unlink()
     Progress.end_within()
     return rows
 
 
-_SERVED = {"pictures_a_second": r"^pictures +(\d+) a second", "lost": r"a second, (-?\d+) of", "p50_ms": r"^lateness p50 +([\d.]+)", "p99_ms": r"^lateness p99 +([\d.]+)",
-           "max_ms": r"^lateness max +([\d.]+)", "served_percent": r"^processor +(\d+) %", "read_percent": r"served, (\d+) % read", "peak_megabytes": r"^memory +([\d.]+) MB"}
+_SERVED = {
+    "pictures_a_second": r"^pictures +(\d+) a second",
+    "lost": r"a second, (-?\d+) of",
+    "p50_ms": r"^lateness p50 +([\d.]+)",
+    "p99_ms": r"^lateness p99 +([\d.]+)",
+    "max_ms": r"^lateness max +([\d.]+)",
+    "served_percent": r"^processor +(\d+) %",
+    "read_percent": r"served, (\d+) % read",
+    "peak_megabytes": r"^memory +([\d.]+) MB",
+}
 
 
 def growth_with_clients(folder: Path, progress: Progress, quick: bool) -> list[dict]:
@@ -97,33 +114,45 @@ def growth_with_clients(folder: Path, progress: Progress, quick: bool) -> list[d
 def growth_with_cards(folder: Path, progress: Progress, quick: bool) -> list[dict]:
     """Peak memory of bench_growth with so many cards."""
     progress.step("memory of many cards")
-    return [{"n": cards, "peak_bytes": run([str(folder / "bench_growth"), f"--benchmark_filter=^cards/{cards}$", "--benchmark_min_time=0.05"]).peak_bytes}
-            for cards in ((1, 8) if quick else (1, 2, 4, 8, 16, 32))]
+    return [
+        {
+            "n": cards,
+            "peak_bytes": run(
+                [str(folder / "bench_growth"), f"--benchmark_filter=^cards/{cards}$", "--benchmark_min_time=0.05"]
+            ).peak_bytes,
+        }
+        for cards in ((1, 8) if quick else (1, 2, 4, 8, 16, 32))
+    ]
 
 
 def captures(scratch: Path, quick: bool) -> list[tuple[str, Path, int, list[str]]]:
-    """Captures of one turning encoder: what they are, the file, its samples, and what `motionrack decode` has to be told of it."""
+    """Captures of one turning encoder: what they are, the file, its samples,
+    and what `motionrack decode` has to be told of it."""
     turns = 100_000 if quick else 4_000_000
     raw, csv = scratch / "turns.bin", scratch / "turns.csv"
     raw.write_bytes(b"\0\1\3\2" * (turns * 4))
     csv.write_bytes(b"enc_a,enc_b\n" + b"0,0\n1,0\n1,1\n0,1\n" * turns)
     rate = ["--sample-rate", "10M"]
-    return [("raw capture, a byte a sample, a count each", raw, 16 * turns, [*rate, "--channel", "X=0,1"]),
-            ("CSV, a count each row", csv, 4 * turns, [*rate, "--channel", "X=enc_a,enc_b"])]
+    return [
+        ("raw capture, a byte a sample, a count each", raw, 16 * turns, [*rate, "--channel", "X=0,1"]),
+        ("CSV, a count each row", csv, 4 * turns, [*rate, "--channel", "X=enc_a,enc_b"]),
+    ]
 
 
 def programs(program: Path, scratch: Path, progress: Progress, quick: bool, part: Path) -> list[dict]:
     """What a user runs, with the peak memory of it."""
     progress.step("whole programs")
     times = 1 if quick else 5
-    table = [("nothing: `motionrack --version`", ["--version"]),
-             ("`motionrack check` of the example part", ["check", str(part)]),
-             ("`motionrack plan` of it", ["plan", str(part)]),
-             ("`motionrack run` of it, 40 s of four axes", ["run", str(part), "--no-report", "-q"]),
-             ("the same with its report", ["run", str(part), "--report", "report.html", "-q"]),
-             ("the same with a recording of everything", ["run", str(part), "--no-report", "--record", "part.h5", "-q"]),
-             ("`motionrack replay` of that", ["replay", "part.h5"]),
-             ("`motionrack diff` of it with itself", ["diff", "part.h5", "part.h5"])]
+    table = [
+        ("nothing: `motionrack --version`", ["--version"]),
+        ("`motionrack check` of the example part", ["check", str(part)]),
+        ("`motionrack plan` of it", ["plan", str(part)]),
+        ("`motionrack run` of it, 40 s of four axes", ["run", str(part), "--no-report", "-q"]),
+        ("the same with its report", ["run", str(part), "--report", "report.html", "-q"]),
+        ("the same with a recording of everything", ["run", str(part), "--no-report", "--record", "part.h5", "-q"]),
+        ("`motionrack replay` of that", ["replay", "part.h5"]),
+        ("`motionrack diff` of it with itself", ["diff", "part.h5", "part.h5"]),
+    ]
     rows = []
     for what, argv in table:
         Progress.within(what)
@@ -132,8 +161,15 @@ def programs(program: Path, scratch: Path, progress: Progress, quick: bool, part
     for what, file, samples, told in captures(scratch, quick):
         Progress.within(what)
         ran = best_of(times, [str(program), "decode", str(file), "-q", *told], cwd=scratch)
-        rows.append({"what": f"`motionrack decode`: {what}, {file.stat().st_size // 1_000_000} MB", "cpu_s": ran.cpu_s, "peak_bytes": ran.peak_bytes,
-                     "samples": samples, "bytes": file.stat().st_size})
+        rows.append(
+            {
+                "what": f"`motionrack decode`: {what}, {file.stat().st_size // 1_000_000} MB",
+                "cpu_s": ran.cpu_s,
+                "peak_bytes": ran.peak_bytes,
+                "samples": samples,
+                "bytes": file.stat().st_size,
+            }
+        )
         file.unlink()
     Progress.end_within()
     return rows

@@ -1,4 +1,5 @@
-"""Drives a card from Python: a move by register writes, a limit switch hit by hand, and what would have happened without it."""
+"""Drives a card from Python: a move by register writes, a limit switch hit by hand,
+and what would have happened without it."""
 
 import motionrack
 

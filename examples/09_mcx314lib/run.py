@@ -1,5 +1,5 @@
-"""The MCX314's function library from Python: sets the parameters of X, drives there and back, and shows its counters as the window of such a
-program does."""
+"""The MCX314's function library from Python: sets the parameters of X, drives there and back, and shows its counters as
+the window of such a program does."""
 
 import motionrack
 

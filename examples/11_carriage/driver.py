@@ -1,5 +1,5 @@
-"""A transfer carriage by the card's own commands: A to C fast and held there, C gently to B, back to A at limited speed. Then once more with an
-end stop whose contact opens on the way, and once with the emergency button.
+"""A transfer carriage by the card's own commands: A to C fast and held there, C gently to B, back to A at limited
+speed. Then once more with an end stop whose contact opens on the way, and once with the emergency button.
 
     A 0 ───────────── B 128000 ───────────── C 256000 counts of 0.01 mm
 """
@@ -39,8 +39,11 @@ class Carriage:
         took = (rack.ticks - begun) * 1e-10
         rack.advance(ms=100)  # it comes to rest
         there = board.position()
-        print(f"  {name:<5} {abs(target - here):>7} counts  by the table {motion['seconds']:6.3f} s, took {took:6.3f} s, "
-              f"at most {motion['top_speed'] / COUNTS_PER_MM:3.0f} mm/s, stands {there - target:+d} counts from its target")
+        print(
+            f"  {name:<5} {abs(target - here):>7} counts  by the table {motion['seconds']:6.3f} s, took {took:6.3f} s, "
+            f"at most {motion['top_speed'] / COUNTS_PER_MM:3.0f} mm/s, "
+            f"stands {there - target:+d} counts from its target"
+        )
 
     def run(self) -> None:
         self.board.connect()

@@ -1,4 +1,5 @@
-"""A scan and a step stage whose loops are closed by two cards: how far they are apart when the cards read one instant, and when they do not."""
+"""A scan and a step stage whose loops are closed by two cards: how far they are apart when the cards read one instant,
+and when they do not."""
 
 import math
 import sys
@@ -57,9 +58,14 @@ def run(trial: Trial) -> None:
             if scanning(tick):
                 apart.append(nm)
         print(trial.name)
-        print(f"  following error that the cards see, at most: scan_x {length(mask.following_peak_nm)}, step_x {length(wafer.following_peak_nm)}")
-        print(f"  scan_x - 4 step_x in truth, while scanning: at most {length(max(map(abs, apart)))}, "
-              f"rms {length(math.sqrt(sum(nm * nm for nm in apart) / len(apart)))}")
+        print(
+            f"  following error that the cards see, at most: scan_x {length(mask.following_peak_nm)}, "
+            f"step_x {length(wafer.following_peak_nm)}"
+        )
+        print(
+            f"  scan_x - 4 step_x in truth, while scanning: at most {length(max(abs(nm) for nm in apart))}, "
+            f"rms {length(math.sqrt(sum(nm * nm for nm in apart) / len(apart)))}"
+        )
         step = rack.cards["step"]
         print(f"  conflicts on the bus {rack.bus_conflicts()}, frames that card step refused {step.refused_frames()}")
         for name, stage in rack.parts.items():

@@ -26,6 +26,9 @@ with motionrack.Rack.from_file("line.toml") as rack:
         line.speed_mm_s = speed
         rack.advance(2)
         frames = (head.marked_mm - marked) / 18
-        print(f"{speed:3.0f} mm/s: {line.parts - parts:3.0f} parts in 2 s, {frames:5.1f} frames marked, {(head.energy_j - energy) / frames:.2f} J each")
+        print(
+            f"{speed:3.0f} mm/s: {line.parts - parts:3.0f} parts in 2 s, {frames:5.1f} frames marked, "
+            f"{(head.energy_j - energy) / frames:.2f} J each"
+        )
         for sentence in rtc.marking_info_text(rtc.get_marking_info()):
             print(f"          {sentence}")

@@ -13,5 +13,7 @@ with motionrack.Rack.from_file("demonstration.toml") as rack:
 with program as rack:
     print(rack.run(path="../02_part/part.ngc"))
     axes = rack.cards["glass"].channels  # its array is not loaded yet: it has seen nothing
-    print(f"  X has counted {rack.parts['X'].position_counts:.0f}, the glass scales {axes['0'].POSITION}; the mask is at {rack.parts['mask_x'].position_mm:.3f} mm, "
-          f"{rack.parts['line'].parts:.0f} parts came by")
+    print(
+        f"  X has counted {rack.parts['X'].position_counts:.0f}, the glass scales {axes['0'].POSITION}; the mask is at "
+        f"{rack.parts['mask_x'].position_mm:.3f} mm, {rack.parts['line'].parts:.0f} parts came by"
+    )

@@ -9,7 +9,7 @@ namespace howto {
 
 namespace {
 
-std::string picture(const Record& hunting, const Record& settling) {
+std::string lock_picture(const Record& hunting, const Record& settling) {
     trace::SvgChart chart;
     chart.title = "Position, mm";
     chart.series = {{"hunts: window 0.05 mm, 5 V at once", "x", hunting.seconds, hunting.mm},
@@ -52,7 +52,7 @@ Result<std::string> lock() {
         MOTIONRACK_TRY(const double mm, card.position_mm());
         fmt::print("at {:.2f} mm; in the last second it swings by {:.2f} mm\n", mm, swing(bench->recorded()));
     }
-    return picture(hunting.recorded(), settling.recorded());
+    return lock_picture(hunting.recorded(), settling.recorded());
 }
 
 }  // namespace howto

@@ -12,7 +12,7 @@ void print(const char* name, const SlopeMotion& motion) {
                motion.legs.size());
 }
 
-std::string picture(const SlopeMotion& empty, const SlopeMotion& loaded, const Record& driven) {
+std::string slope_picture(const SlopeMotion& empty, const SlopeMotion& loaded, const Record& driven) {
     auto a = series_of(empty), b = series_of(loaded);
     for (auto* series : {&a, &b})
         for (float& speed : series->speed) speed /= static_cast<float>(counts_per_mm);
@@ -56,7 +56,7 @@ Result<std::string> slope() {
     MOTIONRACK_TRY(const double mm, card.position_mm());
     fmt::print("driven: at {:.2f} mm after {:.3f} s\n", mm, bench.recorded().seconds.back());
     bench.run(milliseconds(200));
-    return picture(empty, loaded, bench.recorded());
+    return slope_picture(empty, loaded, bench.recorded());
 }
 
 }  // namespace howto

@@ -8,7 +8,7 @@ import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const BUILD = process.env.MOTIONRACK_BUILD ?? join(here, '../../build/test');
+const BUILD = process.env.MOTIONRACK_BUILD ?? join(here, '../../build/release');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 export const PICTURES = join(BUILD, 'pictures');
 /** Four axes whose positions are known at once; all kinds of card. */

@@ -9,7 +9,7 @@ namespace motionrack {
 namespace {
 
 constexpr double most_squared = 1e6;
-constexpr double sqrt_half = 0x1.6a09e667f3bcdp-1;
+constexpr double root_half_of_power = 0x1.6a09e667f3bcdp-1;
 
 /// high + low, where low is below half an ulp of high.
 struct Pair {
@@ -83,7 +83,7 @@ double whole_power(double x, double y) {
 Pair logarithm(double x) {
     int exponent = 0;
     double m = std::frexp(x, &exponent);
-    if (m < sqrt_half) m *= 2, --exponent;
+    if (m < root_half_of_power) m *= 2, --exponent;
     const Pair s = Pair{m - 1, 0} / sum(m, 1), square = s * s;
     Pair series = {0, 0};
     for (int n = 43; n >= 3; n -= 2) series = (series + Pair{1, 0} / Pair{static_cast<double>(n), 0}) * square;

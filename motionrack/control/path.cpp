@@ -9,7 +9,7 @@ namespace motionrack::control {
 namespace {
 
 constexpr int widest_window = 1'000'000;
-constexpr double rounding = 1e-9;
+constexpr double path_rounding = 1e-9;
 
 std::uint64_t power_of_two_from(std::uint64_t least) {
     std::uint64_t size = 1;
@@ -113,7 +113,7 @@ void Planner::forward(std::uint64_t until) {
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
         // After reopen() a joint may want to be slower than can be braked to.
-        if (entry - here.reach - exit > rounding * entry) exit = entry - here.reach;
+        if (entry - here.reach - exit > path_rounding * entry) exit = entry - here.reach;
         const double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         planned.entry = committed_;
         planned.exit = std::sqrt(exit);

@@ -8,7 +8,7 @@ namespace motionrack::control {
 namespace {
 
 /// s of motion that the axes have at once: how soon a wish is felt.
-constexpr double most_seconds = 0.03;
+constexpr double max_line_seconds = 0.03;
 /// Of the last moves the ride tells nothing until it knows what follows, or that nothing does: which it is told if no
 /// line has come for so long, and so long before it would slow down for the end of what it tells.
 constexpr double ends_before = 0.2;
@@ -18,7 +18,7 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 RideMoves Stream::new_ride(const Point& place) const {
     RideMovesSettings settings;
-    settings.most_seconds = most_seconds;
+    settings.most_seconds = max_line_seconds;
     settings.cut_dwells = true;
     return ride_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings, place);
 }

@@ -10,7 +10,7 @@ namespace motionrack::nats {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using GatherClock = std::chrono::steady_clock;
 constexpr auto least_patience = std::chrono::seconds(10);
 
 class Gatherer {
@@ -37,14 +37,14 @@ class Gatherer {
             if (!some) break;
         }
         MOTIONRACK_CHECK(offer());
-        Clock::time_point heard = Clock::now();
+        GatherClock::time_point heard = GatherClock::now();
         auto patience = least_patience;
         while (!done() && !stop_) {
             // Short waits, so that Ctrl-C is heard.
             MOTIONRACK_TRY(const bool some, take(300));
             if (queue_.came_back()) MOTIONRACK_CHECK(offer());
-            if (some) heard = Clock::now(), patience = least_patience;
-            if (!some && Clock::now() - heard > patience) {
+            if (some) heard = GatherClock::now(), patience = least_patience;
+            if (!some && GatherClock::now() - heard > patience) {
                 if (waits_) waits_(patience.count());
                 patience *= 2;
                 // Should somebody have taken rows away, their points are run again; all others are in the queue and

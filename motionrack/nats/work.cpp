@@ -13,7 +13,7 @@ namespace motionrack::nats {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using WorkClock = std::chrono::steady_clock;
 
 /// Gives signs of life for points that run, from a thread of its own.
 class Signs {
@@ -76,11 +76,11 @@ class Worker {
                 if (ended_) ended_ = tl::unexpected<Error>(some.error());
                 over_ = true;
             } else if (*some) {
-                last_ = Clock::now();
+                last_ = WorkClock::now();
                 ++count_;
                 if (done_) done_(count_);
             } else if (settings_.idle_s > 0 &&
-                       std::chrono::duration<double>(Clock::now() - last_).count() > settings_.idle_s) {
+                       std::chrono::duration<double>(WorkClock::now() - last_).count() > settings_.idle_s) {
                 return;
             }
         }
@@ -123,7 +123,7 @@ class Worker {
     std::mutex mutex_;
     std::atomic<bool> over_{false};
     std::int64_t count_ = 0;
-    Clock::time_point last_ = Clock::now();
+    WorkClock::time_point last_ = WorkClock::now();
     Result<void> ended_;
 };
 

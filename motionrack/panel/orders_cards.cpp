@@ -51,7 +51,7 @@ Result<json> step_clock(Desk& desk, const json& fields) {
     return taken(pacer->step(from_seconds(fields.at("seconds").get<double>())));
 }
 
-constexpr std::array doers = {
+constexpr std::array card_rows = {
     Doer{"set_wire", [](Desk& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
     Doer{"press_estop",
          [](Desk& desk, const Caller&, const json& fields) {
@@ -73,7 +73,7 @@ constexpr std::array doers = {
 }  // namespace
 
 std::span<const Doer> card_doers() {
-    return doers;
+    return card_rows;
 }
 
 }  // namespace motionrack::panel

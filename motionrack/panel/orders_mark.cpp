@@ -79,7 +79,7 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
 }
 
 /// On the motion thread, between runs.
-Result<json> begin(Desk& desk, const std::string& card, const Lists& lists) {
+Result<json> begin_marking(Desk& desk, const std::string& card, const Lists& lists) {
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
     if (!engine.at_rest())
         return fail(
@@ -120,7 +120,7 @@ void mark(Desk& desk, const json& fields, Ready ready) {
         return lists_of(config, card, text, drawing, on_parts);
     };
     desk.aside<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) {
-        ready(lists ? begin(desk, card, *lists) : tl::unexpected<Error>(lists.error()));
+        ready(lists ? begin_marking(desk, card, *lists) : tl::unexpected<Error>(lists.error()));
     });
 }
 
@@ -134,7 +134,7 @@ Result<json> stop(Desk& desk, const json& fields) {
     return json::object();
 }
 
-constexpr std::array doers = {
+constexpr std::array mark_rows = {
     Doer{"mark", nullptr,
          [](Desk& desk, const Caller&, const json& fields, Ready ready) { mark(desk, fields, std::move(ready)); }},
     Doer{"mark_stop", [](Desk& desk, const Caller&, const json& fields) { return stop(desk, fields); }},
@@ -143,7 +143,7 @@ constexpr std::array doers = {
 }  // namespace
 
 std::span<const Doer> mark_doers() {
-    return doers;
+    return mark_rows;
 }
 
 }  // namespace motionrack::panel

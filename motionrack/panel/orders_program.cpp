@@ -30,7 +30,7 @@ void plan_aside(Desk& desk, const Reading& reading, std::string text, std::strin
     });
 }
 
-Result<json> begin(Desk& desk, const json& fields) {
+Result<json> begin_program(Desk& desk, const json& fields) {
     const auto &text = fields.at("text").get_ref<const std::string&>(),
                &name = fields.at("name").get_ref<const std::string&>();
     const Reading reading = reading_of(desk);
@@ -51,7 +51,7 @@ void check(Desk& desk, const json& fields, Ready ready) {
 }
 
 constexpr std::array program = {
-    Doer{"begin", [](Desk& desk, const Caller&, const json& fields) { return begin(desk, fields); }},
+    Doer{"begin", [](Desk& desk, const Caller&, const json& fields) { return begin_program(desk, fields); }},
     Doer{"check", nullptr,
          [](Desk& desk, const Caller&, const json& fields, Ready ready) { check(desk, fields, std::move(ready)); }},
     Doer{"line",

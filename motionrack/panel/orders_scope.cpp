@@ -40,7 +40,7 @@ void look(Desk& desk, const json& fields, Ready ready) {
         std::move(ready));
 }
 
-constexpr std::array doers = {
+constexpr std::array scope_rows = {
     Doer{"scope_arm", [](Desk& desk, const Caller&, const json& fields) { return arm(desk, fields); }},
     Doer{"scope_stop",
          [](Desk& desk, const Caller&, const json&) -> Result<json> {
@@ -54,7 +54,7 @@ constexpr std::array doers = {
 }  // namespace
 
 std::span<const Doer> scope_doers() {
-    return doers;
+    return scope_rows;
 }
 
 }  // namespace motionrack::panel

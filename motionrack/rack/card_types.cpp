@@ -331,7 +331,7 @@ void* rtc5_of(RackCard& card) {
     return &card.rtc5;
 }
 
-constexpr std::array<CardType, 6> table = {{
+constexpr std::array<CardType, 6> card_type_table = {{
     {"mcx314",
      "four-axis pulse chip with interpolation",
      "xyzu",
@@ -432,13 +432,13 @@ constexpr std::array<CardType, 6> table = {{
 }  // namespace
 
 std::span<const CardType> card_types() {
-    return table;
+    return card_type_table;
 }
 
 const CardType* find_card_type(std::string_view name) {
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const CardType& type) { return type.name == name; });
-    return found != table.end() ? &*found : nullptr;
+    const auto found = std::find_if(card_type_table.begin(), card_type_table.end(),
+                                    [&](const CardType& type) { return type.name == name; });
+    return found != card_type_table.end() ? &*found : nullptr;
 }
 
 std::vector<Pin> pins_of(const RackCard& card) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> card_type_names = {"mcx314",      "databoard4002",   "ioflex02",
                                                              "grating_bus", "grating_decoder", "rtc5"};
-constexpr std::array<std::string_view, 2> kinds = {"linear", "rotary"};
+constexpr std::array<std::string_view, 2> axis_kinds = {"linear", "rotary"};
 
 constexpr std::array<Field, 1> rack_table = {
     field<&RackConfig::name>("name", 1, 200, "", "what reports call the rack"),
@@ -24,7 +24,7 @@ constexpr std::array<Field, 16> axis_table = {
     required(field<&RackAxis::card>("card", 1, 32, "", "name of the card that drives the axis"), "required"),
     absent_means(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel (x, y, z or u of an mcx314)"),
                  "the only one of its card"),
-    absent_means(with_choices(field<&RackAxis::kind>("kind", 0, 0, "", "X Y Z are linear, A B C rotary"), kinds),
+    absent_means(with_choices(field<&RackAxis::kind>("kind", 0, 0, "", "X Y Z are linear, A B C rotary"), axis_kinds),
                  "by the letter"),
     field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "",
                                           "full steps of a motor turn; not of a servo"),
@@ -124,7 +124,7 @@ bool has_encoder(const RackAxis& axis) {
     return axis.encoder_counts_per_rev > 0;
 }
 
-constexpr std::array<AxisEnd, 10> ends = {{
+constexpr std::array<AxisEnd, 10> axis_end_table = {{
     {"step", PinDirection::input, "a pulse moves the motor by one microstep", steps, "a stepping motor (no servo)"},
     {"dir", PinDirection::input, "the direction of the pulses", steps, "a stepping motor (no servo)"},
     {"drive", PinDirection::input, "speed for the servo amplifier, V",
@@ -173,12 +173,13 @@ std::span<const Field> controller_fields() {
 }
 
 std::span<const AxisEnd> axis_ends() {
-    return ends;
+    return axis_end_table;
 }
 
 const AxisEnd* find_axis_end(std::string_view name) {
-    const auto found = std::find_if(ends.begin(), ends.end(), [&](const AxisEnd& end) { return end.name == name; });
-    return found != ends.end() ? &*found : nullptr;
+    const auto found = std::find_if(axis_end_table.begin(), axis_end_table.end(),
+                                    [&](const AxisEnd& end) { return end.name == name; });
+    return found != axis_end_table.end() ? &*found : nullptr;
 }
 
 }  // namespace motionrack::rack

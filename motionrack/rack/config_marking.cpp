@@ -71,7 +71,7 @@ bool has_parts(const RackTrack& track) {
     return track.passing.has_value();
 }
 
-constexpr std::array<TrackEnd, 5> ends = {{
+constexpr std::array<TrackEnd, 5> track_end_table = {{
     {"enc_a", "enc#_a", "encoder line A", has_encoder, "counts_per_{u} other than 0"},
     {"enc_b", "enc#_b", "encoder line B", has_encoder, "counts_per_{u} other than 0"},
     {"mcbsp", "mcbsp", "the sender's last complete word", has_sender, "a section sender", 32},
@@ -277,7 +277,7 @@ std::span<const Field> scanner_fields() {
     return scanner_table;
 }
 std::span<const TrackEnd> track_ends() {
-    return ends;
+    return track_end_table;
 }
 
 void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config,

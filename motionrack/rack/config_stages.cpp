@@ -12,7 +12,7 @@ namespace motionrack::rack {
 namespace {
 
 constexpr std::array<std::string_view, 2> stage_tables = {"scale", "servo"};
-constexpr std::array<std::string_view, 3> profiles = {"hold", "scan", "steps"};
+constexpr std::array<std::string_view, 3> stage_profiles = {"hold", "scan", "steps"};
 
 constexpr std::array<Field, 12> stage_table = {
     required(field<&RackStage::card>("card", 1, 32, "", "name of the card (type grating_bus) that drives it"),
@@ -45,7 +45,7 @@ constexpr std::array<Field, 7> scale_table = {
     field<&RackScale::dirt_at_mm>("dirt_at_mm", -1e4, 1e4, "mm", "where the dirt of the fault scale.dirt begins"),
 };
 
-constexpr std::array<Field, 16> servo_table = {
+constexpr std::array<Field, 16> stage_servo_table = {
     field<&RackStageServo::bandwidth_hz>("bandwidth_hz", 1, 10'000, "Hz", "there the open loop crosses 1"),
     absent_means(field<&RackStageServo::p_v_um>("p_v_um", 0, 1e6, "V/um", "proportional gain"), "by the bandwidth"),
     absent_means(field<&RackStageServo::i_v_um_s>("i_v_um_s", 0, 1e9, "V/(um s)", "integral gain"), "by the bandwidth"),
@@ -55,7 +55,7 @@ constexpr std::array<Field, 16> servo_table = {
                                      "a greater following error opens the loop; 0: none does"),
     field<&RackStageServo::compute_us>("compute_us", 0, 100'000, "us",
                                        "from the frame to the voltage, less than a period"),
-    with_choices(field<&RackStageServo::profile>("profile", 0, 0, "", "where it goes"), profiles),
+    with_choices(field<&RackStageServo::profile>("profile", 0, 0, "", "where it goes"), stage_profiles),
     field<&RackStageServo::from_mm>("from_mm", -1e4, 1e4, "mm", "scan: at constant speed from here"),
     field<&RackStageServo::to_mm>("to_mm", -1e4, 1e4, "mm", "to here, and back"),
     field<&RackStageServo::step_mm>("step_mm", -1e4, 1e4, "mm", "steps: how far each goes"),
@@ -193,7 +193,7 @@ std::span<const Field> scale_fields() {
     return scale_table;
 }
 std::span<const Field> stage_servo_fields() {
-    return servo_table;
+    return stage_servo_table;
 }
 
 bool is_name(std::string_view name) {

@@ -59,19 +59,19 @@ db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis&
 }
 
 /// A value by its name.
-struct Value {
+struct ByteValue {
     std::string_view name;
     double (*get)(const db::Card& card);
 };
 
 // What the boundary calls quantities.
-constexpr Value quantities_of_card[] = {
+constexpr ByteValue quantities_of_card[] = {
     {"fout_hz", [](const db::Card& card) { return card.fout_hz(); }},
     {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); }},
 };
 
 // What can be inspected beside the registers.
-constexpr Value inspected[] = {
+constexpr ByteValue inspected[] = {
     {"POSITION", [](const db::Card& card) { return static_cast<double>(card.position()); }},
     {"RATE", [](const db::Card& card) { return static_cast<double>(card.output_rate()); }},
     {"MOVING", [](const db::Card& card) { return card.moving() ? 1.0 : 0.0; }},
@@ -107,7 +107,7 @@ class Databoard4002Card final : public MotionCard {
 
     Result<std::int64_t> inspect(std::string_view name) const override {
         std::vector<std::string_view> more;
-        for (const Value& value : inspected) {
+        for (const ByteValue& value : inspected) {
             if (value.name == name) return static_cast<std::int64_t>(value.get(card_));
             more.push_back(value.name);
         }
@@ -118,17 +118,17 @@ class Databoard4002Card final : public MotionCard {
     }
     std::vector<std::string> value_names() const override {
         std::vector<std::string> out;
-        for (const Value& value : inspected) out.emplace_back(value.name);
+        for (const ByteValue& value : inspected) out.emplace_back(value.name);
         return out;
     }
     std::optional<double> quantity(std::string_view name) const override {
-        for (const Value& value : quantities_of_card)
+        for (const ByteValue& value : quantities_of_card)
             if (value.name == name) return value.get(card_);
         return std::nullopt;
     }
     std::vector<std::string_view> quantity_names() const override {
         std::vector<std::string_view> out;
-        for (const Value& value : quantities_of_card) out.push_back(value.name);
+        for (const ByteValue& value : quantities_of_card) out.push_back(value.name);
         return out;
     }
 

@@ -12,7 +12,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr double most = greatest_push;
+constexpr double max_push = greatest_push;
 
 /// Faults of the encoder's tracks where they are wires; what else an encoder can have is the machine's.
 constexpr std::array<std::string_view, 7> line_faults = {
@@ -96,10 +96,10 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
     if (equals != std::string_view::npos) {
         const std::string_view text = fault.substr(equals + 1);
         found.value = number_of(text);
-        if (!(std::fabs(found.value) <= most))
+        if (!(std::fabs(found.value) <= max_push))
             return fail(Trouble::refused,
                         fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
-                                    found.name, in_quotes(text), -most, most));
+                                    found.name, in_quotes(text), -max_push, max_push));
     }
     if (found.axis != nullptr && !has_part(*found.axis, found.name))
         return fail(Trouble::refused,

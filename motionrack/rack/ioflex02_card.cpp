@@ -25,7 +25,7 @@ struct AxisValue {
     std::string_view name;
     std::int64_t (*get)(const io::Card& card, int axis);
 };
-constexpr AxisValue of_axes[] = {
+constexpr AxisValue pins_of_axes[] = {
     {"POSITION", [](const io::Card& card, int axis) { return std::int64_t{card.position(axis)}; }},
     {"CALIBRATED", [](const io::Card& card, int axis) { return std::int64_t{card.status(axis) == io::sCal}; }},
     {"ILLEGAL_TRANSITIONS", [](const io::Card& card, int axis) { return std::int64_t{card.illegal(axis)}; }},
@@ -60,7 +60,7 @@ class Ioflex02Card final : public Card {
         static constexpr std::string_view more[] = {"0.POSITION .. 3.POSITION", "0.CALIBRATED ..",
                                                     "0.ILLEGAL_TRANSITIONS .."};
         if (name.size() > 2 && name[1] == '.' && name[0] >= '0' && name[0] <= '3')
-            for (const AxisValue& value : of_axes)
+            for (const AxisValue& value : pins_of_axes)
                 if (value.name == name.substr(2)) return value.get(card_, name[0] - '0');
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write) return card_.peek(reg.offset);
@@ -69,7 +69,8 @@ class Ioflex02Card final : public Card {
     std::vector<std::string> value_names() const override {
         std::vector<std::string> out;
         for (const char axis : std::string_view("0123"))
-            for (const AxisValue& value : of_axes) out.push_back(std::string(1, axis) + "." + std::string(value.name));
+            for (const AxisValue& value : pins_of_axes)
+                out.push_back(std::string(1, axis) + "." + std::string(value.name));
         return out;
     }
     std::vector<CardCounter> counters() const override {

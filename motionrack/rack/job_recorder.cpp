@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t most_unflushed = 1'000'000;
 constexpr Duration least_flush_period = whole_seconds(1);
 
-std::string lower(char letter) {
+std::string lower_letter(char letter) {
     return std::string(1, static_cast<char>(letter - 'A' + 'a'));
 }
 
@@ -84,7 +84,7 @@ void JobRecorder::add_axes() {
                               config.counts_per_unit(), config.start_position, limit.min_position, limit.max_position,
                               limit.max_speed, limit.max_accel});
         axis_indexes_.push_back(config.index());
-        const std::string folder = "axes/" + lower(config.letter);
+        const std::string folder = "axes/" + lower_letter(config.letter);
         if (!axis.servo) {
             const std::uint32_t steps = add({name + ".steps", folder + "/steps", trace::SignalKind::steps, "step", 0});
             ears_.emplace_back(axis.pulse_ears.get(), std::make_unique<Ear>(*this, steps, false));

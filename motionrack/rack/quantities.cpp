@@ -26,7 +26,7 @@ struct Row {
     /// What brings an axis to `value`, as microsteps to push its motor by; nullptr: it cannot be set.
     double (*push)(Part& part, double value, Instant now) = nullptr;
 };
-constexpr bool counts = true, measures = false;  // the values are whole, or not
+constexpr bool whole = true, measures = false;  // the values are whole, or not
 
 bool has_encoder(const RunningAxis& axis) {
     return axis.machine->has_encoder();
@@ -36,7 +36,7 @@ double rotor(RunningAxis& axis, Instant now) {
     return static_cast<double>(axis.machine->rotor().count(now));
 }
 
-constexpr std::array<Row<RunningAxis>, 13> axis_table = {{
+constexpr std::array<Row<RunningAxis>, 13> axis_quantities = {{
     {"position_{u}", "where the table is", [](RunningAxis& axis, Instant now) { return axis.machine->position(now); },
      measures, nullptr,
      [](RunningAxis& axis, double value, Instant now) {
@@ -44,33 +44,33 @@ constexpr std::array<Row<RunningAxis>, 13> axis_table = {{
      }},
     {"speed_{u}_s", "how fast the rotor moves the table, signed",
      [](RunningAxis& axis, Instant now) { return axis.speed(now); }, measures},
-    {"position_pulses", "the rotor in microsteps from where it stood at the start", rotor, counts, nullptr,
+    {"position_pulses", "the rotor in microsteps from where it stood at the start", rotor, whole, nullptr,
      [](RunningAxis& axis, double value, Instant now) { return value - rotor(axis, now); }},
     {"position_counts", "what its encoder's tracks have counted since the start",
-     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->encoder().count(now)); }, counts,
+     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->encoder().count(now)); }, whole,
      has_encoder},
     {"pulses", "pulses that came to the motor, + less -",
      [](RunningAxis& axis, Instant now) {
          return rotor(axis, now) + static_cast<double>(axis.machine->lost_steps(now));
      },
-     counts},
+     whole},
     {"lost_pulses", "pulses that the rotor did not follow",
-     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->lost_steps(now)); }, counts},
+     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->lost_steps(now)); }, whole},
     {"in_step", "1 while the rotor follows the pulses, else 0",
-     [](RunningAxis& axis, Instant) { return axis.machine->in_step() ? 1.0 : 0.0; }, counts},
+     [](RunningAxis& axis, Instant) { return axis.machine->in_step() ? 1.0 : 0.0; }, whole},
     {"top_speed_{u}_s", "the greatest speed so far",
      [](RunningAxis& axis, Instant) { return axis.machine->top_speed(); }, measures},
     {"limit_minus", "1 while the machine is at that switch, whatever its wire shows",
-     [](RunningAxis& axis, Instant) { return axis.machine->limit_minus().active() ? 1.0 : 0.0; }, counts,
+     [](RunningAxis& axis, Instant) { return axis.machine->limit_minus().active() ? 1.0 : 0.0; }, whole,
      [](const RunningAxis& axis) { return axis.machine->limit_minus().present(); }},
     {"limit_plus", "the same for the switch at the + end",
-     [](RunningAxis& axis, Instant) { return axis.machine->limit_plus().active() ? 1.0 : 0.0; }, counts,
+     [](RunningAxis& axis, Instant) { return axis.machine->limit_plus().active() ? 1.0 : 0.0; }, whole,
      [](const RunningAxis& axis) { return axis.machine->limit_plus().present(); }},
     {"home", "the same for the home switch",
-     [](RunningAxis& axis, Instant) { return axis.machine->home().active() ? 1.0 : 0.0; }, counts,
+     [](RunningAxis& axis, Instant) { return axis.machine->home().active() ? 1.0 : 0.0; }, whole,
      [](const RunningAxis& axis) { return axis.machine->home().present(); }},
     {"cam", "1 while the machine is on its reference cam",
-     [](RunningAxis& axis, Instant now) { return axis.cam->active(now) ? 1.0 : 0.0; }, counts,
+     [](RunningAxis& axis, Instant now) { return axis.cam->active(now) ? 1.0 : 0.0; }, whole,
      [](const RunningAxis& axis) { return axis.cam != nullptr; }},
     {"drive_v", "the voltage at the servo amplifier", [](RunningAxis& axis, Instant) { return axis.servo->volts(); },
      measures, [](const RunningAxis& axis) { return axis.servo != nullptr; }},
@@ -83,7 +83,7 @@ bool has_loop(const RunningStage& stage) {
     return stage.loop() != nullptr;
 }
 
-constexpr std::array<Row<RunningStage>, 13> stage_table = {{
+constexpr std::array<Row<RunningStage>, 13> stage_quantities = {{
     {"position_mm", "where the stage is",
      [](RunningStage& stage, Instant now) { return stage.motor->position_nm(now) * mm; }, measures},
     {"speed_mm_s", "its speed, signed", [](RunningStage& stage, Instant now) { return stage.motor->speed(now) * 1e3; },
@@ -94,13 +94,13 @@ constexpr std::array<Row<RunningStage>, 13> stage_table = {{
      [](RunningStage& stage, Instant now) { return stage.config.scale.zero_mm + stage.scale->position_nm(now) * mm; },
      measures},
     {"scale_counts", "what its scale has counted",
-     [](RunningStage& stage, Instant now) { return static_cast<double>(stage.scale->count(now)); }, counts},
+     [](RunningStage& stage, Instant now) { return static_cast<double>(stage.scale->count(now)); }, whole},
     {"lost_counts", "counts that its scale has lost",
-     [](RunningStage& stage, Instant) { return static_cast<double>(stage.scale->lost()); }, counts},
+     [](RunningStage& stage, Instant) { return static_cast<double>(stage.scale->lost()); }, whole},
     {"trusted", "1 while its scale has lost none, else 0",
-     [](RunningStage& stage, Instant) { return stage.scale->trusted() ? 1.0 : 0.0; }, counts},
+     [](RunningStage& stage, Instant) { return stage.scale->trusted() ? 1.0 : 0.0; }, whole},
     {"closed", "1 while its loop is closed, else 0",
-     [](RunningStage& stage, Instant) { return stage.loop()->closed() ? 1.0 : 0.0; }, counts, has_loop},
+     [](RunningStage& stage, Instant) { return stage.loop()->closed() ? 1.0 : 0.0; }, whole, has_loop},
     {"following_nm", "wanted - measured at the last frame",
      [](RunningStage& stage, Instant) { return stage.loop()->error().last_nm; }, measures, has_loop},
     {"following_peak_nm", "the greatest of it so far, without its sign",
@@ -111,7 +111,7 @@ constexpr std::array<Row<RunningStage>, 13> stage_table = {{
      [](RunningStage& stage, Instant now) { return stage.wanted(to_seconds(now)).position_nm * mm; }, measures,
      has_loop},
     {"unused_frames", "frames that its loop could not use",
-     [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, counts, has_loop},
+     [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, whole, has_loop},
 }};
 
 bool with_encoder(const RunningTrack& track) {
@@ -119,52 +119,52 @@ bool with_encoder(const RunningTrack& track) {
 }
 
 constexpr std::string_view track_speed = "speed_{u}_s";
-constexpr std::array<Row<RunningTrack>, 6> track_table = {{
+constexpr std::array<Row<RunningTrack>, 6> track_quantities = {{
     {"position_{u}", "how far it has gone since the start",
      [](RunningTrack& track, Instant now) { return track.track().travel(to_seconds(now)); }, measures},
     {track_speed, "how fast it goes, signed",
      [](RunningTrack& track, Instant now) { return track.track().speed(to_seconds(now)); }, measures},
     {"encoder_counts", "what its encoder has shown",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->count()); }, counts, with_encoder},
+     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->count()); }, whole, with_encoder},
     {"lost_counts", "counts that were too quick for the encoder's lines",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->lost()); }, counts, with_encoder},
+     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->lost()); }, whole, with_encoder},
     {"word", "the sender's last complete word",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.sender->word()); }, counts,
+     [](RunningTrack& track, Instant) { return static_cast<double>(track.sender->word()); }, whole,
      [](const RunningTrack& track) { return track.sender != nullptr; }},
     {"parts", "parts that have come to the sensor",
-     [](RunningTrack& track, Instant now) { return static_cast<double>(track.sensor->parts(now)); }, counts,
+     [](RunningTrack& track, Instant now) { return static_cast<double>(track.sensor->parts(now)); }, whole,
      [](const RunningTrack& track) { return track.sensor != nullptr; }},
 }};
 
-constexpr std::array<Row<RunningScanner>, 7> scanner_table = {{
+constexpr std::array<Row<RunningScanner>, 7> scanner_quantities = {{
     {"spot_x_mm", "where the mirrors point in the field",
      [](RunningScanner& scanner, Instant) { return scanner.station().spot().x; }, measures},
     {"spot_y_mm", "the same, Y", [](RunningScanner& scanner, Instant) { return scanner.station().spot().y; }, measures},
     {"light", "1 while the laser shines, else 0",
-     [](RunningScanner& scanner, Instant) { return scanner.station().gate().on() ? 1.0 : 0.0; }, counts},
+     [](RunningScanner& scanner, Instant) { return scanner.station().gate().on() ? 1.0 : 0.0; }, whole},
     {"marked_mm", "length of all marks on the part",
      [](RunningScanner& scanner, Instant) { return scanner.workpiece().length_mm(); }, measures},
     {"energy_j", "energy that came to the part",
      [](RunningScanner& scanner, Instant) { return scanner.workpiece().energy_j(); }, measures},
     {"points", "points of marks that are kept",
-     [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().points().size()); }, counts},
+     [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().points().size()); }, whole},
     {"lost_points", "points beyond greatest_points",
-     [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().lost_points()); }, counts},
+     [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().lost_points()); }, whole},
 }};
 
 // ---- what the kinds of part differ in
 
 std::span<const Row<RunningAxis>> rows_of(const RunningAxis&) {
-    return axis_table;
+    return axis_quantities;
 }
 std::span<const Row<RunningStage>> rows_of(const RunningStage&) {
-    return stage_table;
+    return stage_quantities;
 }
 std::span<const Row<RunningTrack>> rows_of(const RunningTrack&) {
-    return track_table;
+    return track_quantities;
 }
 std::span<const Row<RunningScanner>> rows_of(const RunningScanner&) {
-    return scanner_table;
+    return scanner_quantities;
 }
 
 std::string name_of(const RunningAxis& axis) {
@@ -321,16 +321,16 @@ std::vector<std::pair<std::string_view, std::string_view>> declared_quantities(P
     };
     switch (kind) {
         case PartKind::axis:
-            add(axis_table);
+            add(axis_quantities);
             break;
         case PartKind::stage:
-            add(stage_table);
+            add(stage_quantities);
             break;
         case PartKind::track:
-            add(track_table);
+            add(track_quantities);
             break;
         case PartKind::scanner:
-            add(scanner_table);
+            add(scanner_quantities);
             break;
     }
     return out;

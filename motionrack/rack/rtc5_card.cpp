@@ -19,11 +19,11 @@ rtc5::Settings settings_of(const Rtc5Settings& s) {
 }
 
 /// What can be inspected, beside the status words.
-struct Value {
+struct WordValue {
     std::string_view name;
     std::int64_t (*get)(const Engine& engine);
 };
-constexpr Value values[] = {
+constexpr WordValue values[] = {
     {"STATUS", [](const Engine& e) { return std::int64_t{e.status()}; }},
     {"MARKING_INFO", [](const Engine& e) { return e.state().marking_info; }},
     {"STARTSTOP_INFO", [](const Engine& e) { return std::int64_t{e.startstop_info()}; }},
@@ -89,7 +89,7 @@ class Rtc5Card final : public Card {
     }
     std::vector<std::string> value_names() const override {
         std::vector<std::string> out;
-        for (const Value& value : values)
+        for (const WordValue& value : values)
             if (std::none_of(map().registers.begin(), map().registers.end(),
                              [&](const RegisterInfo& reg) { return reg.name == value.name; }))
                 out.emplace_back(value.name);

@@ -15,7 +15,7 @@ bool is_bare(std::string_view key) {
     });
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_quoted(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
@@ -30,7 +30,7 @@ std::string quoted(std::string_view text) {
 }
 
 std::string key_text(std::string_view key) {
-    return is_bare(key) ? std::string(key) : quoted(key);
+    return is_bare(key) ? std::string(key) : toml_quoted(key);
 }
 
 /// Whole numbers are written without a point, which every field for numbers takes.
@@ -38,7 +38,7 @@ std::string value_text(const TomlNode& node) {
     std::string out;
     switch (node.type) {
         case TomlType::text:
-            return quoted(node.text);
+            return toml_quoted(node.text);
         case TomlType::integer:
             return std::to_string(node.integer);
         case TomlType::number:

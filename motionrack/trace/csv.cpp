@@ -17,9 +17,9 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t buffer_size = 256 * 1024;
+constexpr std::size_t csv_buffer_size = 256 * 1024;
 
-std::FILE* as_file(void* file) {
+std::FILE* csv_file(void* file) {
     return static_cast<std::FILE*>(file);
 }
 
@@ -81,7 +81,7 @@ Result<CsvWriter> CsvWriter::create(const std::string& path, const std::vector<s
     CsvWriter writer;
     writer.path_ = path;
     writer.file_ = file;
-    writer.buffer_.reserve(buffer_size + 4096);
+    writer.buffer_.reserve(csv_buffer_size + 4096);
     writer.columns_ = columns.size();
     for (const std::string& column : columns) writer.add(std::string_view(column));
     writer.end_line();
@@ -147,13 +147,13 @@ void CsvWriter::end_line() {
     MOTIONRACK_ASSERT(fields_ == columns_);
     fields_ = 0;
     buffer_ += "\r\n";
-    if (buffer_.size() >= buffer_size) write_out();
+    if (buffer_.size() >= csv_buffer_size) write_out();
 }
 
 void CsvWriter::write_out() {
     if (trouble_ == 0 && !buffer_.empty()) {
         errno = 0;
-        const std::size_t done = std::fwrite(buffer_.data(), 1, buffer_.size(), as_file(file_));
+        const std::size_t done = std::fwrite(buffer_.data(), 1, buffer_.size(), csv_file(file_));
         if (done != buffer_.size()) trouble_ = errno != 0 ? errno : EIO;
         written_ += done;
     }
@@ -169,7 +169,7 @@ Result<void> CsvWriter::flush() {
 Result<void> CsvWriter::close() {
     if (file_ == nullptr) return {};
     write_out();
-    if (std::fclose(as_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
+    if (std::fclose(csv_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
     return told();
 }
 

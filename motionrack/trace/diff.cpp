@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t differences_shown = 10, names_shown = 10;
 
-const char* name_of(FileKind kind) {
+const char* name_of_kind(FileKind kind) {
     switch (kind) {
         case FileKind::hdf5:
             return "a recording (HDF5)";
@@ -52,7 +52,7 @@ Result<Diff> diff_files(const std::string& a, const std::string& b, const DiffSe
     MOTIONRACK_TRY(const FileKind other, kind_of_file(b));
     if (kind != other)
         return fail(Trouble::bad_input, fmt::format("{} is {}, {} is {}; only two of the same kind can be compared.", a,
-                                                    name_of(kind), b, name_of(other)));
+                                                    name_of_kind(kind), b, name_of_kind(other)));
     if (kind == FileKind::hdf5) {
         MOTIONRACK_TRY(const RecordingReader of_a, RecordingReader::open(a));
         MOTIONRACK_TRY(const RecordingReader of_b, RecordingReader::open(b));

@@ -7,7 +7,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::uint64_t look_every = 1 << 16;
+constexpr std::uint64_t changes_between_looks = 1 << 16;
 
 /// One of the two files: its next change, and what its signals are.
 struct Side {
@@ -41,7 +41,7 @@ struct Side {
     }
 };
 
-std::string shown(const std::string& value) {
+std::string shown_change(const std::string& value) {
     return value.empty() ? "no value yet" : value;
 }
 
@@ -63,7 +63,7 @@ class Comparison {
             b_.grow(names_.size());
             differs_.resize(names_.size());
             for (const std::size_t signal : touched_) compare(signal, at, diff);
-            if (++rounds % look_every != 0) continue;
+            if (++rounds % changes_between_looks != 0) continue;
             if (settings.progress) settings.progress(a_.source->part());
             if (settings.stop && settings.stop()) {
                 diff.stopped = true;
@@ -78,8 +78,8 @@ class Comparison {
     void compare(std::size_t signal, std::int64_t at_ps, Diff& diff) {
         if (differs_[signal] || a_.values[signal] == b_.values[signal]) return;
         differs_[signal] = true;
-        diff.differences.push_back(
-            {names_.name(signal), Instant{at_ps / 100}, shown(a_.values[signal]), shown(b_.values[signal]), ""});
+        diff.differences.push_back({names_.name(signal), Instant{at_ps / 100}, shown_change(a_.values[signal]),
+                                    shown_change(b_.values[signal]), ""});
     }
 
     /// Signals that only one of them has are no differences of a signal.

@@ -11,7 +11,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t block = 1 << 14;
+constexpr std::size_t diff_block = 1 << 14;
 
 std::size_t first_line_that_differs(std::string_view a, std::string_view b) {
     std::size_t line = 1;
@@ -31,7 +31,7 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
     if (x.tools != y.tools) diff.made_of.emplace_back("the tool tables differ");
     if (x.subprograms != y.subprograms) diff.made_of.emplace_back("the subprograms differ");
     if (x.block_delete != y.block_delete)
-        diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
+        diff.made_of.push_back(fmt::format("only {} was run with --diff_block-delete", x.block_delete ? "A" : "B"));
     if (x.live != y.live)
         diff.made_of.push_back(fmt::format(
             "only {} was driven so that orders could come, which plans long moves in pieces", x.live ? "A" : "B"));
@@ -74,15 +74,16 @@ void compare_outcomes(const RecordingReader& a, const RecordingReader& b, Diff& 
 }
 
 /// The same bits, so that two NaN are equal.
-bool same(double a, double b) {
+bool same_number(double a, double b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 /// Times and values of a signal, a block at a time.
 struct Window {
     RecordingReader::Columns columns;
-    std::vector<std::int64_t> times = std::vector<std::int64_t>(block), numbers = std::vector<std::int64_t>(block);
-    std::vector<double> reals = std::vector<double>(block);
+    std::vector<std::int64_t> times = std::vector<std::int64_t>(diff_block),
+                              numbers = std::vector<std::int64_t>(diff_block);
+    std::vector<double> reals = std::vector<double>(diff_block);
 
     Result<void> read(std::uint64_t from, std::size_t count, bool number) {
         MOTIONRACK_CHECK(columns.time.read(from, count, times.data()));
@@ -104,8 +105,8 @@ class SignalComparison {
 
     Result<std::optional<Difference>> run() {
         const std::uint64_t size = std::min(a_.columns.size, b_.columns.size);
-        for (std::uint64_t from = 0; from < size; from += block) {
-            const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block, size - from));
+        for (std::uint64_t from = 0; from < size; from += diff_block) {
+            const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(diff_block, size - from));
             MOTIONRACK_CHECK(a_.read(from, count, series_.number));
             MOTIONRACK_CHECK(b_.read(from, count, series_.number));
             for (std::size_t i = 0; i < count; ++i)
@@ -123,7 +124,7 @@ class SignalComparison {
   private:
     bool step() const { return series_.unit == "step" && series_.number; }
     bool differ(std::size_t i) const {
-        return series_.number ? a_.numbers[i] != b_.numbers[i] : !same(a_.reals[i], b_.reals[i]);
+        return series_.number ? a_.numbers[i] != b_.numbers[i] : !same_number(a_.reals[i], b_.reals[i]);
     }
     Difference difference(std::size_t i) const {
         const std::int64_t at_a = a_.times[i], at_b = b_.times[i];

@@ -12,7 +12,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::uint64_t look_every = 1 << 12;
+constexpr std::uint64_t rows_between_looks = 1 << 12;
 
 /// A column that both have.
 struct Column {
@@ -54,7 +54,7 @@ std::optional<Instant> time_of(const std::vector<Column>& columns, const std::ve
     return std::nullopt;
 }
 
-std::string shown(const std::string& value) {
+std::string shown_cell(const std::string& value) {
     return value.empty() ? "nothing" : value;
 }
 
@@ -64,7 +64,8 @@ void compare_rows(std::vector<Column>& columns, const std::vector<std::string>& 
         ++diff.compared;
         if (column.differs || equal(a[column.a], b[column.b])) continue;
         column.differs = true;
-        diff.differences.push_back({column.name, time_of(columns, a), shown(a[column.a]), shown(b[column.b]), ""});
+        diff.differences.push_back(
+            {column.name, time_of(columns, a), shown_cell(a[column.a]), shown_cell(b[column.b]), ""});
     }
 }
 
@@ -94,7 +95,7 @@ Result<Diff> diff_tables(const std::string& path_a, const std::string& path_b, c
         if (more_a && more_b) compare_rows(columns, row_a, row_b, diff);
         if (more_a != more_b) tell_rest(columns, more_a ? row_a : row_b, more_a, rows, diff);
         if (!more_a || !more_b) break;
-        if (rows % look_every != 0) continue;
+        if (rows % rows_between_looks != 0) continue;
         if (settings.progress) settings.progress(a.part());
         if (settings.stop && settings.stop()) {
             diff.stopped = true;

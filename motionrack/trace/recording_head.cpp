@@ -10,7 +10,7 @@ namespace motionrack::trace {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using HeadJson = nlohmann::ordered_json;
 
 const char* name_of(SignalKind kind) {
     switch (kind) {
@@ -32,7 +32,7 @@ SignalKind kind_of(const std::string& name) {
 }
 
 /// A path that cannot lead out of its group.
-std::string path_of(const Json& json) {
+std::string path_of(const HeadJson& json) {
     const std::string path = json.at("path");
     if (path.empty() || path.front() == '/' || path.find("..") != std::string::npos ||
         path.find('\0') != std::string::npos)
@@ -63,10 +63,10 @@ void each_field_of_axis(Axis& axis, Field field) {
 }
 
 /// Puts fields into an object; takes them out of one, in which each must be.
-auto into(Json& json) {
+auto into(HeadJson& json) {
     return [&json](const char* name, const auto& value) { json[name] = value; };
 }
-auto out_of(const Json& json) {
+auto out_of(const HeadJson& json) {
     return [&json](const char* name, auto& value) { value = json.at(name).get<std::decay_t<decltype(value)>>(); };
 }
 
@@ -91,38 +91,38 @@ std::string axis_folder(std::string_view name) {
 }
 
 std::string head_json(const RecordingHead& head) {
-    Json json = Json::object();
+    HeadJson json = HeadJson::object();
     each_field_of_head(head, into(json));
     json["sample_period_ticks"] = head.sample_period.count();
-    json["inputs"] = Json::array();
+    json["inputs"] = HeadJson::array();
     for (const RecordedInput& input : head.inputs)
         json["inputs"].push_back({{"at_ticks", input.at.count()}, {"text", input.text}});
-    json["axes"] = Json::array();
+    json["axes"] = HeadJson::array();
     for (const RecordedAxis& axis : head.axes)
-        each_field_of_axis(axis, into(json["axes"].emplace_back(Json::object())));
-    json["signals"] = Json::array();
+        each_field_of_axis(axis, into(json["axes"].emplace_back(HeadJson::object())));
+    json["signals"] = HeadJson::array();
     for (const RecordedSignal& signal : head.signals)
         json["signals"].push_back({{"name", signal.name},
                                    {"path", signal.path},
                                    {"kind", name_of(signal.kind)},
                                    {"unit", signal.unit},
                                    {"initial", signal.initial}});
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json.dump(-1, ' ', false, HeadJson::error_handler_t::replace);
 }
 
 Result<RecordingHead> head_from_json(std::string_view text) {
     RecordingHead head;
     try {
-        const Json json = Json::parse(text);
+        const HeadJson json = HeadJson::parse(text);
         each_field_of_head(head, out_of(json));
         head.sample_period = Duration{json.at("sample_period_ticks").get<std::int64_t>()};
-        for (const Json& input : json.at("inputs"))
+        for (const HeadJson& input : json.at("inputs"))
             head.inputs.push_back({Instant{input.at("at_ticks").get<std::int64_t>()}, input.at("text")});
-        for (const Json& axis : json.at("axes")) {
+        for (const HeadJson& axis : json.at("axes")) {
             each_field_of_axis(head.axes.emplace_back(), out_of(axis));
             if (head.axes.back().name.size() != 1) throw std::runtime_error("no axis");
         }
-        for (const Json& signal : json.at("signals"))
+        for (const HeadJson& signal : json.at("signals"))
             head.signals.push_back({signal.at("name"), path_of(signal), kind_of(signal.at("kind")), signal.at("unit"),
                                     signal.at("initial")});
         if (head.axes.size() > 6 || head.sample_period <= Duration{0}) throw std::runtime_error("no head");

@@ -12,7 +12,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t block = 1 << 14;
+constexpr std::size_t read_block = 1 << 14;
 constexpr std::uint64_t most_inputs = 1'000'000;
 /// The outcome's facts, in the order in which they are told.
 constexpr const char* fact_names[] = {"ended",
@@ -168,8 +168,8 @@ struct Kept {
 struct AxisBlock {
     hdf5::Reader position, speed, accel, volts;
     bool servo = false;
-    std::array<double, block> positions, speeds;
-    std::array<float, block> accels, voltages;
+    std::array<double, read_block> positions, speeds;
+    std::array<float, read_block> accels, voltages;
 
     Result<void> read(std::uint64_t from, std::size_t count) {
         MOTIONRACK_CHECK(position.read(from, count, positions.data()));
@@ -225,10 +225,10 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         axes.push_back(std::move(one));
     }
     SampleKeeper<Kept> keeper(most_samples_);
-    std::vector<std::int64_t> times(block);
-    std::vector<double> deviations(block);
-    for (std::uint64_t from = 0; from < size; from += block) {
-        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block, size - from));
+    std::vector<std::int64_t> times(read_block);
+    std::vector<double> deviations(read_block);
+    for (std::uint64_t from = 0; from < size; from += read_block) {
+        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(read_block, size - from));
         MOTIONRACK_CHECK(first.time.read(from, count, times.data()));
         MOTIONRACK_CHECK(first.value.read(from, count, deviations.data()));
         for (const auto& axis : axes) MOTIONRACK_CHECK(axis->read(from, count));

@@ -12,7 +12,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t most_rows = 20'000'000;
+constexpr std::size_t max_csv_rows = 20'000'000;
 
 using Put = std::function<void(ReportData& data, double value)>;
 
@@ -97,9 +97,9 @@ Result<ReportData> report_from_csv(const std::string& path) {
     while (true) {
         MOTIONRACK_TRY(const bool more, rows.next(row));
         if (!more) break;
-        if (data.seconds.size() == most_rows) {
+        if (data.seconds.size() == max_csv_rows) {
             data.notes.push_back(fmt::format("The file has more than {} rows; those from line {} on are not shown.",
-                                             most_rows, rows.line()));
+                                             max_csv_rows, rows.line()));
             break;
         }
         const double seconds = number_of(row[columns.time]);

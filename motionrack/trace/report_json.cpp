@@ -10,12 +10,12 @@ namespace motionrack::trace {
 
 namespace {
 
-using Json = nlohmann::json;
+using ReportJson = nlohmann::json;
 
 /// Puts fields into an object, or takes them out of one.
 class Fields {
   public:
-    Fields(Json& json, bool reading) : json_(json), reading_(reading) {}
+    Fields(ReportJson& json, bool reading) : json_(json), reading_(reading) {}
 
     template <class T>
     Fields& operator()(const char* name, T& value) {
@@ -29,69 +29,71 @@ class Fields {
 
   private:
     // What JSON has no number for is null.
-    Json to(double& value) const { return value - value == 0 ? Json(value) : Json(); }
-    Json to(float& value) const { return value - value == 0 ? Json(static_cast<double>(value)) : Json(); }
-    Json to(std::string& value) const { return value; }
-    Json to(bool& value) const { return value; }
-    Json to(int& value) const { return value; }
-    Json to(std::int64_t& value) const { return value; }
+    ReportJson to(double& value) const { return value - value == 0 ? ReportJson(value) : ReportJson(); }
+    ReportJson to(float& value) const {
+        return value - value == 0 ? ReportJson(static_cast<double>(value)) : ReportJson();
+    }
+    ReportJson to(std::string& value) const { return value; }
+    ReportJson to(bool& value) const { return value; }
+    ReportJson to(int& value) const { return value; }
+    ReportJson to(std::int64_t& value) const { return value; }
     template <class T>
-    Json to(std::optional<T>& value) const {
-        return value ? to(*value) : Json();
+    ReportJson to(std::optional<T>& value) const {
+        return value ? to(*value) : ReportJson();
     }
     template <class T, std::size_t n>
-    Json to(std::array<T, n>& values) const {
-        Json out = Json::array();
+    ReportJson to(std::array<T, n>& values) const {
+        ReportJson out = ReportJson::array();
         for (T& value : values) out.push_back(to(value));
         return out;
     }
     template <class T>
-    Json to(std::vector<T>& values) const {
-        Json out = Json::array();
+    ReportJson to(std::vector<T>& values) const {
+        ReportJson out = ReportJson::array();
         for (T& value : values) out.push_back(to(value));
         return out;
     }
     template <class T>
-    Json to(T& value) const {
-        Json out = Json::object();
+    ReportJson to(T& value) const {
+        ReportJson out = ReportJson::object();
         Fields fields(out, false);
         fields_of(value, fields);
         return out;
     }
 
-    void from(Json& json, double& value) const {
+    void from(ReportJson& json, double& value) const {
         value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
     }
-    void from(Json& json, float& value) const {
+    void from(ReportJson& json, float& value) const {
         value = json.is_null() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(json.get<double>());
     }
-    void from(Json& json, std::string& value) const { value = json.get<std::string>(); }
-    void from(Json& json, bool& value) const { value = json.get<bool>(); }
-    void from(Json& json, int& value) const { value = json.get<int>(); }
-    void from(Json& json, std::int64_t& value) const { value = json.get<std::int64_t>(); }
+    void from(ReportJson& json, std::string& value) const { value = json.get<std::string>(); }
+    void from(ReportJson& json, bool& value) const { value = json.get<bool>(); }
+    void from(ReportJson& json, int& value) const { value = json.get<int>(); }
+    void from(ReportJson& json, std::int64_t& value) const { value = json.get<std::int64_t>(); }
     template <class T>
-    void from(Json& json, std::optional<T>& value) const {
+    void from(ReportJson& json, std::optional<T>& value) const {
         value.reset();
         if (!json.is_null()) from(json, value.emplace());
     }
     template <class T, std::size_t n>
-    void from(Json& json, std::array<T, n>& values) const {
+    void from(ReportJson& json, std::array<T, n>& values) const {
         for (std::size_t i = 0; i < n; ++i) from(json.at(i), values[i]);
     }
     template <class T>
-    void from(Json& json, std::vector<T>& values) const {
+    void from(ReportJson& json, std::vector<T>& values) const {
         if (!json.is_array()) throw std::runtime_error("a list was expected");
         values.clear();
         values.reserve(json.size());
-        for (Json& each : json) from(each, values.emplace_back());
+        for (ReportJson& each : json) from(each, values.emplace_back());
     }
     template <class T>
-    void from(Json& json, T& value) const {
+    void from(ReportJson& json, T& value) const {
         Fields fields(json, true);
         fields_of(value, fields);
     }
 
-    Json& json_;
+    ReportJson& json_;
     bool reading_;
 };
 
@@ -152,16 +154,16 @@ void fields_of(ReportData& v, Fields& f) {
 }  // namespace
 
 std::string report_json(const ReportData& data) {
-    Json json = Json::object();
+    ReportJson json = ReportJson::object();
     Fields fields(json, false);
     fields_of(const_cast<ReportData&>(data), fields);  // the same list reads and writes; nothing is changed here
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json.dump(-1, ' ', false, ReportJson::error_handler_t::replace);
 }
 
 Result<ReportData> report_from_json(std::string_view text) {
     ReportData data;
     try {
-        Json json = Json::parse(text);
+        ReportJson json = ReportJson::parse(text);
         Fields fields(json, true);
         fields_of(data, fields);
     } catch (const std::exception&) {

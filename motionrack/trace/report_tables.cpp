@@ -16,7 +16,7 @@ std::string cell(const std::string& html, const char* kind = "n") {
 }
 
 /// Words at the end of the text are worth more than a character cut in half.
-std::string cut(const std::string& text, std::size_t most) {
+std::string cut_text(const std::string& text, std::size_t most) {
     if (text.size() <= most) return text;
     std::size_t end = most;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
@@ -93,7 +93,7 @@ std::string section(const char* id, const char* title, const std::string& inside
 }  // namespace
 
 std::string shown(const std::string& text, std::size_t most) {
-    return escaped(cut(text, most));
+    return escaped(cut_text(text, most));
 }
 
 std::optional<Xyz> driven_at(const ReportData& data, double seconds) {
@@ -223,7 +223,7 @@ std::string tables_html(const ReportData& data) {
 std::string source_html(const ReportData& data) {
     if (!data.source) return {};
     std::string lines;
-    std::istringstream in(cut(data.source->text, longest_source));
+    std::istringstream in(cut_text(data.source->text, longest_source));
     for (std::string line; std::getline(in, line);) lines += escaped(line) + "\n";
     return section("source", shown(data.source->title).c_str(), "<pre class=\"card\">" + lines + "</pre>\n");
 }

@@ -11,7 +11,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr double left = chart_left, right = chart_right, top = 24, bottom = 22;
+constexpr double plot_left = chart_left, plot_right = chart_right, plot_top = 24, plot_bottom = 22;
 constexpr std::size_t buckets = 220;
 
 /// Seconds and values to pixels.
@@ -21,9 +21,12 @@ struct Frame {
     ChartRange range;
     SvgLook look;
 
-    double x(double seconds) const { return left + (seconds - begin) / (end - begin) * (look.width - left - right); }
+    double x(double seconds) const {
+        return plot_left + (seconds - begin) / (end - begin) * (look.width - plot_left - plot_right);
+    }
     double y(double value) const {
-        return look.height - bottom - (value - range.low) / (range.high - range.low) * (look.height - top - bottom);
+        return look.height - plot_bottom -
+               (value - range.low) / (range.high - range.low) * (look.height - plot_top - plot_bottom);
     }
 };
 
@@ -52,19 +55,19 @@ std::string straight(double x1, double y1, double x2, double y2, const char* kin
 std::string scales(const Frame& frame) {
     std::string out;
     const double width = frame.look.width, height = frame.look.height;
-    const double step =
-        nice_step(frame.range.high - frame.range.low, std::max(2, static_cast<int>((height - top - bottom) / 22)));
+    const double step = nice_step(frame.range.high - frame.range.low,
+                                  std::max(2, static_cast<int>((height - plot_top - plot_bottom) / 22)));
     for (int i = 0; i < 100; ++i) {
         const double value = (std::ceil(frame.range.low / step - 1e-9) + i) * step;
         if (value > frame.range.high + step * 1e-9) break;
-        out += straight(left, frame.y(value), width - right, frame.y(value), "grid");
-        out += svg_text(left - 6, frame.y(value) + 4, "end", number(value));
+        out += straight(plot_left, frame.y(value), width - plot_right, frame.y(value), "grid");
+        out += svg_text(plot_left - 6, frame.y(value) + 4, "end", number(value));
     }
     const double second = nice_step(frame.end - frame.begin, std::max(2, static_cast<int>(width / 90)));
     for (int i = 0; i < 100; ++i) {
         const double value = (std::ceil(frame.begin / second - 1e-9) + i) * second;
         if (value > frame.end + second * 1e-9) break;
-        out += straight(frame.x(value), top, frame.x(value), height - bottom, "grid");
+        out += straight(frame.x(value), plot_top, frame.x(value), height - plot_bottom, "grid");
         out += svg_text(frame.x(value), height - 6, "middle", number(value, 6));
     }
     return out;
@@ -74,9 +77,9 @@ std::string limit_lines(const SvgChart& chart, const Frame& frame) {
     std::string out;
     for (const SvgLimit& limit : chart.limits) {
         if (!(limit.value >= frame.range.low && limit.value <= frame.range.high)) continue;
-        out += straight(left, frame.y(limit.value), frame.look.width - right, frame.y(limit.value), "limit");
+        out += straight(plot_left, frame.y(limit.value), frame.look.width - plot_right, frame.y(limit.value), "limit");
         if (!limit.name.empty()) {
-            out += svg_text(frame.look.width - right - 4, frame.y(limit.value) + 12, "end", limit.name);
+            out += svg_text(frame.look.width - plot_right - 4, frame.y(limit.value) + 12, "end", limit.name);
         }
     }
     return out;
@@ -96,9 +99,10 @@ std::string line_of(const SvgSeries& series, const Frame& frame) {
 }
 
 /// Title, names of the series with the look of their lines, and what the axis of time is.
-std::string heading(const SvgChart& chart, const SvgLook& look) {
-    return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title)) +
-           series_names(chart, look.width - right - 64, 15) + svg_text(look.width - right, 15, "end", "time in s");
+std::string chart_heading(const SvgChart& chart, const SvgLook& look) {
+    return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", plot_left, escaped(chart.title)) +
+           series_names(chart, look.width - plot_right - 64, 15) +
+           svg_text(look.width - plot_right, 15, "end", "time in s");
 }
 
 }  // namespace
@@ -147,7 +151,7 @@ std::string svg_chart(const SvgChart& chart, const SvgLook& look) {
     std::string out = svg_head(look, chart.title + " over time");
     out += scales(frame) + limit_lines(chart, frame);
     for (const SvgSeries& series : chart.series) out += line_of(series, frame);
-    if (look.standalone) out += heading(chart, look);
+    if (look.standalone) out += chart_heading(chart, look);
     return out + "</svg>\n";
 }
 

@@ -12,7 +12,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr double left = chart_left + 10, right = chart_right, top = 46, bottom = 38, letter = 6.2;
+constexpr double map_left = chart_left + 10, map_right = chart_right, map_top = 46, map_bottom = 38;
 constexpr int scale_steps = 20;
 
 class Map {
@@ -39,22 +39,22 @@ class Map {
 
     std::string draw() const {
         std::string out = svg_head(look_, map_.title + " over " + map_.x_name + " and " + map_.y_name);
-        out +=
-            fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", coordinate(left), escaped(map_.title)) +
-            scale();
+        out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", coordinate(map_left),
+                           escaped(map_.title)) +
+               scale();
         const std::size_t every = cells_ ? 1 : 1 + map_.spots.size() / (most_dots + 1);
         if (!map_.spots.empty()) out += ticks();
         for (std::size_t i = 0; i < map_.spots.size(); i += every)
             out += cells_ ? cell(map_.spots[i]) : dot(map_.spots[i]);
-        out += svg_text((left + look_.width - right) / 2, look_.height - 5, "middle", map_.x_name);
+        out += svg_text((map_left + look_.width - map_right) / 2, look_.height - 5, "middle", map_.x_name);
         out += fmt::format("<text transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                           coordinate((top + look_.height - bottom) / 2), escaped(map_.y_name));
+                           coordinate((map_top + look_.height - map_bottom) / 2), escaped(map_.y_name));
         return out + "</svg>\n";
     }
 
   private:
-    double wide() const { return look_.width - left - right; }
-    double tall() const { return look_.height - top - bottom; }
+    double wide() const { return look_.width - map_left - map_right; }
+    double tall() const { return look_.height - map_top - map_bottom; }
     double cell_width() const { return wide() / static_cast<double>(xs_.size()); }
     double cell_height() const { return tall() / static_cast<double>(ys_.size()); }
     static std::size_t index(const std::vector<double>& all, double one) {
@@ -62,12 +62,12 @@ class Map {
     }
     /// Of a cell its middle.
     double x(double value) const {
-        if (cells_) return left + (static_cast<double>(index(xs_, value)) + 0.5) * cell_width();
-        return left + (0.03 + 0.94 * part_of(value, xs_.front(), xs_.back())) * wide();
+        if (cells_) return map_left + (static_cast<double>(index(xs_, value)) + 0.5) * cell_width();
+        return map_left + (0.03 + 0.94 * part_of(value, xs_.front(), xs_.back())) * wide();
     }
     double y(double value) const {
-        if (cells_) return top + tall() - (static_cast<double>(index(ys_, value)) + 0.5) * cell_height();
-        return top + tall() - (0.03 + 0.94 * part_of(value, ys_.front(), ys_.back())) * tall();
+        if (cells_) return map_top + tall() - (static_cast<double>(index(ys_, value)) + 0.5) * cell_height();
+        return map_top + tall() - (0.03 + 0.94 * part_of(value, ys_.front(), ys_.back())) * tall();
     }
     static double part_of(double value, double low, double high) {
         return high > low ? (value - low) / (high - low) : 0.5;
@@ -79,7 +79,7 @@ class Map {
         return cells_ && cell_height() >= 14 &&
                std::all_of(map_.spots.begin(), map_.spots.end(), [this](const SvgSpot& spot) {
                    return spot.bad || !std::isfinite(spot.value) ||
-                          letter * static_cast<double>(cell_text(spot.value).size()) + 4 <= cell_width();
+                          letter_width * static_cast<double>(cell_text(spot.value).size()) + 4 <= cell_width();
                });
     }
 
@@ -99,9 +99,9 @@ class Map {
             return at;
         };
         for (const double value : along(xs_, cell_width(), 44, cells_))
-            out += svg_text(x(value), look_.height - bottom + 15, "middle", number(value));
+            out += svg_text(x(value), look_.height - map_bottom + 15, "middle", number(value));
         for (const double value : along(ys_, cell_height(), 14, cells_))
-            out += svg_text(left - 6, y(value) + 4, "end", number(value));
+            out += svg_text(map_left - 6, y(value) + 4, "end", number(value));
         return out;
     }
 
@@ -132,8 +132,8 @@ class Map {
 
     /// From least to greatest, between their numbers, below the title.
     std::string scale() const {
-        const double from = left + letter * static_cast<double>(number(low_).size()) + 6, step = 6, at = 25;
-        std::string out = svg_text(left, at + 9, "start", number(low_));
+        const double from = map_left + letter_width * static_cast<double>(number(low_).size()) + 6, step = 6, at = 25;
+        std::string out = svg_text(map_left, at + 9, "start", number(low_));
         for (int i = 0; i < scale_steps; ++i)
             out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"10\" fill=\"{}\"/>\n",
                                coordinate(from + step * i), coordinate(at), coordinate(step + 0.3),

@@ -29,7 +29,7 @@ constexpr const char* style =
 constexpr std::array<std::array<double, 3>, 5> shades = {
     {{246, 151, 33}, {222, 90, 96}, {177, 42, 144}, {106, 0, 168}, {13, 8, 135}}};
 
-bool same(const Xyz& a, const Xyz& b) {
+bool same_place(const Xyz& a, const Xyz& b) {
     return a == b;
 }
 
@@ -117,7 +117,7 @@ PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolera
     for (const ReportSegment& segment : data.planned) {
         for (std::size_t i = 0; i < segment.points.size(); ++i) {
             const Xyz& point = segment.points[i];
-            const bool joined = i == 0 && !all.points.empty() && same(all.points.back(), point);
+            const bool joined = i == 0 && !all.points.empty() && same_place(all.points.back(), point);
             if (i == 0 && !corner.empty()) corner.back() = true;
             if (joined) continue;
             all.points.push_back(point);

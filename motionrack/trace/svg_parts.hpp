@@ -9,6 +9,8 @@ namespace motionrack::trace {
 
 /// What a chart leaves free for its scale, left and right of the plot, in px.
 inline constexpr double chart_left = 56, chart_right = 12;
+/// Of a letter in the pictures' small type, in px.
+inline constexpr double letter_width = 6.2;
 
 /// The opening tag, with `title` for those who cannot see the picture.
 std::string svg_head(const SvgLook& look, const std::string& title);

@@ -11,7 +11,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr double left = chart_left, right = chart_right, top = 28, bottom = 38, letter = 6.2;
+constexpr double scatter_left = chart_left, scatter_right = chart_right, scatter_top = 28, scatter_bottom = 38;
 
 struct Span {
     double low = 0, high = 0;
@@ -48,18 +48,23 @@ class Scatter {
         std::string out = svg_head(look_, scatter_.title + " over " + scatter_.x_name) + grid();
         for (const SvgDots& series : scatter_.series) out += line(series);
         for (const SvgDots& series : scatter_.series) out += dots(series);
-        out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", left, escaped(scatter_.title));
-        return out + names() + svg_text((left + look_.width - right) / 2, look_.height - 5, "middle", scatter_.x_name) +
+        out +=
+            fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", scatter_left, escaped(scatter_.title));
+        return out + names() +
+               svg_text((scatter_left + look_.width - scatter_right) / 2, look_.height - 5, "middle", scatter_.x_name) +
                "</svg>\n";
     }
 
   private:
     bool named() const { return !scatter_.x_names.empty(); }
-    double x(double value) const { return left + (value - x_.low) / (x_.high - x_.low) * (look_.width - left - right); }
+    double x(double value) const {
+        return scatter_left + (value - x_.low) / (x_.high - x_.low) * (look_.width - scatter_left - scatter_right);
+    }
     double y(double value) const {
         return !std::isfinite(value)
-                   ? look_.height - bottom - 6
-                   : look_.height - bottom - (value - y_.low) / (y_.high - y_.low) * (look_.height - top - bottom);
+                   ? look_.height - scatter_bottom - 6
+                   : look_.height - scatter_bottom -
+                         (value - y_.low) / (y_.high - y_.low) * (look_.height - scatter_top - scatter_bottom);
     }
 
     static std::string straight(double x1, double y1, double x2, double y2) {
@@ -69,21 +74,22 @@ class Scatter {
 
     std::string grid() const {
         std::string out;
-        const double step =
-            nice_step(y_.high - y_.low, std::max(2, static_cast<int>((look_.height - top - bottom) / 26)));
+        const double step = nice_step(
+            y_.high - y_.low, std::max(2, static_cast<int>((look_.height - scatter_top - scatter_bottom) / 26)));
         for (const double value : marks(y_, step))
-            out += straight(left, y(value), look_.width - right, y(value)) +
-                   svg_text(left - 6, y(value) + 4, "end", number(value));
-        const double below = look_.height - bottom + 15;
+            out += straight(scatter_left, y(value), look_.width - scatter_right, y(value)) +
+                   svg_text(scatter_left - 6, y(value) + 4, "end", number(value));
+        const double below = look_.height - scatter_bottom + 15;
         if (named()) {
-            const double each = (look_.width - left - right) / static_cast<double>(scatter_.x_names.size());
+            const double each =
+                (look_.width - scatter_left - scatter_right) / static_cast<double>(scatter_.x_names.size());
             for (std::size_t i = 0; i < scatter_.x_names.size(); ++i)
                 out += svg_text(x(static_cast<double>(i)), below, "middle", fitted(scatter_.x_names[i], each));
             return out;
         }
         const double across = nice_step(x_.high - x_.low, std::max(2, static_cast<int>(look_.width / 80)));
         for (const double value : marks(x_, across))
-            out += straight(x(value), top, x(value), look_.height - bottom) +
+            out += straight(x(value), scatter_top, x(value), look_.height - scatter_bottom) +
                    svg_text(x(value), below, "middle", number(value));
         return out;
     }
@@ -101,7 +107,7 @@ class Scatter {
 
     /// As much of a name as has room.
     static std::string fitted(const std::string& name, double room) {
-        const auto most = static_cast<std::size_t>(std::max(3.0, room / letter));
+        const auto most = static_cast<std::size_t>(std::max(3.0, room / letter_width));
         return name.size() <= most ? name : name.substr(0, most - 2) + "..";
     }
 
@@ -144,7 +150,7 @@ class Scatter {
     std::string names() const {
         SvgChart chart;
         for (const SvgDots& series : scatter_.series) chart.series.push_back({series.name, series.look, {}, {}});
-        return series_names(chart, look_.width - right, 16);
+        return series_names(chart, look_.width - scatter_right, 16);
     }
 
     const SvgScatter& scatter_;

@@ -16,7 +16,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr double heading = 24, band = 16, leader = 18, letter = 6.2, spacing = 14;
+constexpr double heading = 24, band = 16, leader = 18, spacing = 14;
 
 struct Stretch {
     double begin = std::numeric_limits<double>::infinity();
@@ -54,7 +54,7 @@ std::string svg_timeline(const std::string& title, std::span<const SvgChart> cha
     const Stretch stretch = stretch_of(charts);
     std::size_t longest = 0;
     for (const SvgSpan& span : spans) longest = std::max(longest, span.name.size());
-    const double names = spans.empty() ? 0 : band + leader + letter * static_cast<double>(longest) + 6;
+    const double names = spans.empty() ? 0 : band + leader + letter_width * static_cast<double>(longest) + 6;
     const double each = (look.height - heading - names) / std::max<double>(1, static_cast<double>(charts.size()));
     std::string out = svg_head(look, title);
     out += fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", chart_left, escaped(title));

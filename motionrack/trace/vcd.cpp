@@ -15,11 +15,11 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t buffer_size = 256 * 1024;
+constexpr std::size_t vcd_buffer_size = 256 * 1024;
 constexpr std::size_t longest_change = 128;  ///< a time and a value: 1 + 19 + 1 + 1 + 64 + 1 + 6 + 1
 constexpr std::int64_t low_base = 100'000'000;
 
-std::FILE* as_file(void* file) {
+std::FILE* vcd_file(void* file) {
     return static_cast<std::FILE*>(file);
 }
 
@@ -105,7 +105,7 @@ Result<VcdWriter> VcdWriter::create(const std::string& path, const VcdSettings& 
     writer.file_ = file;
     writer.timescale_ = settings.timescale.count();
     writer.full_names_ = settings.full_names;
-    writer.buffer_.resize(buffer_size);
+    writer.buffer_.resize(vcd_buffer_size);
     writer.names_.emplace_back();
     writer.put("$version Motionrack $end\n");
     if (!settings.comment.empty()) writer.put("$comment " + without_dollar(settings.comment) + " $end\n");
@@ -248,7 +248,7 @@ Result<void> VcdWriter::close(Instant end) {
     room(longest_change);
     if (end > now_) advance(end);
     flush();
-    if (std::fclose(as_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
+    if (std::fclose(vcd_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
     if (trouble_ == 0) return {};
     return fail(
         Trouble::io,
@@ -296,7 +296,7 @@ void VcdWriter::room(std::size_t bytes) {
 void VcdWriter::flush() {
     if (trouble_ == 0 && used_ > 0) {
         errno = 0;
-        const std::size_t done = std::fwrite(buffer_.data(), 1, used_, as_file(file_));
+        const std::size_t done = std::fwrite(buffer_.data(), 1, used_, vcd_file(file_));
         if (done != used_) trouble_ = errno != 0 ? errno : EIO;
         written_ += done;
     }

@@ -7,8 +7,8 @@
     outcome.axes["X"].real_end      # mm
     outcome.trace.plot("x.speed")   # NumPy arrays inside
 
-Lengths are mm, angles degrees, times s of virtual time, unless a name or a docstring says otherwise. Everything that goes wrong is a
-:class:`motionrack.Error` with a sentence.
+Lengths are mm, angles degrees, times s of virtual time, unless a name or a docstring says otherwise. Everything that
+goes wrong is a :class:`motionrack.Error` with a sentence.
 """
 
 from __future__ import annotations
@@ -37,8 +37,47 @@ def template_text(name: str = "router") -> str:
 
 
 __all__ = [
-    "Alarm", "AxisOutcome", "AxisStatus", "BadInput", "Block", "Card", "Cards", "Channel", "Databoard4002", "Error", "FileTrouble", "GratingCard", "Homing",
-    "Ioflex02", "Machine", "MachineFault", "Mcx314", "NoSuchName", "Outcome", "Part", "Parts", "ProgramEvent", "Rack", "Recording", "Refused", "Register", "Rtc5",
-    "SlopeTable", "Snapshot", "SpeedMeter", "SpeedScale", "Status", "Stopped", "Timeout", "Trace", "Warning", "Waves", "Wires", "Word", "Worst",
-    "__version__", "template_text", "templates",
+    "Alarm",
+    "AxisOutcome",
+    "AxisStatus",
+    "BadInput",
+    "Block",
+    "Card",
+    "Cards",
+    "Channel",
+    "Databoard4002",
+    "Error",
+    "FileTrouble",
+    "GratingCard",
+    "Homing",
+    "Ioflex02",
+    "Machine",
+    "MachineFault",
+    "Mcx314",
+    "NoSuchName",
+    "Outcome",
+    "Part",
+    "Parts",
+    "ProgramEvent",
+    "Rack",
+    "Recording",
+    "Refused",
+    "Register",
+    "Rtc5",
+    "SlopeTable",
+    "Snapshot",
+    "SpeedMeter",
+    "SpeedScale",
+    "Status",
+    "Stopped",
+    "Timeout",
+    "Trace",
+    "Warning",
+    "Waves",
+    "Wires",
+    "Word",
+    "Worst",
+    "__version__",
+    "template_text",
+    "templates",
 ]

@@ -66,8 +66,8 @@ class Word(int):
 class Register:
     """One register of a card, or of one of its channels.
 
-    Its fields are attributes, looked at without effect: ``card.RR0.DRV``. ``read`` and ``write`` are accesses of the bus: they have all their
-    effects and take the card's bus time.
+    Its fields are attributes, looked at without effect: ``card.RR0.DRV``. ``read`` and ``write`` are accesses of the
+    bus: they have all their effects and take the card's bus time.
     """
 
     __slots__ = ("_card", "_reg", "_name")
@@ -107,24 +107,33 @@ class Register:
         return Word(self._card.peek(self._name), self._reg)
 
     def read(self) -> Word:
-        """Reads it over the bus, with all effects; of a register that exists once a channel: that of the channel the card shows."""
+        """Reads it over the bus, with all effects; of a register that exists once a channel:
+        that of the channel the card shows."""
         if self.access == "write":
-            raise Refused(f"Register {self._name} can only be written; nothing was done. Use peek() to see what was written.")
+            raise Refused(
+                f"Register {self._name} can only be written; nothing was done. Use peek() to see what was written."
+            )
         return Word(self._card.read(self.offset, self._bits()), self._reg)
 
     def write(self, value: int | None = None, **fields: int) -> None:
-        """Writes it over the bus, with all effects: a word (0 to 2**width - 1), fields by their names, or fields over a word."""
+        """Writes it over the bus, with all effects: a word (0 to 2**width - 1), fields by their names,
+        or fields over a word."""
         if self.access != "write":
             raise Refused(f"Register {self._name} can only be read; nothing was written.")
         word = 0 if value is None else int(value)
         if value is None and not fields:
             raise Refused(f"Nothing is given to be written to register {self._name}.")
         if not 0 <= word < 1 << self.width:
-            raise Refused(f"{word} does not fit into register {self._name}: 0 to {(1 << self.width) - 1}. Nothing was written.")
+            raise Refused(
+                f"{word} does not fit into register {self._name}: 0 to {(1 << self.width) - 1}. Nothing was written."
+            )
         for key, number in fields.items():
             name, mask, _ = _field(self._reg, key)
             if not 0 <= int(number) << _shift(mask) <= mask:
-                raise Refused(f"{number} does not fit into field {name} of {self._name}: 0 to {mask >> _shift(mask)}. Nothing was written.")
+                raise Refused(
+                    f"{number} does not fit into field {name} of {self._name}: 0 to {mask >> _shift(mask)}. Nothing "
+                    "was written."
+                )
             word = (word & ~mask) | int(number) << _shift(mask)
         self._card.write(self.offset, word, self._bits())
 
@@ -184,7 +193,7 @@ class Channel:
 
     def __dir__(self) -> list[str]:
         start = self._name + "."
-        values = [value[len(start):] for value in self._card._about["values"] if value.startswith(start)]
+        values = [value[len(start) :] for value in self._card._about["values"] if value.startswith(start)]
         return [*(reg["name"] for reg in self._card._about["map"]["registers"] if reg["per_axis"]), *values]
 
     def __repr__(self) -> str:
@@ -197,7 +206,13 @@ class Card:
     def __init__(self, world: _core.World, name: str) -> None:
         about = _core.describe_card(world, name)
         registers = {str(reg["name"]).lower(): reg for reg in about["map"]["registers"]}
-        for key, value in (("_world", world), ("_name", name), ("_about", about), ("_registers", registers), ("_driver", None)):
+        for key, value in (
+            ("_world", world),
+            ("_name", name),
+            ("_about", about),
+            ("_registers", registers),
+            ("_driver", None),
+        ):
             object.__setattr__(self, key, value)
 
     _world: _core.World
@@ -235,8 +250,12 @@ class Card:
 
     @property
     def channels(self) -> dict[str, Channel]:
-        """Its channels by their names: ``card.channels["x"]`` is ``card.x``; of cards that number them ``card.channels["0"].POSITION``."""
-        names = [*self._about["channels"], *(value.partition(".")[0] for value in self._about["values"] if "." in value)]
+        """Its channels by their names: ``card.channels["x"]`` is ``card.x``;
+        of cards that number them ``card.channels["0"].POSITION``."""
+        names = [
+            *self._about["channels"],
+            *(value.partition(".")[0] for value in self._about["values"] if "." in value),
+        ]
         return {name: Channel(self, name) for name in dict.fromkeys(names)}
 
     @property
@@ -252,11 +271,13 @@ class Card:
     # ---- looking, reading, writing ----
 
     def peek(self, name: str) -> int:
-        """A register or value by its name (``"RR0"``, ``"x.LP"``), without any effect; takes no time. BadInput with the names that there are."""
+        """A register or value by its name (``"RR0"``, ``"x.LP"``), without any effect; takes no time.
+        BadInput with the names that there are."""
         return _core.peek(self._world, self._name, name)
 
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access of the bus, with all effects: ``offset`` in bytes in the card's map, ``bits`` 8, 16 or 32 as the card's bus makes them."""
+        """One access of the bus, with all effects: ``offset`` in bytes in the card's map, ``bits`` 8,
+        16 or 32 as the card's bus makes them."""
         return _core.read(self._world, self._name, bits, int(self._about["base"]) + offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
@@ -264,7 +285,8 @@ class Card:
         _core.write(self._world, self._name, bits, int(self._about["base"]) + offset, value)
 
     def view(self, clearing: bool = False) -> str:
-        """What its registers show through the bus, in words; ``clearing``: RR3 too, which reading clears. Refused for cards without a view."""
+        """What its registers show through the bus, in words; ``clearing``: RR3 too, which reading clears.
+        Refused for cards without a view."""
         return _core.view(self._world, self._name, clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
@@ -273,22 +295,29 @@ class Card:
             raise Timeout(f"Card {self._name} asked for no interrupt within {timeout:g} s.")
 
     def refused_frames(self) -> int:
-        """Of a motion card on a grating bus: frames that it did not publish since the start. Refused for other cards."""
+        """Frames that a motion card on a grating bus did not publish since the start. Refused for other cards."""
         return _core.refused_frames(self._world, self._name)
 
     # ---- its function library ----
 
     @property
     def driver(self) -> Any:
-        """Its function library, an object of its type (Mcx314, Databoard4002, Ioflex02, GratingCard, Rtc5); made at first use, or by :meth:`open`."""
+        """Its function library, an object of its type (Mcx314, Databoard4002, Ioflex02, GratingCard, Rtc5);
+        made at first use, or by :meth:`open`."""
         if self._driver is None:
             self.open()
         return self._driver
 
     def open(self, **settings: Any) -> Any:
-        """A function library with settings of its own: of a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to 255)."""
-        kinds: dict[str, Any] = {"mcx314": _core.Mcx314, "databoard4002": _core.Databoard4002, "ioflex02": _core.Ioflex02,
-                                 "grating_bus": _core.GratingCard, "rtc5": _core.Rtc5}
+        """A function library with settings of its own: of a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to
+        255)."""
+        kinds: dict[str, Any] = {
+            "mcx314": _core.Mcx314,
+            "databoard4002": _core.Databoard4002,
+            "ioflex02": _core.Ioflex02,
+            "grating_bus": _core.GratingCard,
+            "rtc5": _core.Rtc5,
+        }
         kind = kinds.get(self.type)
         if kind is None:
             raise Refused(f"Card {self._name} is a {self.type}, which has no function library. Nothing was done.")
@@ -318,7 +347,11 @@ class Card:
         Register(self, reg).write(value)
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(str(reg["name"]) for reg in self._about["map"]["registers"]), *self._about["channels"]]
+        return [
+            *super().__dir__(),
+            *(str(reg["name"]) for reg in self._about["map"]["registers"]),
+            *self._about["channels"],
+        ]
 
     def __repr__(self) -> str:
         return f"<card {self._name}: {self.type}>"
@@ -330,7 +363,9 @@ class Card:
                 shown = repr(reg.peek())
             except BadInput:
                 shown = reg.name
-            rows.append(f"<tr><td>{shown}</td><td>{reg.offset:#04x}</td><td>{reg.access}</td><td>{reg.meaning}</td></tr>")
+            rows.append(
+                f"<tr><td>{shown}</td><td>{reg.offset:#04x}</td><td>{reg.access}</td><td>{reg.meaning}</td></tr>"
+            )
         return f"<b>{self._name}</b>: {self.title}<table>{''.join(rows)}</table>"
 
 
@@ -344,7 +379,10 @@ class Cards(Mapping[str, Card]):
 
     def __getitem__(self, name: str) -> Card:
         if name not in self._names:
-            raise NoSuchName(f"There is no card {name!r} in this rack; its cards are: {', '.join(self._names) or 'none'}. Nothing was done.")
+            raise NoSuchName(
+                f"There is no card {name!r} in this rack; its cards are: {', '.join(self._names) or 'none'}. Nothing "
+                "was done."
+            )
         if name not in self._cards:
             self._cards[name] = Card(self._world, name)
         return self._cards[name]

@@ -1,4 +1,5 @@
-"""What goes wrong, by name. All of them are :class:`Error`; each sentence says what was seen, the limit, and what was (not) done.
+"""What goes wrong, by name. All of them are :class:`Error`; each sentence says what was seen, the limit,
+and what was (not) done.
 
     BadInput      a rack file, a part program or a name is wrong; nothing was done
     Refused       well formed, but outside a limit or at the wrong time; nothing was done
@@ -16,8 +17,9 @@ from __future__ import annotations
 class Error(Exception):
     """Something of motionrack went wrong.
 
-    ``message`` is the sentence; ``file``, ``line``, ``column`` say where in a text (line and column count from 1, 0: nowhere).
-    ``problems`` has every problem of a rack file or a program, in the order of their lines, where there can be several.
+    ``message`` is the sentence; ``file``, ``line``, ``column`` say where in a text (line and column count from 1, 0:
+    nowhere). ``problems`` has every problem of a rack file or a program, in the order of their lines,
+    where there can be several.
     """
 
     def __init__(self, message: str = "", file: str = "", line: int = 0, column: int = 0) -> None:
@@ -39,7 +41,8 @@ class BadInput(Error):
 
 
 class NoSuchName(BadInput, KeyError):
-    """A mapping (cards, parts, wires, signals of a trace) has nothing of that name; the sentence has the names that there are."""
+    """A mapping (cards, parts, wires, signals of a trace) has nothing of that name;
+    the sentence has the names that there are."""
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -15,7 +15,8 @@ from .rack import Rack
 
 @dataclass(frozen=True)
 class AxisStatus:
-    """One axis: places in ``unit`` (mm or deg), speed per s. ``place`` is where the table really is, whatever any counter says."""
+    """One axis: places in ``unit`` (mm or deg), speed per s.
+    ``place`` is where the table really is, whatever any counter says."""
 
     unit: str
     trusted: bool  #: the positions mean places of the machine
@@ -60,10 +61,12 @@ class Status:
 
 
 class Machine:
-    """A rack that is operated while it runs: programs with hold and resume, jogs, homing, alarms, as on the operator panel.
+    """A rack that is operated while it runs: programs with hold and resume, jogs, homing, alarms,
+    as on the operator panel.
 
-    Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; orders are taken between two slices, often in the middle of a drive.
-    The same orders at the same times give the same history. Axes with a home switch are not trusted before they are homed or declared.
+    Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; orders are taken between two slices, often
+    in the middle of a drive. The same orders at the same times give the same history.
+    Axes with a home switch are not trusted before they are homed or declared.
     """
 
     def __init__(self, rack: Rack) -> None:
@@ -97,7 +100,9 @@ class Machine:
     def __enter__(self) -> Machine:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     # ---- time ----
@@ -107,14 +112,18 @@ class Machine:
         self._operated().advance(ticks_of(seconds, ms))
 
     def wait(self, until: str | Callable[[Status], object], timeout: float, every: float = 2e-3) -> Status:
-        """Runs until the machine has that state, or ``until(status)`` is true, asked every ``every`` s (at least a slice, 0.002); Timeout."""
+        """Runs until the machine has that state, or ``until(status)`` is true,
+        asked every ``every`` s (at least a slice, 0.002); Timeout."""
         end = self.status.ticks + ticks_of(timeout)
         while True:
             status = self.status
             if status.state == until if isinstance(until, str) else until(status):
                 return status
             if status.ticks >= end:
-                raise Timeout(f"The machine did not come to it within {timeout:g} s; it is {status.state} at {status.seconds:.9g} s. {status.why}".rstrip())
+                raise Timeout(
+                    f"The machine did not come to it within {timeout:g} s; it is {status.state} at "
+                    f"{status.seconds:.9g} s. {status.why}".rstrip()
+                )
             self.advance(max(every, 2e-3))
 
     # ---- looking ----
@@ -150,7 +159,8 @@ class Machine:
         self._operated().enable(False, axes)
 
     def begin(self, program: str, name: str = "") -> None:
-        """Checks a program whole, then begins it: BadInput with line and column, Refused unless the machine stands enabled and trusted."""
+        """Checks a program whole, then begins it: BadInput with line and column,
+        Refused unless the machine stands enabled and trusted."""
         self._operated().begin(program, name)
 
     def hold(self) -> None:
@@ -174,7 +184,8 @@ class Machine:
         self._operated().home(axes)
 
     def jog(self, axis: str, speed: float) -> None:
-        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction) for as long as it is called again within 0.25 s."""
+        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction) for as long as it is called again within 0.25
+        s."""
         self._operated().jog(axis, speed)
 
     def jog_by(self, axis: str, distance: float, speed: float) -> None:

@@ -161,13 +161,23 @@ def outcome_of(world: _core.World, ran: _core.Ran, title: str) -> Outcome:
     error = ran.error()
     ticks, signals = ran.samples()
     trace = Trace(ticks, signals, job_units(signals, axes), data["trace_hash"], title)
-    worst = Worst(data.pop("worst_mm"), seconds_of(data.pop("worst_ticks")), data.pop("worst_line"), data.pop("worst_place"))
+    worst = Worst(
+        data.pop("worst_mm"), seconds_of(data.pop("worst_ticks")), data.pop("worst_line"), data.pop("worst_place")
+    )
     return Outcome(
-        ok=error is None and data["position_trusted"], error=error, seconds=seconds_of(data["ticks"]), axes=axes, worst=worst,
+        ok=error is None and data["position_trusted"],
+        error=error,
+        seconds=seconds_of(data["ticks"]),
+        axes=axes,
+        worst=worst,
         warnings=[Warning(seconds_of(at), line, text) for at, line, text in data.pop("warnings")],
         faults_not_done=world.not_done(),
         program_events=[ProgramEvent(*event) for event in data.pop("program_events")],
-        blocks=[Block(**block) for block in data.pop("blocks")], trace=trace, _ran=ran, **data)
+        blocks=[Block(**block) for block in data.pop("blocks")],
+        trace=trace,
+        _ran=ran,
+        **data,
+    )
 
 
 def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) -> dict[str, str]:
@@ -183,13 +193,16 @@ def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) ->
 
 @dataclass(frozen=True)
 class Homing:
-    """What homing found. ``axes`` has for each axis what ``motionrack home --json`` tells: states, edges, places (mm or deg), s."""
+    """What homing found. ``axes`` has for each axis what ``motionrack home --json`` tells:
+    states, edges, places (mm or deg), s."""
 
     ok: bool
     error: Error | None
     seconds: float
     axes: Mapping[str, dict[str, Any]]
-    pictures: Mapping[str, str] = field(repr=False)  #: position, speed and states over time, SVG, of each axis that was begun
+    pictures: Mapping[str, str] = field(
+        repr=False
+    )  #: position, speed and states over time, SVG, of each axis that was begun
     _text: str = field(repr=False)
     _json: str = field(repr=False)
 
@@ -217,5 +230,12 @@ class Homing:
 def homing_of(error: Error | None, text: str, as_json: str, pictures: dict[str, str]) -> Homing:
     """A homing as C++ tells it."""
     data = json.loads(as_json)
-    return Homing(ok=bool(data["homed"]), error=error, seconds=float(data["seconds"]), axes={axis["axis"]: axis for axis in data["axes"]},
-                  pictures=pictures, _text=text, _json=as_json)
+    return Homing(
+        ok=bool(data["homed"]),
+        error=error,
+        seconds=float(data["seconds"]),
+        axes={axis["axis"]: axis for axis in data["axes"]},
+        pictures=pictures,
+        _text=text,
+        _json=as_json,
+    )

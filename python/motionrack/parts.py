@@ -11,8 +11,8 @@ from .errors import BadInput, NoSuchName
 class Wires(MutableMapping[str, float]):
     """Every wire: ``CARD.PIN``, ``NAME.END`` or ``estop``. A digital wire is 0 or 1, an analog one is V.
 
-    Setting one drives it from outside, and cuts off what drove it; ``del`` or None releases it. BadInput (no such wire), Refused (an output,
-    another value).
+    Setting one drives it from outside, and cuts off what drove it; ``del`` or None releases it. BadInput (no such
+    wire), Refused (an output, another value).
     """
 
     def __init__(self, world: _core.World) -> None:
@@ -49,7 +49,8 @@ class Wires(MutableMapping[str, float]):
 
 
 class Part:
-    """An axis, a stage, a belt, a table or a scan head: what is true of it, whatever any counter says; names end in their units.
+    """An axis, a stage, a belt, a table or a scan head: what is true of it, whatever any counter says;
+    names end in their units.
 
     Setting a quantity pushes the part there by hand, where that is possible; Refused where it is not.
     """
@@ -99,7 +100,10 @@ class Parts(Mapping[str, Part]):
 
     def __getitem__(self, name: str) -> Part:
         if name not in self._parts:
-            raise NoSuchName(f"There is no part {name!r} in this rack; its parts are: {', '.join(self._parts) or 'none'}. Nothing was done.")
+            raise NoSuchName(
+                f"There is no part {name!r} in this rack; its parts are: {', '.join(self._parts) or 'none'}. Nothing "
+                "was done."
+            )
         return self._parts[name]
 
     def __contains__(self, name: object) -> bool:

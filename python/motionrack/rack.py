@@ -18,10 +18,11 @@ Progress = Callable[[float, int, int], None]
 
 
 class Rack:
-    """A rack of cards. Its time is virtual: it passes in the calls that say so and in accesses of a card's bus, nowhere else.
+    """A rack of cards. Its time is virtual: it passes in the calls that say so and in accesses of a card's bus,
+    nowhere else.
 
-    One thread at a time; the others are Refused. Python's other threads go on while a rack runs. The same calls give the same history, bit for
-    bit. As a context manager it is closed at the end of the block.
+    One thread at a time; the others are Refused. Python's other threads go on while a rack runs. The same calls give
+    the same history, bit for bit. As a context manager it is closed at the end of the block.
     """
 
     def __init__(self, world: _core.World, warnings: Iterable[str] = ()) -> None:
@@ -41,7 +42,8 @@ class Rack:
 
     @classmethod
     def from_text(cls, text: str, name: str = "") -> Rack:
-        """The rack of a rack file's text; ``name`` stands in the errors. ``'card.c1 = "mcx314"'`` is a whole rack. BadInput."""
+        """The rack of a rack file's text; ``name`` stands in the errors. ``'card.c1 = "mcx314"'`` is a whole rack.
+        BadInput."""
         return cls(*_core.open_text(text, name))
 
     @classmethod
@@ -54,10 +56,11 @@ class Rack:
         return Rack(self._world.fresh(), self.warnings)
 
     def change_card(self, name: str, **settings: float) -> None:
-        """Gives a card other numbers before the rack's time begins, in the units of their keys in a rack file: ``change_card("host", period_us=250)``.
+        """Gives a card other numbers before the rack's time begins, in the units of their keys in a rack file:
+        ``change_card("host", period_us=250)``.
 
-        Each is held to its own range, and the card alone must be sound. Whether it fits the other cards is not looked at, as it is in a rack file:
-        for experiments with what a rack file refuses. BadInput, Refused.
+        Each is held to its own range, and the card alone must be sound. Whether it fits the other cards is not looked
+        at, as it is in a rack file: for experiments with what a rack file refuses. BadInput, Refused.
         """
         for key, value in settings.items():
             self._world.set_card(name, key, float(value))
@@ -70,7 +73,9 @@ class Rack:
     def __enter__(self) -> Rack:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     @property
@@ -101,23 +106,29 @@ class Rack:
         return self._world.ticks()
 
     def advance(self, seconds: float = 0.0, *, ms: float = 0, us: float = 0, ns: float = 0) -> None:
-        """Lets the world run for so long, 0 to 14 years in all; whole numbers are exact to the tick of 100 ps. Refused beyond that."""
+        """Lets the world run for so long, 0 to 14 years in all; whole numbers are exact to the tick of 100 ps.
+        Refused beyond that."""
         self._world.advance(ticks_of(seconds, ms, us, ns))
 
     def wait(self, condition: Callable[[], object], timeout: float, every: float = 1e-3) -> None:
-        """Runs until ``condition()`` is true, which is asked now and every ``every`` s (> 0); Timeout after ``timeout`` s."""
+        """Runs until ``condition()`` is true, which is asked now and every ``every`` s (> 0);
+        Timeout after ``timeout`` s."""
         step, end = ticks_of(every), self.ticks + ticks_of(timeout)
         if step <= 0:
             raise Refused(f"The condition is to be asked every {every} s; that must be more than 0. Nothing was run.")
         while not condition():
             if self.ticks >= end:
-                raise Timeout(f"What was waited for did not come within {timeout:g} s; the rack is at {self.time:.9g} s.")
+                raise Timeout(
+                    f"What was waited for did not come within {timeout:g} s; the rack is at {self.time:.9g} s."
+                )
             self._world.advance(min(step, end - self.ticks))
 
     def wait_wire(self, name: str, level: int, timeout: float) -> None:
-        """Runs until a digital wire has that level, and stands at the very instant; Timeout after ``timeout`` s. BadInput.
+        """Runs until a digital wire has that level, and stands at the very instant; Timeout after ``timeout`` s.
+        BadInput.
 
-        A pin that a card drives on demand, as its pulse outputs, is driven while it is waited for, and is part of the history then.
+        A pin that a card drives on demand, as its pulse outputs, is driven while it is waited for,
+        and is part of the history then.
         """
         if level not in (0, 1):
             raise Refused(f"The level of a wire is 0 or 1, not {level}. Nothing was run.")
@@ -136,9 +147,11 @@ class Rack:
         return self._world.quantity(name)
 
     def set(self, name: str, value: float) -> None:
-        """Pushes a part there by hand: ``position_mm`` (``position_deg``), ``position_pulses``; of a belt or table ``speed_mm_s`` (``speed_deg_s``).
+        """Pushes a part there by hand: ``position_mm`` (``position_deg``), ``position_pulses``;
+        of a belt or table ``speed_mm_s`` (``speed_deg_s``).
 
-        A motor in step goes to the nearest place of the same electrical phase, so read the quantity to see where it came to. BadInput, Refused.
+        A motor in step goes to the nearest place of the same electrical phase,
+        so read the quantity to see where it came to. BadInput, Refused.
         """
         self._world.set_quantity(name, float(value))
 
@@ -148,7 +161,8 @@ class Rack:
         return [(seconds_of(ticks), text) for ticks, text in self._world.conditions()]
 
     def bus_conflicts(self) -> int:
-        """How often two cards drove a line of the grating bus against each other so far. Refused without a grating bus."""
+        """How often two cards drove a line of the grating bus against each other so far.
+        Refused without a grating bus."""
         return _core.bus_conflicts(self._world)
 
     def frame_picture(self, frame: int = 1) -> str:
@@ -156,7 +170,8 @@ class Rack:
         return _core.frame_picture(self._world, frame)
 
     def trace_hash(self) -> str:
-        """The hash of the history so far, 16 digits: every change of a wire and every condition at its tick. See :meth:`Trace.hash`."""
+        """The hash of the history so far, 16 digits: every change of a wire and every condition at its tick.
+        See :meth:`Trace.hash`."""
         return self._world.trace_hash()
 
     def state_hash(self) -> str:
@@ -171,16 +186,19 @@ class Rack:
         return dict(self._world.fault_targets())
 
     def fault(self, target: str, fault: str, value: float | None = None) -> None:
-        """Breaks something at this instant, or mends it: ``fault("X", "encoder.broken_a")``, ``fault("X", "motor.lose_steps", 64)``.
+        """Breaks something at this instant, or mends it: ``fault("X", "encoder.broken_a")``, ``fault("X",
+        "motor.lose_steps", 64)``.
 
         Without a value it is 1; 0 mends what can be mended. BadInput (names), Refused (the part is missing, the value).
         """
         self._world.fault(fault if value is None else f"{fault}={value:.17g}", target)
 
     def plan_fault(self, text: str, value: float | str | None = None, *, at: float | None = None) -> None:
-        """Plans a fault before the rack's time begins, as a command line does: ``"X.limit_plus=0@0.5s"``, ``"X.encoder.broken_a@1s"``.
+        """Plans a fault before the rack's time begins, as a command line does:
+        ``"X.limit_plus=0@0.5s"``, ``"X.encoder.broken_a@1s"``.
 
-        Or in pieces: ``plan_fault("X.limit_plus", 0, at=0.5)`` with ``at`` in s (0 to 1e6). A wire takes 0, 1 or ``"release"``.
+        Or in pieces: ``plan_fault("X.limit_plus", 0, at=0.5)`` with ``at`` in s (0 to 1e6).
+        A wire takes 0, 1 or ``"release"``.
         """
         if at is not None:
             shown = "" if value is None else f"={value if isinstance(value, str) else format(value, '.17g')}"
@@ -189,64 +207,91 @@ class Rack:
 
     # ---- the controller ----
 
-    def run(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, profile: str | None = None,
-            faults: Iterable[str] = (), block_delete: bool = False, sample_period: float = 1e-3, progress: Progress | None = None,
-            name: str | None = None, tools: str | os.PathLike[str] | None = None) -> Outcome:
-        """Runs a part program from time 0 to standstill: its text, or the file at ``path``, beside which its subprograms lie.
+    def run(
+        self,
+        program: str | None = None,
+        *,
+        path: str | os.PathLike[str] | None = None,
+        profile: str | None = None,
+        faults: Iterable[str] = (),
+        block_delete: bool = False,
+        sample_period: float = 1e-3,
+        progress: Progress | None = None,
+        name: str | None = None,
+        tools: str | os.PathLike[str] | None = None,
+    ) -> Outcome:
+        """Runs a part program from time 0 to standstill: its text, or the file at ``path``,
+        beside which its subprograms lie.
 
         ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
-        ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see :meth:`plan_fault`. ``sample_period``: of
-        the outcome's trace, s (1e-6 to 3600). ``progress(seconds, line, lines)`` is called about every 50 ms of virtual time and may look, not move.
+        ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see
+        :meth:`plan_fault`. ``sample_period``: of the outcome's trace, s (1e-6 to 3600). ``progress(seconds, line,
+        lines)`` is called about every 50 ms of virtual time and may look, not move.
 
-        BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved. Refused on a rack that has
-        no axes or is not at time 0. What the machine did wrong is the outcome's ``error``.
+        BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved.
+        Refused on a rack that has no axes or is not at time 0. What the machine did wrong is the outcome's ``error``.
         """
         given, name = _program(program, path, name, tools, block_delete)
         ran = _core.run(self._world, given, ticks_of(sample_period), profile, list(faults), progress)
         return outcome_of(self._world, ran, name or self.name)
 
-    def check(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, block_delete: bool = False, name: str | None = None,
-              tools: str | os.PathLike[str] | None = None) -> None:
-        """Raises what is wrong with a part program on this rack, with all ``problems``; moves nothing and takes no time. See :meth:`run`."""
+    def check(
+        self,
+        program: str | None = None,
+        *,
+        path: str | os.PathLike[str] | None = None,
+        block_delete: bool = False,
+        name: str | None = None,
+        tools: str | os.PathLike[str] | None = None,
+    ) -> None:
+        """Raises what is wrong with a part program on this rack, with all ``problems``;
+        moves nothing and takes no time. See :meth:`run`."""
         _core.check(self._world, _program(program, path, name, tools, block_delete)[0])
 
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
-        """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the rack file's; ``timeout`` in s
-        of each group. What failed is the outcome's ``error``."""
+        """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the
+        rack file's; ``timeout`` in s of each group. What failed is the outcome's ``error``."""
         return homing_of(*_core.home(self._world, axes, type, ticks_of(timeout)))
 
     # ---- recordings ----
 
     def record(self, *signals: str, every: float = 1e-3, most: int = 1_000_000) -> Recording:
-        """Begins to look at wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities (``"X.position_mm"``) every ``every`` s (1e-6 to 3600).
+        """Begins to look at wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities
+        (``"X.position_mm"``) every ``every`` s (1e-6 to 3600).
 
             with rack.record("X.position_mm", "c1.x.LP") as recording:
                 rack.advance(1)
             recording.trace.plot()
 
-        Of more than ``most`` instants every second one is left out, and the period doubled. One recording at a time. BadInput, Refused.
+        Of more than ``most`` instants every second one is left out, and the period doubled. One recording at a time.
+        BadInput, Refused.
         """
         return Recording(self._world, signals, ticks_of(every), most, self.name)
 
     def waves(self, path: str | os.PathLike[str], *signals: str) -> Waves:
-        """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd`` or ``.csv``, until :meth:`Waves.stop` or the end of the block.
+        """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd`` or ``.csv``,
+        until :meth:`Waves.stop` or the end of the block.
 
-        ``signals``: patterns with * and ?; none: all but the pins that cards drive on demand. Refused, BadInput, FileTrouble.
+        ``signals``: patterns with * and ?; none: all but the pins that cards drive on demand.
+        Refused, BadInput, FileTrouble.
         """
         return Waves(self._world, os.fspath(path), signals)
 
     # ---- the whole world ----
 
     def copy(self) -> Rack:
-        """A rack of its own in the same state: the same calls from here on do the same in both. Recordings stay with this one."""
+        """A rack of its own in the same state: the same calls from here on do the same in both.
+        Recordings stay with this one."""
         return Rack(self._world.copy(), self.warnings)
 
     def snapshot(self) -> Snapshot:
-        """The state of the whole world, for :meth:`restore`. Function libraries are programs of the host: what they remember is not in it."""
+        """The state of the whole world, for :meth:`restore`. Function libraries are programs of the host:
+        what they remember is not in it."""
         return Snapshot(self._world.copy())
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Puts the world back into a state of this rack or of one of the same file, time included. Refused while a recording runs."""
+        """Puts the world back into a state of this rack or of one of the same file, time included.
+        Refused while a recording runs."""
         if snapshot._world.config() != self._world.config():
             raise Refused("The snapshot is of a rack of another kind; nothing was done.")
         self._world.copy_from(snapshot._world)
@@ -260,8 +305,13 @@ def _text_of(path: str | os.PathLike[str]) -> str:
         raise FileTrouble(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
 
 
-def _program(program: str | None, path: str | os.PathLike[str] | None, name: str | None, tools: str | os.PathLike[str] | None,
-             block_delete: bool) -> tuple[_core.Program, str]:
+def _program(
+    program: str | None,
+    path: str | os.PathLike[str] | None,
+    name: str | None,
+    tools: str | os.PathLike[str] | None,
+    block_delete: bool,
+) -> tuple[_core.Program, str]:
     """A program with what goes with it, and its name in messages."""
     if (program is None) == (path is None):
         raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")

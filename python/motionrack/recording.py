@@ -9,8 +9,19 @@ from . import _core
 from .errors import Refused
 from .trace import Trace
 
-_ENDS = (("_mm_s", "mm/s"), ("_deg_s", "deg/s"), ("_mm", "mm"), ("_deg", "deg"), ("_nm", "nm"), ("_us", "us"), ("_v", "V"), ("_hz", "Hz"), ("_j", "J"),
-         ("_counts", "counts"), ("_pulses", "pulses"))
+_ENDS = (
+    ("_mm_s", "mm/s"),
+    ("_deg_s", "deg/s"),
+    ("_mm", "mm"),
+    ("_deg", "deg"),
+    ("_nm", "nm"),
+    ("_us", "us"),
+    ("_v", "V"),
+    ("_hz", "Hz"),
+    ("_j", "J"),
+    ("_counts", "counts"),
+    ("_pulses", "pulses"),
+)
 
 
 def unit_of(signal: str) -> str:
@@ -28,7 +39,9 @@ class _Open:
     def stop(self) -> object:
         raise NotImplementedError
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         if self._runs and not self._world.closed():
             self.stop()
 
@@ -49,7 +62,9 @@ class Recording(_Open):
         """Ends it, with a last look at this instant."""
         if self._trace is None:
             ticks, signals = self._world.end_samples()
-            self._trace = Trace(ticks, signals, {name: unit_of(name) for name in signals}, self._world.trace_hash(), self._title)
+            self._trace = Trace(
+                ticks, signals, {name: unit_of(name) for name in signals}, self._world.trace_hash(), self._title
+            )
             self._runs = False
         return self._trace
 

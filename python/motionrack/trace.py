@@ -20,10 +20,18 @@ _LOOKS = "xyzabcd"
 class Trace(Mapping[str, Values]):
     """Signals of a rack over time: ``trace.time``, ``trace["x.position"]``.
 
-    Counts, pulses, registers and digital wires are int64, all else float64 in the unit of ``units``. Case does not matter where it is clear.
+    Counts, pulses, registers and digital wires are int64, all else float64 in the unit of ``units``.
+    Case does not matter where it is clear.
     """
 
-    def __init__(self, ticks: npt.NDArray[np.int64], signals: Mapping[str, Values], units: Mapping[str, str], history: str, title: str = "") -> None:
+    def __init__(
+        self,
+        ticks: npt.NDArray[np.int64],
+        signals: Mapping[str, Values],
+        units: Mapping[str, str],
+        history: str,
+        title: str = "",
+    ) -> None:
         self._ticks = ticks
         self._signals = dict(signals)
         self._units = dict(units)
@@ -59,7 +67,10 @@ class Trace(Mapping[str, Values]):
         return self._signals[self._name(name)]
 
     def __contains__(self, name: object) -> bool:
-        return isinstance(name, str) and sum(signal.lower() == name.lower() or signal == name for signal in self._signals) == 1
+        return (
+            isinstance(name, str)
+            and sum(signal.lower() == name.lower() or signal == name for signal in self._signals) == 1
+        )
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._signals)
@@ -70,8 +81,9 @@ class Trace(Mapping[str, Values]):
     def hash(self) -> str:
         """The hash of the rack's history when the trace ended: 16 digits.
 
-        Every change of a wire and every condition since the start of the rack is in it, at its tick of 100 ps, whether it is recorded or not:
-        the same programs on the same rack have the same hash, in C++, C, on the command line and here.
+        Every change of a wire and every condition since the start of the rack is in it, at its tick of 100 ps, whether
+        it is recorded or not: the same programs on the same rack have the same hash, in C++, C,
+        on the command line and here.
         """
         return self._history
 
@@ -90,10 +102,19 @@ class Trace(Mapping[str, Values]):
         return [(f"{kind}, {unit}" if unit else kind, members) for (kind, unit), members in charts.items()]
 
     def svg(self, *names: str, width: int = 720, height: int | None = None) -> str:
-        """A picture of these signals (of all if none are named) by the project's own writer: SVG, 100 to 10000 pixels."""
+        """A picture of these signals (of all if none are named) by the project's own writer:
+        SVG, 100 to 10000 pixels."""
         charts = self._charts(names)
-        drawn = [(title, [(name if len(members) > 1 else "", _LOOKS[i % len(_LOOKS)], self[name]) for i, name in enumerate(members)])
-                 for title, members in charts]
+        drawn = [
+            (
+                title,
+                [
+                    (name if len(members) > 1 else "", _LOOKS[i % len(_LOOKS)], self[name])
+                    for i, name in enumerate(members)
+                ],
+            )
+            for title, members in charts
+        ]
         if not drawn or len(self._ticks) < 2:
             raise BadInput("There is nothing to draw: a picture needs two instants and a signal.")
         return _core.svg_timeline(self.title, self.time, drawn, [], width, height or min(10000, 60 + 160 * len(drawn)))
@@ -101,16 +122,18 @@ class Trace(Mapping[str, Values]):
     def plot(self, *names: str, path: str | None = None) -> Any:
         """Draws these signals (all if none are named) one below the other over s.
 
-        With matplotlib: its figure, saved to ``path`` if one is given. Without: the trace itself, which a notebook shows as :meth:`svg`;
-        ``path`` then ends in ``.svg``.
+        With matplotlib: its figure, saved to ``path`` if one is given. Without: the trace itself, which a notebook
+        shows as :meth:`svg`; ``path`` then ends in ``.svg``.
         """
         try:
             from matplotlib.figure import Figure  # type: ignore[import]
         except ImportError:
             if path is not None:
                 if not os.fspath(path).endswith(".svg"):
-                    raise BadInput(f"Without matplotlib pictures are SVG files, and {os.fspath(path)} does not end in .svg. Nothing was written; choose "
-                                   "such a name, or install matplotlib.") from None
+                    raise BadInput(
+                        f"Without matplotlib pictures are SVG files, and {os.fspath(path)} does not end in .svg. "
+                        "Nothing was written; choose such a name, or install matplotlib."
+                    ) from None
                 self.save_svg(path, *names)
             return self
         charts = self._charts(names)

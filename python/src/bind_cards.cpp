@@ -80,7 +80,7 @@ py::dict dict_of(const CardMap& map) {
     return out;
 }
 
-const rack::RackCard& config_of(World& world, const std::string& name) {
+const rack::RackCard& config_of_card(World& world, const std::string& name) {
     for (const rack::RackCard& card : world.config().cards)
         if (card.name == name) return card;
     static_cast<void>(value_of(rack::card_named(world.rack(), name)));
@@ -90,7 +90,7 @@ const rack::RackCard& config_of(World& world, const std::string& name) {
 /// What one card is: {type, map, channels, widths, base, values, quantities, faults}.
 py::dict describe(World& world, const std::string& name) {
     const rack::Card& card = *value_of(rack::card_named(world.rack(), name));
-    const rack::RackCard& config = config_of(world, name);
+    const rack::RackCard& config = config_of_card(world, name);
     const rack::CardType& type = *rack::find_card_type(config.type);
     py::dict out;
     out["type"] = config.type;
@@ -117,7 +117,7 @@ std::uint32_t read(World& world, const std::string& card, int bits, std::uint32_
     });
 }
 
-void write(World& world, const std::string& card, int bits, std::uint32_t address, std::int64_t value) {
+void write_register(World& world, const std::string& card, int bits, std::uint32_t address, std::int64_t value) {
     alone(world, [&]() -> Result<void> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_for_access(world.running(), card, bits, address, true));
         if (value < 0 || value >> bits != 0)
@@ -132,7 +132,7 @@ void write(World& world, const std::string& card, int bits, std::uint32_t addres
 std::string view(World& world, const std::string& card, bool clearing) {
     return alone(world, [&]() -> Result<std::string> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
-        const rack::CardKind* kind = rack::find_card_kind(config_of(world, card).type);
+        const rack::CardKind* kind = rack::find_card_kind(config_of_card(world, card).type);
         if (kind->view == nullptr || on->port() == nullptr)
             return fail(
                 Trouble::refused,
@@ -158,7 +158,8 @@ void bind_cards(py::module_& m) {
         },
         py::arg("world"), py::arg("card"), py::arg("name"));
     m.def("read", &read, py::arg("world"), py::arg("card"), py::arg("bits"), py::arg("address"));
-    m.def("write", &write, py::arg("world"), py::arg("card"), py::arg("bits"), py::arg("address"), py::arg("value"));
+    m.def("write", &write_register, py::arg("world"), py::arg("card"), py::arg("bits"), py::arg("address"),
+          py::arg("value"));
     m.def(
         "wait_interrupt",
         [](World& world, const std::string& card, std::int64_t timeout) {

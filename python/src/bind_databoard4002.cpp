@@ -12,8 +12,7 @@ namespace motionrack::python {
 namespace {
 
 namespace db = databoard4002;
-using db::Driver;
-using Board = Driven<Driver>;
+using Board = Driven<db::Driver>;
 using BoardClass = py::class_<Board>;
 using Wide = std::int64_t;
 
@@ -22,9 +21,9 @@ db::Waiting waiting(bool interrupt) {
 }
 
 void bind_commands(BoardClass& c) {
-    c.def("connect", call<Driver>(&Driver::connect),
+    c.def("connect", call<db::Driver>(&db::Driver::connect),
           "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
-    c.def("reset", call<Driver>(&Driver::reset), "C3: hardware reset; position, rate and table are gone.");
+    c.def("reset", call<db::Driver>(&db::Driver::reset), "C3: hardware reset; position, rate and table are gone.");
     c.def(
         "status", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().word; }); },
         "STAT as a word; its bits: card.STAT.");
@@ -34,25 +33,28 @@ void bind_commands(BoardClass& c) {
     c.def(
         "emergency", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().emergency(); }); },
         "Whether the emergency stop is active.");
-    c.def("athome", call<Driver>(&Driver::athome), "A: the position becomes 0.");
-    c.def("set_deviation", call<Driver>(&Driver::set_deviation), py::arg("counts"),
+    c.def("athome", call<db::Driver>(&db::Driver::athome), "A: the position becomes 0.");
+    c.def("set_deviation", call<db::Driver>(&db::Driver::set_deviation), py::arg("counts"),
           "D: what lock may let it deviate by, 0 to 8,388,607 counts.");
-    c.def("deviation", call<Driver>(&Driver::deviation), "D: present minus requested, counts.");
-    c.def("go", call<Driver>(&Driver::go), "G: begins a positioning.");
-    c.def("initialise", call<Driver>(&Driver::initialise), "I.");
-    c.def("lock", call<Driver>(&Driver::lock), "L: holds the position.");
-    c.def("manual", call<Driver>(&Driver::manual), "M: lets the position go.");
-    c.def("set_number", call<Driver>(&Driver::set_number), py::arg("counts"), "N, -8,388,608 to 8,388,607 counts.");
-    c.def("on_regulation", call<Driver>(&Driver::on_regulation), "O.");
-    c.def("set_target", call<Driver>(&Driver::set_target), py::arg("counts"), "P, -8,388,608 to 8,388,607 counts.");
-    c.def("position", call<Driver>(&Driver::position), "P: where it is, counts.");
-    c.def("quit", call<Driver>(&Driver::quit), "Q: ends a positioning.");
-    c.def("set_rate", call<Driver>(&Driver::set_rate), py::arg("rate"), "R, 0 to 16383; 0 switches the relay off.");
-    c.def("rate", call<Driver>(&Driver::rate), "R: negative backwards, 0 while standing.");
-    c.def("set_slope", call<Driver>(&Driver::set_slope), py::arg("table"),
+    c.def("deviation", call<db::Driver>(&db::Driver::deviation), "D: present minus requested, counts.");
+    c.def("go", call<db::Driver>(&db::Driver::go), "G: begins a positioning.");
+    c.def("initialise", call<db::Driver>(&db::Driver::initialise), "I.");
+    c.def("lock", call<db::Driver>(&db::Driver::lock), "L: holds the position.");
+    c.def("manual", call<db::Driver>(&db::Driver::manual), "M: lets the position go.");
+    c.def("set_number", call<db::Driver>(&db::Driver::set_number), py::arg("counts"),
+          "N, -8,388,608 to 8,388,607 counts.");
+    c.def("on_regulation", call<db::Driver>(&db::Driver::on_regulation), "O.");
+    c.def("set_target", call<db::Driver>(&db::Driver::set_target), py::arg("counts"),
+          "P, -8,388,608 to 8,388,607 counts.");
+    c.def("position", call<db::Driver>(&db::Driver::position), "P: where it is, counts.");
+    c.def("quit", call<db::Driver>(&db::Driver::quit), "Q: ends a positioning.");
+    c.def("set_rate", call<db::Driver>(&db::Driver::set_rate), py::arg("rate"),
+          "R, 0 to 16383; 0 switches the relay off.");
+    c.def("rate", call<db::Driver>(&db::Driver::rate), "R: negative backwards, 0 while standing.");
+    c.def("set_slope", call<db::Driver>(&db::Driver::set_slope), py::arg("table"),
           "S: the 48 intervals of acceleration and deceleration.");
-    c.def("version", call<Driver>(&Driver::version), "V.");
-    c.def("clear_watch_out", call<Driver>(&Driver::clear_watch_out), "W.");
+    c.def("version", call<db::Driver>(&db::Driver::version), "V.");
+    c.def("clear_watch_out", call<db::Driver>(&db::Driver::clear_watch_out), "W.");
 }
 
 void bind_events(BoardClass& c) {
@@ -80,7 +82,7 @@ void bind_events(BoardClass& c) {
         py::arg("wanted"), py::arg("timeout"), py::arg("interrupt") = false,
         "Waits until one of the events 01h position, 02h zero, 04h reference, 20h stop has happened; the word. Timeout "
         "after timeout s.");
-    const auto move = [&](const char* name, Result<void> (Driver::*function)(Wide, Duration, db::Waiting),
+    const auto move = [&](const char* name, Result<void> (db::Driver::*function)(Wide, Duration, db::Waiting),
                           const char* doc) {
         c.def(
             name,
@@ -92,10 +94,10 @@ void bind_events(BoardClass& c) {
             },
             py::arg("counts"), py::arg("timeout") = 60.0, py::arg("interrupt") = false, doc);
     };
-    move("move_to", &Driver::move_to,
+    move("move_to", &db::Driver::move_to,
          "Goes there, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout "
          "after timeout s.");
-    move("move_by", &Driver::move_by, "Goes so many counts further; see move_to.");
+    move("move_by", &db::Driver::move_by, "Goes so many counts further; see move_to.");
     c.def(
         "move_to_mm",
         [](Board& self, double mm, double timeout, bool interrupt) {
@@ -105,7 +107,7 @@ void bind_events(BoardClass& c) {
         },
         py::arg("mm"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
         "Goes there, mm by counts_per_mm; see move_to.");
-    c.def("position_mm", call<Driver>(&Driver::position_mm), "Where it is, mm by counts_per_mm.");
+    c.def("position_mm", call<db::Driver>(&db::Driver::position_mm), "Where it is, mm by counts_per_mm.");
     c.def(
         "find_zero",
         [](Board& self, std::uint8_t marks, Wide far, int rate, double timeout, bool interrupt) {
@@ -219,7 +221,7 @@ void bind_databoard4002(py::module_& m) {
               db::DriverSettings settings;
               settings.counts_per_mm = counts_per_mm;
               settings.select = static_cast<std::uint8_t>(select);
-              return Board{world, std::make_unique<Driver>(port, port, settings)};
+              return Board{world, std::make_unique<db::Driver>(port, port, settings)};
           }),
           py::arg("world"), py::arg("card"), py::arg("counts_per_mm") = 1000.0, py::arg("select") = 13);
     bind_commands(c);

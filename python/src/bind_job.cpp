@@ -33,7 +33,7 @@ py::array_t<T> series(const std::vector<rack::Sample>& samples, Get get) {
     return out;
 }
 
-std::string letter(int index) {
+std::string letter_of(int index) {
     return std::string(1, control::axis_letters[static_cast<std::size_t>(index)]);
 }
 
@@ -43,7 +43,7 @@ py::tuple samples_of(const Ran& ran) {
     const std::vector<rack::Sample>& samples = monitor.samples();
     py::dict signals;
     const auto add = [&](int index, const char* what, auto get) {
-        signals[py::str(letter(index) + "." + what)] = series<double>(samples, get);
+        signals[py::str(letter_of(index) + "." + what)] = series<double>(samples, get);
     };
     for (const rack::AxisOutcome& axis : ran.outcome.axes) {
         const auto i = static_cast<std::size_t>(axis.index);
@@ -60,7 +60,7 @@ py::tuple samples_of(const Ran& ran) {
 
 py::dict dict_of(const rack::AxisOutcome& axis) {
     py::dict out;
-    out["axis"] = letter(axis.index);
+    out["axis"] = letter_of(axis.index);
     out["unit"] = axis.unit;
     out["servo"] = axis.servo;
     out["min_position"] = axis.limits.min_position;
@@ -139,7 +139,8 @@ py::dict dict_of(const Ran& ran) {
     out["chip_segments"] = outcome.chip_segments;
     out["events"] = outcome.events;
     out["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
-    out["rest_axis"] = outcome.rest_axis < 0 ? py::object(py::none()) : py::object(py::str(letter(outcome.rest_axis)));
+    out["rest_axis"] =
+        outcome.rest_axis < 0 ? py::object(py::none()) : py::object(py::str(letter_of(outcome.rest_axis)));
     out["rest_off"] = outcome.rest_off;
     out["position_trusted"] = outcome.position_trusted;
     out["blocks"] = blocks_of(ran.world->job()->monitor());
@@ -147,8 +148,8 @@ py::dict dict_of(const Ran& ran) {
     return out;
 }
 
-void write(const Ran& ran, const std::string& path,
-           Result<void> (*writer)(const trace::ReportData&, const std::string&)) {
+void write_file(const Ran& ran, const std::string& path,
+                Result<void> (*writer)(const trace::ReportData&, const std::string&)) {
     looking(*ran.world, [&] { value_of(writer(ran.report(), path)); });
 }
 
@@ -165,7 +166,7 @@ void attend_progress(World& world, const py::object& progress) {
 }
 
 /// Without Python's lock: the loops of a program may take a second or two.
-control::gcode::Settings check(const World& world, const GivenProgram& program) {
+control::gcode::Settings check_program(const World& world, const GivenProgram& program) {
     const py::gil_scoped_release free;
     return world.check(program);
 }
@@ -176,7 +177,7 @@ std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram
     control::gcode::Settings reading;
     {
         const Turn turn(*world, Turn::For::moving);
-        reading = check(*world, program);
+        reading = check_program(*world, program);
         value_of(world->plan_faults(faults));
         value_of(world->set_sample_period(ticks(sample_ticks)));
         if (profile) value_of(world->set_profile(*profile));
@@ -219,13 +220,14 @@ void bind_job(py::module_& m) {
             },
             py::arg("perspective"))
         .def(
-            "write_report", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_report); },
+            "write_report", [](const Ran& ran, const std::string& path) { write_file(ran, path, trace::write_report); },
             py::arg("path"))
         .def(
-            "write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); },
+            "write_csv", [](const Ran& ran, const std::string& path) { write_file(ran, path, trace::write_csv); },
             py::arg("path"))
         .def(
-            "write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); },
+            "write_events",
+            [](const Ran& ran, const std::string& path) { write_file(ran, path, trace::write_events_csv); },
             py::arg("path"));
     py::class_<GivenProgram>(m, "Program", "A part program's text and what goes with it.")
         .def(py::init<std::string, std::string, std::string, std::string, std::string, bool>(), py::arg("text"),
@@ -235,7 +237,7 @@ void bind_job(py::module_& m) {
     m.def(
         "check",
         [](World& world, const GivenProgram& program) {
-            looking(world, [&] { static_cast<void>(check(world, program)); });
+            looking(world, [&] { static_cast<void>(check_program(world, program)); });
         },
         py::arg("world"), py::arg("program"));
 }

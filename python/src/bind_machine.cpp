@@ -27,9 +27,9 @@ auto ordered(Operated& self, Work work) {
     return value_of(std::move(result));
 }
 
-char letter(const std::string& axis) {
+char only_letter(const std::string& axis) {
     if (axis.size() != 1)
-        refuse(fmt::format("An axis is one letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
+        refuse(fmt::format("An axis is one only_letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
     return axis[0];
 }
 
@@ -114,21 +114,23 @@ void bind_orders(Class& c) {
     c.def(
         "jog",
         [](Operated& self, const std::string& axis, double speed) {
-            ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.jog(which, speed); });
+            ordered(self, [&, which = only_letter(axis)](Machine& machine) { return machine.jog(which, speed); });
         },
         py::arg("axis"), py::arg("speed"));
     c.def(
         "jog_by",
         [](Operated& self, const std::string& axis, double distance, double speed) {
-            ordered(self,
-                    [&, which = letter(axis)](Machine& machine) { return machine.jog_by(which, distance, speed); });
+            ordered(self, [&, which = only_letter(axis)](Machine& machine) {
+                return machine.jog_by(which, distance, speed);
+            });
         },
         py::arg("axis"), py::arg("distance"), py::arg("speed"));
     c.def(
         "declare_position",
         [](Operated& self, const std::string& axis, double position) {
-            ordered(self,
-                    [&, which = letter(axis)](Machine& machine) { return machine.declare_position(which, position); });
+            ordered(self, [&, which = only_letter(axis)](Machine& machine) {
+                return machine.declare_position(which, position);
+            });
         },
         py::arg("axis"), py::arg("position"));
     c.def(

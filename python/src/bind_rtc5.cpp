@@ -43,7 +43,7 @@ auto ask(const Rtc5& self, Call call) {
 }
 
 /// Refuses what the list command of the same meaning would refuse.
-Result<void> check(rtc5::Op op, double parameter) {
+Result<void> check_parameter(rtc5::Op op, double parameter) {
     MOTIONRACK_CHECK(rtc5::list_command(op, {parameter}));
     return {};
 }
@@ -130,7 +130,7 @@ void bind_settings(Rtc5Class& c) {
             name,
             [op, function](Rtc5& self, double bits_ms) {
                 order(self, [&](Engine& engine) -> Result<void> {
-                    MOTIONRACK_CHECK(check(op, bits_ms));
+                    MOTIONRACK_CHECK(check_parameter(op, bits_ms));
                     (engine.*function)(bits_ms);
                     return {};
                 });
@@ -145,7 +145,7 @@ void bind_settings(Rtc5Class& c) {
         "set_control_mode",
         [](Rtc5& self, std::uint32_t mode) {
             order(self, [&](Engine& engine) -> Result<void> {
-                MOTIONRACK_CHECK(check(rtc5::Op::set_control_mode_list, mode));
+                MOTIONRACK_CHECK(check_parameter(rtc5::Op::set_control_mode_list, mode));
                 engine.set_control_mode(mode);
                 return {};
             });

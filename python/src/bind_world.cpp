@@ -86,7 +86,7 @@ py::list conditions_of(World& world) {
     return out;
 }
 
-py::dict config_of(World& world) {
+py::dict config_of_world(World& world) {
     py::dict out;
     out["name"] = world.config().name;
     py::dict cards, axes;
@@ -99,7 +99,7 @@ py::dict config_of(World& world) {
 }
 
 void bind_looking(py::class_<World, Shared>& world) {
-    world.def("config", [](World& w) { return looking(w, [&] { return config_of(w); }); })
+    world.def("config", [](World& w) { return looking(w, [&] { return config_of_world(w); }); })
         .def("closed", &World::closed)
         .def("started", &World::started)
         .def("ticks", [](World& w) { return looking(w, [&] { return w.now().count(); }); })

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import motionrack
@@ -11,6 +12,7 @@ from motionrack import MachineFault, Rack, Refused, Timeout
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 X, Y, Z, U = 1, 2, 4, 8
+Acts = tuple[Callable[[], object], ...]
 
 
 class Mcx314(unittest.TestCase):
@@ -52,9 +54,19 @@ class Mcx314(unittest.TestCase):
 
     def test_refusals_write_nothing(self) -> None:
         before = self.rack.state_hash()
-        for act in (lambda: self.card.SetV(X, 9000), lambda: self.card.SetV(16, 1), lambda: self.card.SetV(0, 1), lambda: self.card.TCurve_F(X, 0, 1, 1, 1),
-                    lambda: self.card.ReadLPS(4), lambda: self.card.ReadLPS(-1), lambda: self.card.wait(0), lambda: self.card.wait(X, timeout=-1),
-                    lambda: self.card.wait(X, timeout=float("nan")), lambda: self.card.moving(99)):
+        acts: Acts = (
+            lambda: self.card.SetV(X, 9000),
+            lambda: self.card.SetV(16, 1),
+            lambda: self.card.SetV(0, 1),
+            lambda: self.card.TCurve_F(X, 0, 1, 1, 1),
+            lambda: self.card.ReadLPS(4),
+            lambda: self.card.ReadLPS(-1),
+            lambda: self.card.wait(0),
+            lambda: self.card.wait(X, timeout=-1),
+            lambda: self.card.wait(X, timeout=float("nan")),
+            lambda: self.card.moving(99),
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
         self.assertEqual(self.rack.state_hash(), before)
@@ -110,8 +122,14 @@ class DataBoard(unittest.TestCase):
             board.move_to(100000, timeout=60)
         self.assertNotIsInstance(caught.exception, Timeout)
         self.assertIn("right end stop", board.stops())
-        for act in (lambda: board.set_rate(20000), lambda: board.set_target(1 << 24), lambda: motionrack.SlopeTable([(0, 0)]), lambda: motionrack.SpeedScale(),
-                    lambda: rack.cards["c1"].open(counts_per_mm=0)):
+        acts: Acts = (
+            lambda: board.set_rate(20000),
+            lambda: board.set_target(1 << 24),
+            lambda: motionrack.SlopeTable([(0, 0)]),
+            lambda: motionrack.SpeedScale(),
+            lambda: rack.cards["c1"].open(counts_per_mm=0),
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
 
@@ -186,7 +204,14 @@ class Laser(unittest.TestCase):
     def test_parameters_are_looked_through(self) -> None:
         rtc = Rack.from_file(EXAMPLES / "14_line" / "line.toml").cards["scan"].driver
         rtc.set_start_list(1)
-        for act in (lambda: rtc.mark_abs(1), lambda: rtc.mark_abs(1.5, 0), lambda: rtc.mark_abs(float("nan"), 0), lambda: rtc.set_start_list(1, -1), lambda: rtc.execute_list(1, -5)):
+        acts: Acts = (
+            lambda: rtc.mark_abs(1),
+            lambda: rtc.mark_abs(1.5, 0),
+            lambda: rtc.mark_abs(float("nan"), 0),
+            lambda: rtc.set_start_list(1, -1),
+            lambda: rtc.execute_list(1, -5),
+        )
+        for act in acts:
             with self.assertRaises(motionrack.Error):
                 act()
 
@@ -203,7 +228,13 @@ class Laser(unittest.TestCase):
 class Wrong(unittest.TestCase):
     def test_a_library_of_another_card_is_refused(self) -> None:
         rack = Rack.from_file(EXAMPLES / "15_panel" / "demonstration.toml")
-        for kind in (motionrack.Mcx314, motionrack.Databoard4002, motionrack.Ioflex02, motionrack.GratingCard, motionrack.Rtc5):
+        for kind in (
+            motionrack.Mcx314,
+            motionrack.Databoard4002,
+            motionrack.Ioflex02,
+            motionrack.GratingCard,
+            motionrack.Rtc5,
+        ):
             for card in rack.cards.values():
                 if not isinstance(card.driver if card.type != "grating_decoder" else None, kind):
                     with self.assertRaises(Refused):

@@ -1,4 +1,5 @@
-"""Every numbered example has a Python form that gives the same history as its C, C++, Pascal or command-line form, and prints the same.
+"""Every numbered example has a Python form that gives the same history as its C, C++, Pascal or command-line form,
+and prints the same.
 
     example ──MOTIONRACK_HISTORY──► lines of "hash ticks", one a rack ◄──MOTIONRACK_HISTORY── run.py
 """
@@ -21,7 +22,8 @@ PROGRAM = BUILD / "bin" / "motionrack"
 
 @dataclass(frozen=True)
 class Form:
-    """An example's own form: commands with their environment, and what it prints (a file of its folder; None: not compared)."""
+    """An example's own form: commands with their environment, and what it prints (a file of its folder;
+    None: not compared)."""
 
     commands: list[list[str]]
     expected: str | None = "expected.txt"
@@ -47,14 +49,26 @@ FORMS = {
     "06_library": [built("06_library", "example_library", expected=None)],
     "07_c": [built("07_c", "example_c")],
     "08_homing": [cli("08_homing")],
-    "09_mcx314lib": [built("09_mcx314lib", "example_mcx314lib", environment=(("MOTIONRACK_RACK", "../racks/single.toml"),))],
+    "09_mcx314lib": [
+        built("09_mcx314lib", "example_mcx314lib", environment=(("MOTIONRACK_RACK", "../racks/single.toml"),))
+    ],
     "10_databoard_c": [built("10_databoard_c", "example_databoard_c")],
-    "11_carriage": [cli("11_carriage"), built("11_carriage", "example_carriage", expected="expected_cpp.txt", python="driver.py")],
+    "11_carriage": [
+        cli("11_carriage"),
+        built("11_carriage", "example_carriage", expected="expected_cpp.txt", python="driver.py"),
+    ],
     "12_pascal": [built("12_pascal", "calibrate/calibrate", environment=(("LD_LIBRARY_PATH", str(BUILD / "lib")),))],
     "13_stage": [built("13_stage", "example_stage")],
     "14_line": [built("14_line", "example_line", "line.toml")],
-    "15_panel": [Form([[str(PROGRAM), "home", "--rack", "demonstration.toml"],
-                       [str(PROGRAM), "run", "../02_part/part.ngc", "--rack", "demonstration.toml", "--no-report"]], expected=None)],
+    "15_panel": [
+        Form(
+            [
+                [str(PROGRAM), "home", "--rack", "demonstration.toml"],
+                [str(PROGRAM), "run", "../02_part/part.ngc", "--rack", "demonstration.toml", "--no-report"],
+            ],
+            expected=None,
+        )
+    ],
     "16_probe": [cli("16_probe")],
 }
 
@@ -65,8 +79,15 @@ def history(folder: str, commands: list[list[str]], environment: dict[str, str])
         told = Path(scratch) / "history"
         printed = ""
         for command in commands:
-            ran = subprocess.run(command, cwd=EXAMPLES / folder, env=os.environ | environment | {"MOTIONRACK_HISTORY": str(told)},
-                                 capture_output=True, text=True, timeout=300, check=False)
+            ran = subprocess.run(
+                command,
+                cwd=EXAMPLES / folder,
+                env=os.environ | environment | {"MOTIONRACK_HISTORY": str(told)},
+                capture_output=True,
+                text=True,
+                timeout=300,
+                check=False,
+            )
             printed += ran.stdout
             if ran.returncode not in (0, 4):
                 raise AssertionError(f"{command} ended with {ran.returncode}: {ran.stderr}")

@@ -7,11 +7,13 @@ import os
 import signal
 import threading
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
 import motionrack
 from motionrack import Machine, Refused, Timeout
 
+Acts = tuple[Callable[[], object], ...]
 TEXT = "G21 G90\nG1 X40 F2400\nG1 X0\nM2\n"
 HOMING = Path(__file__).resolve().parents[2] / "examples" / "08_homing" / "machine.toml"
 
@@ -22,7 +24,9 @@ def ready() -> Machine:
     for letter, axis in machine.wait("standstill", timeout=1).axes.items():
         if not axis.trusted:
             machine.declare_position(letter, axis.commanded)
-    machine.wait(lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=1)
+    machine.wait(
+        lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=1
+    )
     return machine
 
 
@@ -62,7 +66,14 @@ class Operating(unittest.TestCase):
 
     def test_orders_that_do_not_fit_are_refused(self) -> None:
         machine = Machine.template("router")
-        for act in (lambda: machine.begin(TEXT), lambda: machine.resume(), lambda: machine.jog("X", 5), lambda: machine.set_overrides(9), lambda: machine.jog_by("XY", 1, 1)):
+        acts: Acts = (
+            lambda: machine.begin(TEXT),
+            lambda: machine.resume(),
+            lambda: machine.jog("X", 5),
+            lambda: machine.set_overrides(9),
+            lambda: machine.jog_by("XY", 1, 1),
+        )
+        for act in acts:
             with self.assertRaises(Refused):
                 act()
         machine = ready()
@@ -89,7 +100,10 @@ class Operating(unittest.TestCase):
             self.assertFalse(all(axis.trusted for axis in machine.status.axes.values()))
             machine.enable()
             machine.home()
-            machine.wait(lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=60)
+            machine.wait(
+                lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()),
+                timeout=60,
+            )
 
     def test_a_machine_may_end_in_the_midst_of_a_drive(self) -> None:
         machine = ready()

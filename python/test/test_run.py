@@ -29,11 +29,20 @@ class Outcomes(unittest.TestCase):
         outcome = Rack.template().run(TEXT)
         told = json.loads(referee("run", "-", "--no-report", "--json").stdout)
         self.assertEqual(json.loads(outcome.json()), told)
-        self.assertEqual((outcome.ok, outcome.seconds, outcome.planned_seconds, outcome.path_mm), (told["ok"], told["seconds"], told["planned_seconds"], told["path_mm"]))
-        self.assertEqual((outcome.trace_hash, outcome.events, outcome.chip_segments), (told["trace_hash"], told["events"], told["chip_segments"]))
+        self.assertEqual(
+            (outcome.ok, outcome.seconds, outcome.planned_seconds, outcome.path_mm),
+            (told["ok"], told["seconds"], told["planned_seconds"], told["path_mm"]),
+        )
+        self.assertEqual(
+            (outcome.trace_hash, outcome.events, outcome.chip_segments),
+            (told["trace_hash"], told["events"], told["chip_segments"]),
+        )
         for axis in told["axes"]:
             mine = outcome.axes[axis["axis"]]
-            self.assertEqual((mine.pulses_sent, mine.counts_read, mine.lost_pulses, mine.real_end, mine.top_speed), (axis["pulses_sent"], axis["counts_read"], axis["lost_pulses"], axis["end"], axis["top_speed"]))
+            self.assertEqual(
+                (mine.pulses_sent, mine.counts_read, mine.lost_pulses, mine.real_end, mine.top_speed),
+                (axis["pulses_sent"], axis["counts_read"], axis["lost_pulses"], axis["end"], axis["top_speed"]),
+            )
         self.assertEqual(outcome.summary(), referee("run", "-", "--no-report").stdout)
         self.assertIs(outcome.check(), outcome)
 
@@ -46,7 +55,11 @@ class Outcomes(unittest.TestCase):
             with open(f"{folder}/a.csv", newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), len(outcome.trace.ticks))
-        for column, signal in (("x_position_mm", "x.position"), ("y_speed_mm_s", "y.speed"), ("deviation_mm", "deviation")):
+        for column, signal in (
+            ("x_position_mm", "x.position"),
+            ("y_speed_mm_s", "y.speed"),
+            ("deviation_mm", "deviation"),
+        ):
             np.testing.assert_allclose([float(row[column]) for row in rows], outcome.trace[signal], atol=1e-4)
 
     def test_a_trace_is_made_of_arrays_with_units(self) -> None:
@@ -56,14 +69,18 @@ class Outcomes(unittest.TestCase):
         np.testing.assert_allclose(trace.time, trace.ticks * 1e-10)
         for name in trace:
             self.assertEqual((len(trace[name]), trace[name].dtype), (len(trace.ticks), np.dtype(np.float64)))
-        self.assertEqual((trace.units["X.position"], trace.units["A.speed"], trace.units["deviation"]), ("mm", "deg/s", "mm"))
+        self.assertEqual(
+            (trace.units["X.position"], trace.units["A.speed"], trace.units["deviation"]), ("mm", "deg/s", "mm")
+        )
         self.assertIs(trace["X.POSITION"], trace["X.position"])
         self.assertIn("x.speed", trace)
         with self.assertRaises(BadInput):
             trace["q.position"]
         # The speed is that of the pulses; over a slow move it is the slope of the position.
         slow = (trace.time > 0.4) & (trace.time < 0.9)
-        np.testing.assert_allclose(np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.speed"][slow].mean(), rtol=0.01)
+        np.testing.assert_allclose(
+            np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.speed"][slow].mean(), rtol=0.01
+        )
 
     def test_a_longer_sample_period_gives_fewer_samples_and_the_same_history(self) -> None:
         fine, coarse = (Rack.template().run(TEXT, sample_period=period) for period in (1e-3, 1e-2))
@@ -77,7 +94,11 @@ class Outcomes(unittest.TestCase):
         limited = Rack.template().run(TEXT, profile="jerk_limited")
         self.assertTrue(limited.ok)
         self.assertNotEqual(limited.trace_hash, Rack.template().run(TEXT).trace_hash)
-        text = motionrack.template_text().replace('profile = "trapezoid"', 'profile = "jerk_limited"').replace('# profile = "jerk_limited"', 'profile = "jerk_limited"')
+        text = (
+            motionrack.template_text()
+            .replace('profile = "trapezoid"', 'profile = "jerk_limited"')
+            .replace('# profile = "jerk_limited"', 'profile = "jerk_limited"')
+        )
         self.assertIn('\nprofile = "jerk_limited"', text)
         self.assertEqual(Rack.from_text(text).run(TEXT).trace_hash, limited.trace_hash)
         with self.assertRaises(Refused):
@@ -85,7 +106,9 @@ class Outcomes(unittest.TestCase):
 
     def test_blocks_and_events_are_told(self) -> None:
         outcome = Rack.template().run("G21 G90\nM3 S1000\nG1 X10 F600\nG4 P0.1\nG0 X0\nM2\n")
-        self.assertEqual([(block.kind, block.line) for block in outcome.blocks], [("feed", 3), ("dwell", 4), ("traverse", 5)])
+        self.assertEqual(
+            [(block.kind, block.line) for block in outcome.blocks], [("feed", 3), ("dwell", 4), ("traverse", 5)]
+        )
         self.assertIn("spindle", outcome.program_events[0].text)
         self.assertEqual((outcome.moves, outcome.dwells, outcome.program_ended), (2, 1, True))
         self.assertIn("<svg", outcome.svg())
@@ -104,7 +127,10 @@ class Mistakes(unittest.TestCase):
         with self.assertRaises(motionrack.Error) as caught:
             rack.run("G21 G90\nG1 X5 F100\nG1 X600\nG1 Q\n", name="bad.ngc")
         problems = caught.exception.problems
-        self.assertEqual([(problem.file, problem.line, problem.column) for problem in problems], [("bad.ngc", 3, 4), ("bad.ngc", 4, 4)])
+        self.assertEqual(
+            [(problem.file, problem.line, problem.column) for problem in problems],
+            [("bad.ngc", 3, 4), ("bad.ngc", 4, 4)],
+        )
         told = referee("check", "-", text="G21 G90\nG1 X5 F100\nG1 X600\nG1 Q\n").stderr
         for problem in problems:
             self.assertIn(problem.message, told)
@@ -126,23 +152,30 @@ class Mistakes(unittest.TestCase):
             Rack.from_text('card.c1 = "ioflex02"').run(TEXT)
 
     def test_text_or_path_one_of_the_two(self) -> None:
-        for words in ({}, {"program": "M2", "path": "x.ngc"}):
+        for program, path in ((None, None), ("M2", "x.ngc")):
             with self.assertRaises(BadInput):
-                Rack.template().run(**words)
+                Rack.template().run(program, path=path)
         with self.assertRaises(motionrack.FileTrouble):
             Rack.template().run(path="/no/such.ngc")
 
     def test_what_the_machine_does_wrong_is_the_outcomes_error(self) -> None:
-        outcome = Rack.template().run("G21 G90\nG1 X100 F3000\nM2\n", faults=["X.limit_plus=0@500ms", "X.limit_minus=0@100s"])
+        outcome = Rack.template().run(
+            "G21 G90\nG1 X100 F3000\nM2\n", faults=["X.limit_plus=0@500ms", "X.limit_minus=0@100s"]
+        )
         self.assertFalse(outcome.ok)
-        self.assertIsInstance(outcome.error, MachineFault)
+        assert isinstance(outcome.error, MachineFault)
         self.assertEqual(outcome.error.line, 2)
         self.assertEqual(len(outcome.faults_not_done), 1)
         rack = Rack.template()
-        for text, faults in (("G1 X600 F100\n", ["X.limit_plus=0@500ms"]), (TEXT, ["X.limit_plus=0@500ms", "X.nothing@1s"])):
+        for text, faults in (
+            ("G1 X600 F100\n", ["X.limit_plus=0@500ms"]),
+            (TEXT, ["X.limit_plus=0@500ms", "X.nothing@1s"]),
+        ):
             with self.assertRaises(motionrack.Error):
                 rack.run(text, faults=faults)
-        self.assertEqual(rack.run(TEXT).trace_hash, Rack.template().run(TEXT).trace_hash, "what was refused planned nothing")
+        self.assertEqual(
+            rack.run(TEXT).trace_hash, Rack.template().run(TEXT).trace_hash, "what was refused planned nothing"
+        )
         with self.assertRaises(MachineFault):
             outcome.check()
 

@@ -54,7 +54,8 @@ class Recordings(unittest.TestCase):
     def test_what_counts_is_whole(self) -> None:
         rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
         stage = next(name for name, of in rack.parts.items() if "unused_frames" in of.quantities)
-        counted, measured = ("scale_counts", "lost_counts", "trusted", "closed", "unused_frames"), ("position_mm", "drive_v")
+        counted = ("scale_counts", "lost_counts", "trusted", "closed", "unused_frames")
+        measured = ("position_mm", "drive_v")
         card = next(name for name, card in rack.cards.items() if card.type == "grating_bus")
         with rack.record(*(f"{stage}.{name}" for name in counted + measured), f"{card}.age_us") as recording:
             rack.advance(ms=5)
@@ -72,7 +73,9 @@ class Recordings(unittest.TestCase):
         self.assertEqual(outcome.trace_hash, Rack.template().run(text).trace_hash)
         self.assertEqual(recording.trace.hash(), outcome.trace_hash)
         at = np.searchsorted(recording.trace.ticks, outcome.trace.ticks[100])
-        self.assertAlmostEqual(float(recording.trace["X.position_mm"][at]), float(outcome.trace["X.position"][100]), delta=0.02)
+        self.assertAlmostEqual(
+            float(recording.trace["X.position_mm"][at]), float(outcome.trace["X.position"][100]), delta=0.02
+        )
 
     def test_too_many_instants_are_thinned_and_stay_even(self) -> None:
         rack = moving()
@@ -148,7 +151,7 @@ else:
 
     def test_with_matplotlib_a_plot_is_a_figure(self) -> None:
         try:
-            from matplotlib.figure import Figure
+            from matplotlib.figure import Figure  # type: ignore[import]
         except ImportError:
             self.skipTest("matplotlib is not there")
         with tempfile.TemporaryDirectory() as folder:

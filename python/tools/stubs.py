@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Writes motionrack/_core.pyi from the module itself, whose signatures pybind11 knows: PYTHONPATH=BUILD/python python3 python/tools/stubs.py."""
+"""Writes motionrack/_core.pyi from the module itself, whose signatures pybind11 knows:
+PYTHONPATH=BUILD/python python3 python/tools/stubs.py."""
 
 from __future__ import annotations
 
@@ -22,9 +23,14 @@ PYBIND = (
     (r"motionrack\._core\.", ""),
     (r"numpy\.ndarray\[numpy\.(\w+)\]", r"npt.NDArray[np.\1]"),
     (r"(int|float)\[\d+\]", r"\1"),
-    (r"\bList\[", "list["), (r"\bTuple\[", "tuple["), (r"\bDict\[", "dict["),
+    (r"\bList\[", "list["),
+    (r"\bTuple\[", "tuple["),
+    (r"\bDict\[", "dict["),
     (r"Optional\[([\w.]+(?:\[[^\]]*\])?)\]", r"\1 | None"),
-    (r"\bobject\b", "Any"), (r"\bdict\b(?!\[)", "dict[str, Any]"), (r"\blist\b(?!\[)", "list[Any]"), (r"\btuple\b(?!\[)", "tuple[Any, ...]"),
+    (r"\bobject\b", "Any"),
+    (r"\bdict\b(?!\[)", "dict[str, Any]"),
+    (r"\blist\b(?!\[)", "list[Any]"),
+    (r"\btuple\b(?!\[)", "tuple[Any, ...]"),
 )
 
 

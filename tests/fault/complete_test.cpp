@@ -89,7 +89,7 @@ TEST(FaultCatalogue, HasEveryFaultOfEveryPartAndCard) {
 std::string tests_labelled(const std::string& label) {
     std::string out;
     std::FILE* pipe =
-        ::popen(("ctest --test-dir '" MOTIONRACK_BUILD_DIR "' -N -L '^" + label + "$' 2>&1").c_str(), "r");
+        ::popen(("'" MOTIONRACK_SOURCE_DIR "/tests/programs' '" MOTIONRACK_BUILD_DIR "' list " + label + " 2>&1").c_str(), "r");
     if (pipe == nullptr) return out;
     std::array<char, 4096> buffer{};
     for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
@@ -99,16 +99,14 @@ std::string tests_labelled(const std::string& label) {
 }
 
 TEST(FaultCatalogue, HasNoRowThatNoTestRuns) {
-    const std::string tests = tests_labelled("fault");
+    const std::string tests = "\n" + tests_labelled("fault");
     std::set<std::string> names;
     for (const Case& one : all_cases()) {
         EXPECT_TRUE(names.insert(one.name()).second) << one.name() << " is there twice";
         const bool elsewhere = one.fault.setup.by == "test";
         EXPECT_EQ(elsewhere, !one.point.test.empty()) << one.name() << " names a test, or is run here";
         const std::string test = elsewhere ? one.point.test : "Catalogue/AFault.DoesWhatTheCatalogueSays/" + one.name();
-        const std::size_t at = tests.find(": " + test),
-                          end = at + 2 + test.size();  // behind it there may be "  # GetParam() = .."
-        EXPECT_TRUE(at != std::string::npos && (tests[end] == '\n' || tests[end] == ' '))
+        EXPECT_NE(tests.find("\n" + test + "\n"), std::string::npos)
             << "ctest -L fault runs no " << test << ", which is to run " << one.name();
     }
 }

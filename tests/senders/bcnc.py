@@ -1,4 +1,5 @@
-"""bCNC, on a virtual screen, streams a program over TCP or over the pseudo-terminal; the path is that of `motionrack run`.
+"""bCNC, on a virtual screen, streams a program over TCP or over the pseudo-terminal;
+the path is that of `motionrack run`.
 
 python3 bcnc.py MOTIONRACK tcp|pty
 """
@@ -30,9 +31,16 @@ def main(motionrack, way):
 
 
 def stream(served, way, environment):
-    """False: bCNC was up, but did not run. It asks only once whether the controller is there, and on a busy computer that can be too early."""
+    """False: bCNC was up, but did not run. It asks only once whether the controller is there,
+    and on a busy computer that can be too early."""
     log = open(os.path.join(served.folder, "bcnc.log"), "w+")
-    sender = subprocess.Popen(["xvfb-run", "-a", "bCNC", "--run", served.part], env=environment, stdout=log, stderr=log, start_new_session=True)
+    sender = subprocess.Popen(
+        ["xvfb-run", "-a", "bCNC", "--run", served.part],
+        env=environment,
+        stdout=log,
+        stderr=log,
+        start_new_session=True,
+    )
     try:
         if way == "tcp" and not sender_comes(served.port):
             print("bCNC did not connect within 60 s")
@@ -41,11 +49,18 @@ def stream(served, way, environment):
         if not onlooker.look(40, lambda o: "Run" in o.states()):
             return False
         # When the job is done bCNC holds, resets and asks for the offsets; over the terminal only the machine is seen.
-        done = (lambda o: o.stands_at(END) and any(line.startswith("[G54:") for line in o.lines)) if way == "tcp" else (lambda o: o.stands_at(END))
+        done = (
+            (lambda o: o.stands_at(END) and any(line.startswith("[G54:") for line in o.lines))
+            if way == "tcp"
+            else (lambda o: o.stands_at(END))
+        )
         if not onlooker.look(90, done):
             log.seek(0)
             print(log.read()[-2000:])
-            fail(f"the program did not come to its end: states {onlooker.states()}, last {onlooker.seen[-1:]}, lines {onlooker.lines[-5:]}")
+            fail(
+                f"the program did not come to its end: states {onlooker.states()}, last {onlooker.seen[-1:]}, lines "
+                f"{onlooker.lines[-5:]}"
+            )
         if any(line.startswith(("error", "ALARM")) for line in onlooker.lines):
             fail(f"answers: {onlooker.lines}")
         compare(onlooker.places(), served.driven_by_run())

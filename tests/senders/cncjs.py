@@ -1,4 +1,5 @@
-"""cncjs opens the pseudo-terminal and does what its users do with it; the path of the program is that of `motionrack run`.
+"""cncjs opens the pseudo-terminal and does what its users do with it;
+the path of the program is that of `motionrack run`.
 
 python3 cncjs.py MOTIONRACK FOLDER        FOLDER: where npm puts cncjs, once
 """
@@ -28,8 +29,13 @@ def install(folder):
     with open(os.path.join(folder, "package.json"), "w") as file:
         file.write('{"private": true}\n')
     try:
-        done = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--loglevel=error", "--omit=dev", f"cncjs@{VERSION}"], cwd=folder, timeout=270,
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            ["npm", "install", "--no-audit", "--no-fund", "--loglevel=error", "--omit=dev", f"cncjs@{VERSION}"],
+            cwd=folder,
+            timeout=270,
+            capture_output=True,
+            text=True,
+        )
     except subprocess.TimeoutExpired:
         skip(f"npm did not install cncjs {VERSION} within 270 s")
     if done.returncode != 0:
@@ -56,7 +62,8 @@ def wait_for_port(port, seconds):
 
 
 def program_of(onlooker):
-    """The places between homing and the jog, from the program's first corner on: it begins where homing has left the axes."""
+    """The places between homing and the jog, from the program's first corner on:
+    it begins where homing has left the axes."""
     states = [state for state, _ in onlooker.seen]
     places = onlooker.places(states.index("Run"))[: states.index("Jog") - states.index("Run")]
     first = next(i for i, place in enumerate(places) if near_first(place))
@@ -69,17 +76,39 @@ def main(motionrack, folder):
         port = free_port()
         config = os.path.join(served.folder, "cncrc")
         with open(config, "w") as file:
-            json.dump({"ports": [{"path": served.link, "manufacturer": ""}], "watchDirectory": "", "state": {"checkForUpdates": False}}, file)
+            json.dump(
+                {
+                    "ports": [{"path": served.link, "manufacturer": ""}],
+                    "watchDirectory": "",
+                    "state": {"checkForUpdates": False},
+                },
+                file,
+            )
         log = open(os.path.join(served.folder, "cncjs.log"), "w+")
-        server = subprocess.Popen(["node", os.path.join(modules, "cncjs/bin/cncjs"), "-c", config, "-p", str(port), "-H", "127.0.0.1"], stdout=log, stderr=log,
-                                  env=dict(os.environ, HOME=served.folder), start_new_session=True)
+        server = subprocess.Popen(
+            ["node", os.path.join(modules, "cncjs/bin/cncjs"), "-c", config, "-p", str(port), "-H", "127.0.0.1"],
+            stdout=log,
+            stderr=log,
+            env=dict(os.environ, HOME=served.folder),
+            start_new_session=True,
+        )
         try:
             wait_for_port(port, 60)
             onlooker = Onlooker(served.port, must_be_second=False)
             ended = threading.Event()
             looking = threading.Thread(target=lambda: onlooker.look(240, lambda _: ended.is_set()))
             looking.start()
-            client = subprocess.run(["node", os.path.join(os.path.dirname(__file__), "cncjs_client.cjs"), modules, str(port), served.link, served.part], timeout=240)
+            client = subprocess.run(
+                [
+                    "node",
+                    os.path.join(os.path.dirname(__file__), "cncjs_client.cjs"),
+                    modules,
+                    str(port),
+                    served.link,
+                    served.part,
+                ],
+                timeout=240,
+            )
             ended.set()
             looking.join()
             if client.returncode != 0:

@@ -58,10 +58,25 @@ class Served:
             with open(path, "w") as file:
                 file.write(text)
         self.process = subprocess.Popen(
-            [program, "serve", self.rack, "--port", "0", "--grbl-port", "0", "--grbl-pty", self.link, "--no-pairing",
-             "--users", os.path.join(self.folder, "users.json")], stdout=subprocess.PIPE, text=True)
+            [
+                program,
+                "serve",
+                self.rack,
+                "--port",
+                "0",
+                "--grbl-port",
+                "0",
+                "--grbl-pty",
+                self.link,
+                "--no-pairing",
+                "--users",
+                os.path.join(self.folder, "users.json"),
+            ],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
         self.port = None
-        for line in self.process.stdout:
+        for line in self.process.stdout or ():
             found = re.search(r"senders +127\.0\.0\.1:(\d+)", line)
             if found:
                 self.port = int(found[1])
@@ -81,14 +96,19 @@ class Served:
     def driven_by_run(self, from_first_corner=False):
         """Where `motionrack run` really was, every millisecond; or the part of it from its first corner on."""
         table = os.path.join(self.folder, "run.csv")
-        subprocess.run([self.motionrack, "run", self.part, "--rack", self.rack, "--csv", table, "--no-report", "-q"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [self.motionrack, "run", self.part, "--rack", self.rack, "--csv", table, "--no-report", "-q"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
         with open(table) as file:
             path = [tuple(float(row[f"{axis}_position_mm"]) for axis in "xyz") for row in csv.DictReader(file)]
-        return path[next(i for i, place in enumerate(path) if near_first(place)):] if from_first_corner else path
+        return path[next(i for i, place in enumerate(path) if near_first(place)) :] if from_first_corner else path
 
 
 def sender_comes(port, patience=60):
-    """Waits until somebody is connected to the port. Trying to connect would take the sender's place, so the kernel is asked."""
+    """Waits until somebody is connected to the port. Trying to connect would take the sender's place,
+    so the kernel is asked."""
     until = time.time() + patience
     while time.time() < until:
         with open("/proc/net/tcp") as file:
@@ -107,7 +127,7 @@ class Onlooker:
         self.socket.settimeout(5)
         first = self.socket.recv(4096)
         if must_be_second and b"Another sender" not in first:
-            fail(f"a sender was connected, and yet a second one was taken as the first: {first}")
+            fail(f"a sender was connected, and yet a second one was taken as the first: {first!r}")
         self.socket.settimeout(0.02)
         self.rest = ""
         self.seen, self.lines = [], []  # (state, place), whenever one of them was another
@@ -145,7 +165,11 @@ class Onlooker:
         return [state for i, (state, _) in enumerate(self.seen) if i == 0 or self.seen[i - 1][0] != state]
 
     def stands_at(self, place):
-        return bool(self.seen) and self.seen[-1][0] == "Idle" and all(abs(a - b) < 0.002 for a, b in zip(self.seen[-1][1], place))
+        return (
+            bool(self.seen)
+            and self.seen[-1][0] == "Idle"
+            and all(abs(a - b) < 0.002 for a, b in zip(self.seen[-1][1], place))
+        )
 
 
 def distance_to_path(place, path):

@@ -9,7 +9,7 @@
 namespace motionrack {
 namespace {
 
-double ulps(double got, long double wanted) {
+double ulps_of_exponential(double got, long double wanted) {
     const double near = static_cast<double>(wanted);
     const double ulp = std::nextafter(std::fabs(near), std::numeric_limits<double>::infinity()) - std::fabs(near);
     return static_cast<double>(std::fabs(static_cast<long double>(got) - wanted) / static_cast<long double>(ulp));
@@ -21,7 +21,7 @@ TEST(Exponential, IsWithinOneUlp) {
     double worst = 0;
     for (int i = 0; i < 400'000; ++i) {
         const double x = i % 2 ? wide(random) : narrow(random);
-        worst = std::max(worst, ulps(exponential(x), std::exp(static_cast<long double>(x))));
+        worst = std::max(worst, ulps_of_exponential(exponential(x), std::exp(static_cast<long double>(x))));
     }
     EXPECT_LT(worst, 1.0);
     RecordProperty("worst_ulp_1000", static_cast<int>(worst * 1000));
@@ -38,7 +38,7 @@ TEST(NaturalLog, IsWithinItsErrors) {
     for (int i = 0; i < 200'000; ++i) {
         const double x = std::exp(wide(random)), y = narrow(random);
         if (x < 0.7 || x > 1.4) {
-            ASSERT_LT(ulps(natural_log(x), std::log(static_cast<long double>(x))), 1.5) << x;
+            ASSERT_LT(ulps_of_exponential(natural_log(x), std::log(static_cast<long double>(x))), 1.5) << x;
         }
         ASSERT_LT(std::fabs(natural_log(y) - std::log(static_cast<long double>(y))), 2e-16L) << y;
     }

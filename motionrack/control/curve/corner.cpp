@@ -7,15 +7,15 @@ namespace motionrack::control {
 
 namespace {
 
-constexpr double no_limit = 1e300;
+constexpr double no_corner_limit = 1e300;
 /// Speeds are found to about a part of 2 to this power: times are compared, not driven.
-constexpr int halvings = 12;
+constexpr int corner_halvings = 12;
 
 /// The greatest speed in least .. most for which way(speed), which grows, is no longer than `length`.
 template <class Way>
 double fastest(double least, double most, double length, Way way) {
     if (way(most) <= length) return most;
-    for (int i = 0; i < halvings; ++i) {
+    for (int i = 0; i < corner_halvings; ++i) {
         const double middle = 0.5 * (least + most);
         (way(middle) < length ? least : most) = middle;
     }
@@ -47,15 +47,15 @@ double ramp_seconds(double more, const Leg& leg) {
 }
 
 double speed_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_limit, [&](std::size_t i) { return limits[i].max_speed; });
+    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_speed; });
 }
 
 double accel_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_limit, [&](std::size_t i) { return limits[i].max_accel; });
+    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_accel; });
 }
 
 double jerk_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_limit, [&](std::size_t i) { return jerk_of(limits[i]); });
+    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return jerk_of(limits[i]); });
 }
 
 // The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its
@@ -84,7 +84,8 @@ double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, cons
     double seconds = turn_seconds(low) - gain;
     if (way(low.speed, high.speed) > rest) {
         high.speed = fastest(low.speed, high.speed, rest, [&](double to) { return way(low.speed, to); });
-        return high.speed > 0 ? seconds + turn_seconds(high) + ramp_seconds(high.speed - low.speed, leg) : no_limit;
+        return high.speed > 0 ? seconds + turn_seconds(high) + ramp_seconds(high.speed - low.speed, leg)
+                              : no_corner_limit;
     }
     seconds += turn_seconds(high);
     const auto ways = [&](double top) { return way(low.speed, top) + way(high.speed, top); };

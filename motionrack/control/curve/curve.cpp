@@ -11,7 +11,7 @@ namespace motionrack::control {
 namespace {
 
 /// Pieces that are shorter than this part of u are none: roundings of the same knot.
-constexpr double rounding = 4e-16;
+constexpr double curve_rounding = 4e-16;
 
 Point cubic(const Point& a, const Point& b, const Point& c, const Point& d, double x) {
     Point out;
@@ -261,7 +261,7 @@ bool CurveBuilder::next_piece(CurvePiece& piece) {
     const bool all = turns_.is_complete();
     // Turns that are not settled begin after this.
     const double known = all ? turns_.end() : turns_[std::max<std::int64_t>(0, settled - TurnRow::reach)].u;
-    const double least = rounding * (1 + cursor_);
+    const double least = curve_rounding * (1 + cursor_);
     while (first_event_ < past_event_ && events_[first_event_] <= cursor_ + least) ++first_event_;
     double end = known;
     if (first_event_ < past_event_ && events_[first_event_] < known - (all ? least : 0))

@@ -29,7 +29,7 @@ constexpr double least_width = 1e-6;
 /// Arcs that turn by less (rad) are shallow.
 constexpr double shallow = 0.1;
 
-double dot(const Point& a, const Point& b, int first) {
+double dot_from(const Point& a, const Point& b, int first) {
     return a[first] * b[first] + a[first + 1] * b[first + 1] + a[first + 2] * b[first + 2];
 }
 
@@ -98,7 +98,7 @@ void SpanMaker::make_line(Span& span) const {
     Point change;
     for (int i = 0; i < axis_count; ++i) change[i] = span.end[i] - span.start[i];
     span.length = span.rotary ? std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])})
-                              : std::sqrt(dot(change, change, 0));
+                              : std::sqrt(dot_from(change, change, 0));
     for (int i = 0; i < axis_count; ++i) span.tangent_in[i] = span.tangent_out[i] = change[i] / span.length;
 }
 
@@ -141,7 +141,8 @@ bool SpanMaker::rests_between(const Geometry& path, const Span& span) const {
     if (is_same_direction(in, out)) return false;
     if (last_move_.path == PathControl::exact_path) return true;
     const int first = span.rotary ? 3 : 0;
-    if (dot(in, out, first) < sharpest_turn * std::sqrt(dot(in, in, first) * dot(out, out, first))) return true;
+    if (dot_from(in, out, first) < sharpest_turn * std::sqrt(dot_from(in, in, first) * dot_from(out, out, first)))
+        return true;
     return !has_width(span, in, out);
 }
 
@@ -278,18 +279,18 @@ bool SpanMaker::lies_along(const Point& end, const Span& next) const {
     const double near = next.rotary ? room.rotary : room.linear;
     Point change;
     for (int i = 0; i < axis_count; ++i) change[i] = end[i] - last_.start[i];
-    const double square = dot(change, change, first);
+    const double square = dot_from(change, change, first);
     if (!(square > near * near)) return false;
     double done = 0;
     for (std::size_t k = 0; k <= inner_count_; ++k) {
         const Point& at = k < inner_count_ ? inner_[k] : last_.end;
         Point way;
         for (int i = 0; i < axis_count; ++i) way[i] = at[i] - last_.start[i];
-        const double part = dot(way, change, first) / square;
+        const double part = dot_from(way, change, first) / square;
         if (!(part > done && part < 1)) return false;
         done = part;
         for (int i = 0; i < axis_count; ++i) way[i] -= part * change[i];
-        if (dot(way, way, first) > near * near) return false;
+        if (dot_from(way, way, first) > near * near) return false;
         for (int i = 3; i < axis_count; ++i)
             if (std::fabs(way[i]) > room.rotary) return false;
     }

@@ -7,7 +7,7 @@ namespace motionrack::control {
 
 namespace {
 
-constexpr double rounding = 1e-9;
+constexpr double stop_rounding = 1e-9;
 /// What both of an axis may take.
 constexpr double most_share = 0.5;
 /// What is eased is a little longer than what overlaps.
@@ -32,7 +32,7 @@ double rise_of(const Leg& leg) {
 }
 
 /// s until such a leg has gone so far, but no longer than its acceleration lasts.
-double seconds_over(double way, const Leg& leg) {
+double leg_seconds_over(double way, const Leg& leg) {
     const double rise = rise_of(leg), left = way - leg.jerk * rise * rise * rise / 6;
     if (left <= 0) return cube_root(6 * way / leg.jerk);
     const double accel = leg.jerk * rise, speed = 0.5 * accel * rise;
@@ -72,8 +72,8 @@ double cost_of(const Ease& ease, const Leg& leg) {
 }
 
 double overlap_of(const Leg& before, const Leg& after, double room_mm) {
-    return std::min(
-        {rising_seconds(before), rising_seconds(after), seconds_over(room_mm, before) + seconds_over(room_mm, after)});
+    return std::min({rising_seconds(before), rising_seconds(after),
+                     leg_seconds_over(room_mm, before) + leg_seconds_over(room_mm, after)});
 }
 
 Stop eased_stop(const Leg& before, const Leg& after, double room_mm, bool turns_back) {
@@ -96,7 +96,7 @@ Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Po
         shared = true;
         turns_back = turns_back || in[i] * out[i] < 0;
         too_much =
-            too_much || std::fabs(before.jerk * in[i] + after.jerk * out[i]) > jerk_of(limits[i]) * (1 + rounding);
+            too_much || std::fabs(before.jerk * in[i] + after.jerk * out[i]) > jerk_of(limits[i]) * (1 + stop_rounding);
     }
     if (!too_much) {
         stop.gain = overlap_of(before, after, room_mm);

@@ -9,7 +9,7 @@ namespace motionrack::control {
 namespace {
 
 constexpr int most_steps = 60;
-constexpr double settled_part = 1e-14;
+constexpr double settled_part_of_ease = 1e-14;
 
 /// From rest to a greatest speed, phase by phase; lengths and s.
 struct Rise {
@@ -69,7 +69,7 @@ std::optional<double> greatest_speed(const End& begin, const End& end, double le
     if (over_low > 0) return std::nullopt;
     if (over_high <= 0) return high;
     int side = 0;
-    for (int step = 0; step < most_steps && high - low > settled_part * high; ++step) {
+    for (int step = 0; step < most_steps && high - low > settled_part_of_ease * high; ++step) {
         const double speed = (low * over_high - high * over_low) / (over_high - over_low), here = over(speed);
         if (!(speed > low && speed < high)) break;
         if (here <= 0) {

@@ -15,7 +15,7 @@ constexpr double unlike_part = 0.25;
 /// part of their time.
 constexpr double quickest_cell = 0.1;
 /// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
-constexpr double least_cells = 48, most_cells_of_a_span = 256;
+constexpr double min_feed_cells = 48, most_cells_of_a_span = 256;
 /// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
 constexpr double most_launch = 1.0 / 14;
 constexpr double alike_jerk = 1.5;
@@ -73,7 +73,7 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
 double FeedPlanner::wanted(const FeedSpan& span) const {
     const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk,
                                       quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
-    return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / least_cells);
+    return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / min_feed_cells);
 }
 
 /// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than

@@ -11,7 +11,7 @@ namespace {
 
 /// What is off falls to about its square in a step, so after one of this part of the time nothing is left.
 constexpr double settled_part = 1e-10;
-constexpr double rounding = 4e-16;
+constexpr double feed_rounding = 4e-16;
 /// Beside a rest the square of the speed may be rounded to 0. Its last digit is worth this part of the speed.
 constexpr double as_good_as_rest = 1e-8;
 
@@ -86,7 +86,7 @@ void settle(FeedPiece& cell) {
         double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
         const bool inside = next > least && next < most;
         if (!inside) next = 0.5 * (least + most);
-        const bool settled = std::fabs(next - time) <= (inside ? settled_part : rounding) * time;
+        const bool settled = std::fabs(next - time) <= (inside ? settled_part : feed_rounding) * time;
         time = next;
         if (settled) break;
     }

@@ -31,7 +31,7 @@ bool straight_home(const Block& block) {
            (block.words & axis_words) == 0;
 }
 
-constexpr std::array<const char*, 3> plane_names = {"XY", "XZ", "YZ"};
+constexpr std::array<const char*, 3> canon_plane_names = {"XY", "XZ", "YZ"};
 
 }  // namespace
 
@@ -162,7 +162,7 @@ void CanonPrinter::units(const Modes& now) {
 }
 
 void CanonPrinter::plane(const Modes& now) {
-    call(fmt::format("SELECT_PLANE(CANON_PLANE_{})", plane_names[now.plane]));
+    call(fmt::format("SELECT_PLANE(CANON_PLANE_{})", canon_plane_names[now.plane]));
 }
 
 void CanonPrinter::system(const Interpreter& interpreter) {

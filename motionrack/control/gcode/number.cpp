@@ -9,7 +9,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-const char* skip_blanks(const char* p, const char* end) {
+const char* without_blanks(const char* p, const char* end) {
     while (p < end && is_blank(*p)) ++p;
     return p;
 }
@@ -25,14 +25,14 @@ double round_correctly(const std::string& digits) {
 
 Number scan_number_slow(const char*& at, const char* end) {
     Number number;
-    const char* p = skip_blanks(at, end);
+    const char* p = without_blanks(at, end);
     const bool negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) ++p;
     std::string digits;
     bool point = false;
     int count = 0;
     std::uint64_t mantissa = 0;
-    for (p = skip_blanks(p, end); p < end && (is_digit(*p) || *p == '.'); p = skip_blanks(p + 1, end)) {
+    for (p = without_blanks(p, end); p < end && (is_digit(*p) || *p == '.'); p = without_blanks(p + 1, end)) {
         if (*p == '.') {
             if (point) {
                 number.fault = NumberFault::two_points;

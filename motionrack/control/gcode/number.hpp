@@ -28,6 +28,9 @@ inline bool is_digit(char c) {
 inline bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
+inline char to_lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
+}
 
 /// The same as scan_number for the hard cases: blanks inside, long numbers, faults.
 Number scan_number_slow(const char*& at, const char* end);

@@ -22,7 +22,7 @@ constexpr double largest_radius_mm = 1e6;
 /// Part of the control polygon's length below which a vector has no direction.
 constexpr double no_direction = 1e-12;
 
-Planar between(Planar a, Planar b, double t) {
+Planar interpolated(Planar a, Planar b, double t) {
     return a * (1 - t) + b * t;
 }
 double polygon_length(const std::array<Planar, 4>& p) {
@@ -45,10 +45,10 @@ double arc_through(Planar at, Planar tangent, Planar chord, Planar& centre) {
 
 Planar Cubic::at(double t) const {
     if (t == 1) return points[3];
-    const Planar a = between(points[0], points[1], t);
-    const Planar b = between(points[1], points[2], t);
-    const Planar c = between(points[2], points[3], t);
-    return between(between(a, b, t), between(b, c, t), t);
+    const Planar a = interpolated(points[0], points[1], t);
+    const Planar b = interpolated(points[1], points[2], t);
+    const Planar c = interpolated(points[2], points[3], t);
+    return interpolated(interpolated(a, b, t), interpolated(b, c, t), t);
 }
 
 Planar Cubic::tangent(double t, bool before) const {
@@ -56,9 +56,9 @@ Planar Cubic::tangent(double t, bool before) const {
     const Planar b = points[2] - points[1];
     const Planar c = points[3] - points[2];
     const double least = polygon_length(points) * no_direction;
-    Planar first = between(between(a, b, t), between(b, c, t), t);
+    Planar first = interpolated(interpolated(a, b, t), interpolated(b, c, t), t);
     if (length(first) <= least) {
-        const Planar second = between(b - a, c - b, t);
+        const Planar second = interpolated(b - a, c - b, t);
         first = before ? second * -1 : second;
     }
     if (length(first) <= least) first = (c - b) - (b - a);
@@ -141,7 +141,7 @@ bool SplineMoves::fit(double from, double to, Biarc& biarc) const {
     const double reach = square / (along + std::sqrt(along * along + 2 * (1 - cosine) * square));
     const Planar tip_in = biarc.from + biarc.tangent_in * reach;
     const Planar tip_out = biarc.to - biarc.tangent_out * reach;
-    biarc.joint = between(tip_in, tip_out, 0.5);
+    biarc.joint = interpolated(tip_in, tip_out, 0.5);
     biarc.tangent_joint = tip_out - tip_in;
     biarc.radius[0] = arc_through(biarc.from, biarc.tangent_in, biarc.joint - biarc.from, biarc.centre[0]);
     biarc.radius[1] = arc_through(biarc.to, biarc.tangent_out, biarc.joint - biarc.to, biarc.centre[1]);

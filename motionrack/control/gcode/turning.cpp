@@ -11,7 +11,7 @@ namespace motionrack::control::gcode {
 namespace {
 
 /// Heights and places that differ by less are the same, mm.
-constexpr double same = 1e-7;
+constexpr double same_mm = 1e-7;
 constexpr double lowest_ever = -1e300;
 
 /// Which pockets a roughing cycle cuts.
@@ -28,7 +28,7 @@ class Path {
     void rapid(Planar to) { add(MoveKind::traverse, to, {}, 0); }
     /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
     void over(double highest, Planar to) {
-        if (std::min(at_.second, to.second) < highest - same) {
+        if (std::min(at_.second, to.second) < highest - same_mm) {
             const double clear = std::max(to.second, highest);
             rapid({at_.first, clear});
             rapid({to.first, clear});
@@ -47,14 +47,14 @@ class Path {
     void along(const ContourPiece& piece, Planar to, bool on) {
         if (!piece.arc()) return feed(to);
         if (on && !moves_.empty() && moves_.back().kind == MoveKind::arc &&
-            length(view_.in(moves_.back().centre) - piece.centre) < same)
+            length(view_.in(moves_.back().centre) - piece.centre) < same_mm)
             moves_.pop_back();
         add(MoveKind::arc, to, piece.centre, piece.turns);
     }
 
   private:
     void add(MoveKind kind, Planar to, Planar centre, std::int32_t turns) {
-        if (length(to - at_) < same) return;
+        if (length(to - at_) < same_mm) return;
         at_ = to;
         if (!full()) moves_.push_back({kind, view_.out(to), view_.out(centre), view_.turns(turns)});
     }
@@ -66,7 +66,7 @@ class Path {
 
 /// Where a piece that rises or falls is at a height.
 Planar at_height(const ContourPiece& piece, double height) {
-    if (std::fabs(height - piece.to.second) <= same) return piece.to;
+    if (std::fabs(height - piece.to.second) <= same_mm) return piece.to;
     if (!piece.arc()) {
         const double share = (height - piece.from.second) / (piece.to.second - piece.from.second);
         return {piece.from.first + (piece.to.first - piece.from.first) * share, height};
@@ -108,8 +108,8 @@ class Rougher {
     };
 
     double level(std::int64_t k) const { return top_ - static_cast<double>(k) * plan_.depth; }
-    bool falls(std::size_t i) const { return contour_[i].to.second < contour_[i].from.second - same; }
-    bool rises(std::size_t i) const { return contour_[i].to.second > contour_[i].from.second + same; }
+    bool falls(std::size_t i) const { return contour_[i].to.second < contour_[i].from.second - same_mm; }
+    bool rises(std::size_t i) const { return contour_[i].to.second > contour_[i].from.second + same_mm; }
     void enter();
     void pocket(std::size_t& piece);
     void pass_over(std::size_t& piece);
@@ -146,7 +146,7 @@ void Rougher::enter() {
     const Planar begin = contour_.front().from;
     start_ = path_.before(start_, begin, highest_of(contour_));
     if (part_ != Part::pockets) {
-        for (std::int64_t k = 0; level(k) > begin.second + same && !path_.full(); ++k) {
+        for (std::int64_t k = 0; level(k) > begin.second + same_mm && !path_.full(); ++k) {
             const double share = (start_.second - level(k)) / (start_.second - begin.second);
             const Planar from = {start_.first + (begin.first - start_.first) * share, level(k)};
             path_.rapid(from);
@@ -161,7 +161,7 @@ bool Rougher::cut_level(Planar from, const On& behind, bool outside) {
     On exit{};
     if (!exit_of(from.second, behind.piece, exit)) return false;
     const double way = exit.at.first - from.first;
-    if (way <= same) return true;
+    if (way <= same_mm) return true;
     const double back = std::min(plan_.retract, way / 2);
     path_.feed(exit.at);
     path_.rapid({exit.at.first - back, from.second + back});
@@ -177,7 +177,7 @@ bool Rougher::cut_level(Planar from, const On& behind, bool outside) {
 bool Rougher::exit_of(double height, std::size_t from, On& exit) const {
     for (std::size_t i = from; i < contour_.size(); ++i) {
         const ContourPiece& piece = contour_[i];
-        if (!rises(i) || piece.to.second < height - same || piece.from.second >= height - same) continue;
+        if (!rises(i) || piece.to.second < height - same_mm || piece.from.second >= height - same_mm) continue;
         exit = {i, at_height(piece, std::min(height, piece.to.second))};
         return true;
     }
@@ -192,11 +192,11 @@ void Rougher::pocket(std::size_t& piece) {
         if (falls(i)) bottom = i;
     const Planar lowest = contour_[bottom].to;
     if (part_ == Part::pockets) top_ = std::max(top_, at.at.second);
-    auto k = static_cast<std::int64_t>(std::ceil((top_ - at.at.second - same) / plan_.depth));
-    for (k = std::max<std::int64_t>(k, 0); level(k) > lowest.second + same && !path_.full(); ++k) {
+    auto k = static_cast<std::int64_t>(std::ceil((top_ - at.at.second - same_mm) / plan_.depth));
+    for (k = std::max<std::int64_t>(k, 0); level(k) > lowest.second + same_mm && !path_.full(); ++k) {
         On down = at;
-        while (contour_[down.piece].to.second > level(k) + same) down = {down.piece + 1, contour_[down.piece].to};
-        if (down.at.second > level(k) + same) down.at = at_height(contour_[down.piece], level(k));
+        while (contour_[down.piece].to.second > level(k) + same_mm) down = {down.piece + 1, contour_[down.piece].to};
+        if (down.at.second > level(k) + same_mm) down.at = at_height(contour_[down.piece], level(k));
         follow(at, down, false);
         if (!cut_level(at.at, {at.piece, at.at}, false)) break;
     }
@@ -228,7 +228,7 @@ void Rougher::follow(On& from, On to, bool on) {
 /// The last piece leads up to the height of the start.
 void close(std::vector<ContourPiece>& contour, double height) {
     const ContourPiece& last = contour.back();
-    if (last.to.second >= height - same) return;
+    if (last.to.second >= height - same_mm) return;
     ContourPiece up;
     up.from = last.to;
     up.to = {last.to.first, height};
@@ -240,13 +240,13 @@ bool find_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour
     view = {};
     view.swapped = swapped;
     const double along = view.in(contour.back().to).first - view.in(contour.front().from).first;
-    if (std::fabs(along) < same) return false;
+    if (std::fabs(along) < same_mm) return false;
     view.along = along > 0 ? 1 : -1;
     double highest = lowest_ever;
     for (const ContourPiece& piece : contour)
         highest = std::max({highest, view.in(piece.from).second, view.in(piece.to).second});
     const double start = view.in(plan.start).second, begin = view.in(contour.front().from).second;
-    const bool above = start > begin + same || (start > begin - same && start >= highest - same);
+    const bool above = start > begin + same_mm || (start > begin - same_mm && start >= highest - same_mm);
     view.away = above ? 1 : -1;
     return true;
 }

@@ -14,9 +14,9 @@ namespace motionrack::control {
 
 namespace {
 
-constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
-double square(double x) {
+double squared(double x) {
     return x * x;
 }
 double cube_third(double x) {
@@ -26,7 +26,7 @@ double cube_third(double x) {
 /// What roundings of the speeds and accelerations make of a way: they change the time at the greatest acceleration
 /// `accel`, and so the way by `sensitive` over it; no more than 1e-12 of the way.
 double noise_of(double way, double sensitive, double accel) {
-    return 8 * rounding * (way + std::min(512 * way, sensitive / accel));
+    return 8 * relative_rounding * (way + std::min(512 * way, sensitive / accel));
 }
 
 /// A root of a function that is below 0 at `least` and above at `most`, crossing once: Halley's steps from `guess`, a
@@ -46,7 +46,7 @@ double crossing(double least, double most, double guess, Function at) {
         const bool near = std::fabs(change * f.second) < 1e-4 * f.first;
         if (near && std::fabs(change) <= 1e-6 * std::fabs(x)) return std::max(least, std::min(next, most));
         if (!(next > least && next < most)) {
-            if (f.value == 0 || most - least <= 2 * rounding * std::fabs(x)) return x;
+            if (f.value == 0 || most - least <= 2 * relative_rounding * std::fabs(x)) return x;
             next = 0.5 * (least + most);
         }
         x = next;
@@ -60,9 +60,10 @@ DirectChange direct_change(const Course& c) {
     // A single phase from one acceleration to the other changes the speed by `ramp`.
     const double sum = c.start_accel + c.end_accel;
     const double ramp = 0.5 * sum * std::fabs(c.end_accel - c.start_accel);
-    const double size = std::fabs(c.start_speed) + std::fabs(c.end_speed) + square(c.start_accel) + square(c.end_accel);
+    const double size =
+        std::fabs(c.start_speed) + std::fabs(c.end_speed) + squared(c.start_accel) + squared(c.end_accel);
     const double more = c.change - ramp;
-    const bool mirrored = std::fabs(more) <= 2 * rounding * size ? sum < 0 : more < 0;
+    const bool mirrored = std::fabs(more) <= 2 * relative_rounding * size ? sum < 0 : more < 0;
     const double sign = mirrored ? -1 : 1;
     const double a = sign * c.start_accel, b = sign * c.end_accel;
     const double height = sign * c.change + 0.5 * (a * a + b * b);
@@ -75,8 +76,8 @@ DirectChange direct_change(const Course& c) {
 Swings::Swings(const Course& c, double top)
     : start_accel_(c.start_accel),
       end_accel_(c.end_accel),
-      start_foot_(c.start_speed - 0.5 * square(c.start_accel)),
-      end_foot_(c.end_speed - 0.5 * square(c.end_accel)),
+      start_foot_(c.start_speed - 0.5 * squared(c.start_accel)),
+      end_foot_(c.end_speed - 0.5 * squared(c.end_accel)),
       rise_(c.change + 0.5 * (c.start_accel - c.end_accel) * (c.start_accel + c.end_accel)),
       both_(start_foot_ + end_foot_),
       reach_(c.way - (c.end_speed * c.end_accel - cube_third(c.end_accel)) +
@@ -85,15 +86,15 @@ Swings::Swings(const Course& c, double top)
       least_(-c.end_accel) {
     if (rise_ < 0 && end_accel_ < 0) {
         swapped_ = true;
-        least_ = std::sqrt(std::max(0.0, square(end_accel_) + rise_));
+        least_ = std::sqrt(std::max(0.0, squared(end_accel_) + rise_));
         std::swap(start_foot_, end_foot_);
         rise_ = -rise_;
-        floor_ = square(end_accel_);
+        floor_ = squared(end_accel_);
         return;
     }
     rise_ = std::max(0.0, rise_);
     if (start_accel_ > 0) {
-        floor_ = square(start_accel_);
+        floor_ = squared(start_accel_);
         gap_ = std::sqrt(std::max(0.0, floor_ - rise_));
     }
 }
@@ -120,7 +121,7 @@ double Swings::first_crest() const {
         const double s = -0.25 - 0.5 * std::sqrt(below);
         if (rise_ + s * s > 1) return s;
     }
-    const double under = 4 * square(both_) - 3 * square(rise_);
+    const double under = 4 * squared(both_) - 3 * squared(rise_);
     if (!(both_ < 0 && under > 0)) return 1;
     const double fall = rise_ / std::sqrt(-2 * both_ + std::sqrt(under));
     return 0.5 * (fall - rise_ / fall);
@@ -242,8 +243,8 @@ double Swings::without_hold(double least, double most) const {
         if (reach_ > 0) guess += cube_root(c);
     }
     const double d = crossing(low, high, guess, [&](double x) {
-        const double square = x * x;
-        return Jet{square * (square + b) - c * x - rise_square, x * (4 * square + 2 * b) - c, 12 * square + 2 * b};
+        const double squared = x * x;
+        return Jet{squared * (squared + b) - c * x - rise_square, x * (4 * squared + 2 * b) - c, 12 * squared + 2 * b};
     });
     return d > 0 ? 0.5 * (d - rise_ / d) : 0;
 }

@@ -9,14 +9,14 @@ namespace motionrack::control {
 namespace {
 
 /// Of a limit.
-constexpr double rounding = 1e-7;
+constexpr double overlap_rounding = 1e-7;
 /// Of a piece's time.
 constexpr double hair = 1e-12;
 /// A time on a piece is found to a part of 2 to this power.
-constexpr int halvings = 14;
+constexpr int overlap_halvings = 14;
 /// Where an axis of both gets too much, the overlap is sought this much shorter, so often.
-constexpr double shorter = 0.96;
-constexpr int tries = 12;
+constexpr double shorter_overlap = 0.96;
+constexpr int overlap_tries = 12;
 
 bool is_constant_jerk(const FeedPiece& piece) {
     return piece.phase != FeedPhase::cell;
@@ -37,7 +37,7 @@ struct Times {
 /// On a piece, just before and just after it is at `place`.
 Times times_about(const FeedPiece& piece, double place) {
     Times out{0, piece.seconds};
-    for (int i = 0; i < halvings; ++i) {
+    for (int i = 0; i < overlap_halvings; ++i) {
         const double middle = 0.5 * (out.before + out.after);
         (piece.at(middle).place < place ? out.before : out.after) = middle;
     }
@@ -108,19 +108,19 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
     if (in == 0 || out == 0) return true;
     const auto [in0, in1] = moment.in;
     const auto [out0, out1] = moment.out;
-    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_speed * (1 + rounding))
+    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_speed * (1 + overlap_rounding))
         return false;
     const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel),
                                                      std::fabs(in * in1.accel + out * out1.accel))
                                           : greatest_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
-    if (accel > limits.max_accel * (1 + rounding)) return false;
-    return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= jerk_of(limits) * (1 + rounding);
+    if (accel > limits.max_accel * (1 + overlap_rounding)) return false;
+    return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= jerk_of(limits) * (1 + overlap_rounding);
 }
 
 bool keeps_feed(const Moment& moment, double feed, double cosine) {
     const double in = moment.in[0].speed, out = moment.out[1].speed;
     const double both = cosine > 0 ? in * out : moment.in[1].speed * moment.out[0].speed;
-    return in * in + out * out + 2 * cosine * both <= feed * feed * (1 + 2 * rounding);
+    return in * in + out * out + 2 * cosine * both <= feed * feed * (1 + 2 * overlap_rounding);
 }
 
 bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, const MachineLimits& limits) {
@@ -182,7 +182,7 @@ double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_secon
                   const MachineLimits& limits) {
     if (!(room_mm > 0 && most_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
     double seconds = std::min({most_seconds, in.seconds(), out.seconds(), longest_within(in.feed, out.feed, room_mm)});
-    for (int i = 0; i < tries; ++i, seconds *= shorter)
+    for (int i = 0; i < overlap_tries; ++i, seconds *= shorter_overlap)
         if (is_within(in, out, seconds, limits)) return seconds;
     // Where both go on with constant jerk an axis that turns back gets no more of both than of one.
     const auto landing = in.feed.last(1), launch = out.feed.first(1);

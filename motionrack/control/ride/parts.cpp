@@ -8,7 +8,7 @@ namespace motionrack::control {
 namespace {
 
 /// So much of an axis' acceleration the bend's share may change within a part.
-constexpr double much = 0.1;
+constexpr double much_of_a_part = 0.1;
 /// No part is shorter than this part of the time in which acceleration is reached, nor than these seconds allow.
 constexpr double part_of_rise = 0.5;
 constexpr double least_seconds = 0.0002, most_seconds = 0.004;
@@ -38,8 +38,8 @@ int parts_of(const CurvePiece& piece, const MachineLimits& limits) {
         rise = std::min(rise, axis.jerk_tangent / axis.tangent);
     }
     const double speed = on.most_speed(share_of_a_bend), square = speed * speed;
-    if (bend * square <= much) return 1;
-    const double wanted = std::max(2 * bend * piece.length / tangent, change * square) / much;
+    if (bend * square <= much_of_a_part) return 1;
+    const double wanted = std::max(2 * bend * piece.length / tangent, change * square) / much_of_a_part;
     const double most = piece.length / (speed * std::max(least_seconds, part_of_rise * rise));
     return static_cast<int>(std::clamp(std::ceil(std::min(wanted, most)), 1.0, most_parts));
 }

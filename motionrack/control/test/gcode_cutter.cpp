@@ -15,20 +15,20 @@ namespace {
 using ::testing::HasSubstr;
 using testing::read;
 
-struct Spot {
+struct CutterSpot {
     double x, y;
 };
 
-double distance_to_segment(Spot p, Spot a, Spot b) {
+double distance_to_segment(CutterSpot p, CutterSpot a, CutterSpot b) {
     const double dx = b.x - a.x, dy = b.y - a.y;
     const double along = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
     return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
 /// Places on a move, close together, by the C library's own functions.
-std::vector<Spot> spots(const Move& move, Spot from) {
-    std::vector<Spot> out;
-    const Spot to = {move.end[0], move.end[1]};
+std::vector<CutterSpot> cutter_spots(const Move& move, CutterSpot from) {
+    std::vector<CutterSpot> out;
+    const CutterSpot to = {move.end[0], move.end[1]};
     constexpr int count = 60;
     if (move.kind != MoveKind::arc) {
         for (int i = 0; i <= count; ++i)
@@ -48,16 +48,16 @@ std::vector<Spot> spots(const Move& move, Spot from) {
     return out;
 }
 
-std::string place(Spot p) {
+std::string place(CutterSpot p) {
     char text[64];
     std::snprintf(text, sizeof text, " X%.4f Y%.4f", p.x, p.y);
     return text;
 }
 
 /// Corners of a polygon around the origin, seen counter-clockwise, as they are written.
-std::vector<Spot> star() {
+std::vector<CutterSpot> star() {
     const int corners = *rc::gen::inRange(4, 14);
-    std::vector<Spot> out;
+    std::vector<CutterSpot> out;
     for (int i = 0; i < corners; ++i) {
         const double radius = *rc::gen::inRange(400, 900) / 10.0;
         const double angle = 2 * M_PI * (i + *rc::gen::inRange(0, 400) / 1000.0) / corners;
@@ -67,20 +67,21 @@ std::vector<Spot> star() {
     return out;
 }
 
-const char* const preamble = "G17 G21 G90 F600\nG0 X0 Y0\n";
+const char* const cutter_preamble = "G17 G21 G90 F600\nG0 X0 Y0\n";
 
 }  // namespace
 
 RC_GTEST_PROP(GcodeCutter, EdgeTouchesTheContourEverywhereAndCutsItNowhere, ()) {
-    const std::vector<Spot> corners = star();
+    const std::vector<CutterSpot> corners = star();
     const double radius = *rc::gen::inRange(5, 60) / 10.0;
     const bool inside = *rc::gen::arbitrary<bool>();
     const std::size_t count = corners.size();
     const auto middle = [&](std::size_t i, double part) {
-        const Spot a = corners[i % count], b = corners[(i + 1) % count];
-        return Spot{a.x + (b.x - a.x) * part, a.y + (b.y - a.y) * part};
+        const CutterSpot a = corners[i % count], b = corners[(i + 1) % count];
+        return CutterSpot{a.x + (b.x - a.x) * part, a.y + (b.y - a.y) * part};
     };
-    std::string text = std::string(preamble) + (inside ? "G41.1 D" : "G42.1 D") + std::to_string(2 * radius) + "\n";
+    std::string text =
+        std::string(cutter_preamble) + (inside ? "G41.1 D" : "G42.1 D") + std::to_string(2 * radius) + "\n";
     // Onto the first edge along the edge itself, round, and off it.
     text += "G1" + place(middle(0, 0.4)) + "\n" + "G1" + place(middle(0, 0.5)) + "\n";
     for (std::size_t i = 1; i <= count; ++i) text += "G1" + place(corners[i % count]) + "\n";
@@ -91,13 +92,13 @@ RC_GTEST_PROP(GcodeCutter, EdgeTouchesTheContourEverywhereAndCutsItNowhere, ()) 
         RC_ASSERT(program.problems[0].status == GrblStatus::bad_target);
         RC_DISCARD("the cutter does not fit");
     }
-    Spot at = {0, 0};
+    CutterSpot at = {0, 0};
     int number = 0;
     for (const Move& move : program.moves()) {
-        const auto places = spots(move, at);
+        const auto places = cutter_spots(move, at);
         at = places.back();
         if (++number <= 3) continue;
-        for (const Spot p : places) {
+        for (const CutterSpot p : places) {
             double near = 1e9;
             for (std::size_t i = 0; i < count; ++i)
                 near = std::min(near, distance_to_segment(p, corners[i], corners[(i + 1) % count]));
@@ -115,10 +116,10 @@ RC_GTEST_PROP(GcodeCutter, EdgeTouchesTheContourEverywhereAndCutsItNowhere, ()) 
 }
 
 RC_GTEST_PROP(GcodeCutter, LeftOfAContourIsRightOfItsMirrorImage, ()) {
-    const std::vector<Spot> corners = star();
+    const std::vector<CutterSpot> corners = star();
     const auto path = [&](double sign, const char* side) {
-        std::string text = std::string(preamble) + side + " D7\n";
-        for (const Spot p : corners) text += "G1" + place({p.x, sign * p.y}) + "\n";
+        std::string text = std::string(cutter_preamble) + side + " D7\n";
+        for (const CutterSpot p : corners) text += "G1" + place({p.x, sign * p.y}) + "\n";
         text += "G40 G1 X0 Y0\n";
         return read(text);
     };
@@ -136,7 +137,7 @@ RC_GTEST_PROP(GcodeCutter, LeftOfAContourIsRightOfItsMirrorImage, ()) {
 
 TEST(GcodeCutter, AWholeTurnInsideAndOutsideKeepsItsCentre) {
     const auto program =
-        read(std::string(preamble) +
+        read(std::string(cutter_preamble) +
              "G0 X50 Y-40\nG41.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 Z4 P3\nG1 X50 Y20\nG40 G1 X0 Y0\n"
              "G0 X50 Y-40\nG42.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 P2\nG1 X50 Y20\nG40 G1 X0 Y0\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
@@ -153,7 +154,7 @@ TEST(GcodeCutter, AWholeTurnInsideAndOutsideKeepsItsCentre) {
 }
 
 TEST(GcodeCutter, EventsStayInOrderWithTheMoves) {
-    const auto program = read(std::string(preamble) + "G41.1 D6\nG1 X20 Y0\nM8\nG4 P1\nZ-1\nM0\nY-30\nM5\nM2\n");
+    const auto program = read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20 Y0\nM8\nG4 P1\nZ-1\nM0\nY-30\nM5\nM2\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     std::string order;
     for (const Step& step : program.steps) {
@@ -184,7 +185,7 @@ TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
 
 TEST(GcodeCutter, TheLastMoveComesWithoutAnEndOfTheProgram) {
     for (const char* end : {"", "G40\n", "M2\n", "%\n", "M30"}) {
-        const auto program = read(std::string("%\n") + preamble + "G42.1 D6\nG1 X20\nG1 X40\n" + end);
+        const auto program = read(std::string("%\n") + cutter_preamble + "G42.1 D6\nG1 X20\nG1 X40\n" + end);
         ASSERT_TRUE(program.problems.empty());
         ASSERT_EQ(program.moves().size(), 3u) << end;
         EXPECT_EQ(program.moves().back().end, (Point{40, -3, 0, 0, 0, 0})) << end;
@@ -192,7 +193,7 @@ TEST(GcodeCutter, TheLastMoveComesWithoutAnEndOfTheProgram) {
 }
 
 TEST(GcodeCutter, NearlyTangentJointsGetNoTinyArcs) {
-    std::string text = std::string(preamble) + "G42.1 D6\nG1 X0 Y-100\n";
+    std::string text = std::string(cutter_preamble) + "G42.1 D6\nG1 X0 Y-100\n";
     constexpr int chords = 720;
     for (int i = 1; i <= chords; ++i)
         text += "G1" + place({100 * std::sin(2 * M_PI * i / chords), -100 * std::cos(2 * M_PI * i / chords)}) + "\n";
@@ -210,19 +211,20 @@ TEST(GcodeCutter, TakesTheDiameterOfATool) {
     settings.tools = *read_tool_table("T7 D8\nT3 D2\n");
     for (const char* way :
          {"G41 D7\n", "T7 M6\nG41\n", "T7 M6 G41 D0\n", "T3 M6\nG10 L1 P7 R4\nG41 D7\n", "M61 Q7\nG41\n"}) {
-        const auto program = read(std::string(preamble) + way + "G1 X20\nG40\n", settings);
+        const auto program = read(std::string(cutter_preamble) + way + "G1 X20\nG40\n", settings);
         ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
         EXPECT_EQ(program.moves().back().end[1], 4);
     }
-    EXPECT_THAT(read(std::string(preamble) + "G41 D8\n", settings).problems.at(0).message,
+    EXPECT_THAT(read(std::string(cutter_preamble) + "G41 D8\n", settings).problems.at(0).message,
                 HasSubstr("the tool table has no tool 8"));
-    EXPECT_THAT(read(std::string(preamble) + "G42\n", settings).problems.at(0).message,
+    EXPECT_THAT(read(std::string(cutter_preamble) + "G42\n", settings).problems.at(0).message,
                 HasSubstr("no tool is in the spindle"));
 }
 
 TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
-    EXPECT_TRUE(read(std::string(preamble) + "G41.1 D20\nG1 X400 Y-505\nG1 X450\nG40 G1 X0 Y0\n").problems.empty());
-    const auto program = read(std::string(preamble) + "G42.1 D20\nG1 X400 Y-495\nG1 X450\nG40 G1 X0 Y0\n");
+    EXPECT_TRUE(
+        read(std::string(cutter_preamble) + "G41.1 D20\nG1 X400 Y-505\nG1 X450\nG40 G1 X0 Y0\n").problems.empty());
+    const auto program = read(std::string(cutter_preamble) + "G42.1 D20\nG1 X400 Y-495\nG1 X450\nG40 G1 X0 Y0\n");
     ASSERT_EQ(program.problems.size(), 1u);  // the way in; then the next move is the way in
     EXPECT_EQ(program.problems[0].status, GrblStatus::travel_exceeded);
     EXPECT_THAT(program.problems[0].message, HasSubstr("where the cutter's centre goes"));
@@ -230,7 +232,7 @@ TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
 
 TEST(GcodeCutter, ARefusedLineLeavesTheMoveBeforeItWaiting) {
     const auto program =
-        read(std::string(preamble) + "G41.1 D6\nG1 X20\nG1 X22 Y0.5\nG18\nG1 X22 Y30 Q1\nG1 X60 Y0\nG40\n");
+        read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20\nG1 X22 Y0.5\nG18\nG1 X22 Y30 Q1\nG1 X60 Y0\nG40\n");
     ASSERT_EQ(program.problems.size(), 2u);
     EXPECT_EQ(program.problems[0].place.line, 6);
     EXPECT_EQ(program.problems[1].place.line, 7);
@@ -239,7 +241,7 @@ TEST(GcodeCutter, ARefusedLineLeavesTheMoveBeforeItWaiting) {
 
 namespace {
 
-const testing::Refused refused[] = {
+const testing::Refused cutter_refused[] = {
     {"G41.1", 1, "D word missing"},
     {"G41.1 D2000", 7, "largest diameter is 1000 mm"},
     {"G42 D1", 1, "no tool table"},
@@ -270,11 +272,11 @@ const testing::Refused refused[] = {
 }  // namespace
 
 TEST(GcodeCutter, RefusesWithPlaceAndSentence) {
-    testing::expect_refused(preamble, refused);
+    testing::expect_refused(cutter_preamble, cutter_refused);
 }
 
 TEST(GcodeCutter, AMoveThatTheProgramsEndFindsTooShortIsNamed) {
-    const auto program = read(std::string(preamble) + "G41.1 D6\nG1 X20\nY60\nX10\nY57.5\n");
+    const auto program = read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20\nY60\nX10\nY57.5\n");
     ASSERT_EQ(program.problems.size(), 1u);
     EXPECT_EQ(program.problems[0].place, (Place{7, 1}));
     EXPECT_THAT(program.problems[0].message, HasSubstr("line 7"));

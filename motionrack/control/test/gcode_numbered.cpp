@@ -14,7 +14,7 @@ using testing::Refused;
 using testing::RefusedAt;
 using testing::xs;
 
-Problem problem_of(const std::string& program, const Settings& settings = testing::in_g0()) {
+Problem problem_numbered(const std::string& program, const Settings& settings = testing::in_g0()) {
     const auto read = testing::read(program, testing::in_g0(settings));
     EXPECT_FALSE(read.problems.empty()) << program;
     return read.problems.empty() ? Problem{} : read.problems[0];
@@ -63,17 +63,17 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
         if (name == "6") return std::string("\nO6\nX1\n");
         return fail(Trouble::bad_input, "there is no such file");
     };
-    EXPECT_THAT(problem_of("M98 P2000", settings).file, "2000.ngc");
+    EXPECT_THAT(problem_numbered("M98 P2000", settings).file, "2000.ngc");
     settings.start_in_g0 = true;
     const auto read = testing::read("X1\nM98 P2000 L2\nX2\n", settings);
     std::vector<std::string> moves;
     for (const Step& step : read.steps)
         moves.push_back(std::to_string(static_cast<int>(step.move.end[0])) + "@" + std::to_string(step.line));
     EXPECT_THAT(moves, ElementsAre("1@1", "7@2", "3@2", "7@2", "3@2", "2@3"));
-    EXPECT_THAT(problem_of("M98 P4", settings).message, HasSubstr("M98 P4: 4.ngc has no O4"));
-    EXPECT_THAT(problem_of("M98 P5", settings).message,
+    EXPECT_THAT(problem_numbered("M98 P4", settings).message, HasSubstr("M98 P4: 4.ngc has no O4"));
+    EXPECT_THAT(problem_numbered("M98 P5", settings).message,
                 HasSubstr("M98 P5: this program has no O5, and there is no such file"));
-    const Problem open = problem_of("M98 P6", settings);
+    const Problem open = problem_numbered("M98 P6", settings);
     EXPECT_EQ(open.file, "6.ngc");
     EXPECT_EQ(open.place.line, 2);
     EXPECT_THAT(open.message, HasSubstr("end it with M99"));

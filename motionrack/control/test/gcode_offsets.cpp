@@ -28,7 +28,7 @@ Point last_end(const std::string& program, const Settings& settings = with_tools
     return moves.empty() ? Point{} : moves.back().end;
 }
 
-std::string problem_of(const std::string& program, const Settings& settings = with_tools()) {
+std::string problem_with_tools(const std::string& program, const Settings& settings = with_tools()) {
     const auto read = testing::read(program, settings);
     return read.problems.size() == 1 ? read.problems[0].text()
                                      : "there are " + std::to_string(read.problems.size()) + " problems";
@@ -127,20 +127,20 @@ TEST(GcodeTools, AreSetByG10) {
     expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2\nG43 H1\nX2"), 6.1602540378443873, 9.3301270189221928,
                 0);
     expect_near(last_end("G10 L2 P9 R90\nG0 X10 Y5\nG10 L11 P1 X2 Y1\nG59.3 G43 H1\nX2 Y1"), 10, 5, 0);
-    EXPECT_THAT(problem_of("G10 L1 P0 Z1"), HasSubstr("the number of a tool"));
-    EXPECT_THAT(problem_of("G10 L1 Z1"), HasSubstr("P word missing"));
-    EXPECT_THAT(problem_of("G10 L1 P1 Z1 R-1"), HasSubstr("0 or more"));
+    EXPECT_THAT(problem_with_tools("G10 L1 P0 Z1"), HasSubstr("the number of a tool"));
+    EXPECT_THAT(problem_with_tools("G10 L1 Z1"), HasSubstr("P word missing"));
+    EXPECT_THAT(problem_with_tools("G10 L1 P1 Z1 R-1"), HasSubstr("0 or more"));
 }
 
 TEST(GcodeTools, ThatTheTableDoesNotHaveAreRefused) {
-    EXPECT_THAT(problem_of("T3"), HasSubstr("1:1: T3: the tool table has no tool 3"));
-    EXPECT_THAT(problem_of("G43 H3"), HasSubstr("1:5: H3: the tool table has no tool 3"));
-    EXPECT_THAT(problem_of("M61 Q3"), HasSubstr("has no tool 3"));
-    EXPECT_THAT(problem_of("M61"), HasSubstr("Q word missing"));
-    EXPECT_THAT(problem_of("G43.2"), HasSubstr("H word missing"));
-    EXPECT_THAT(problem_of("H1"), HasSubstr("nothing on this line uses the H word"));
-    EXPECT_EQ(problem_of("T0 M6"), "there are 0 problems");
-    EXPECT_THAT(problem_of("T5 M6\nG43", testing::machine()), HasSubstr("--tools FILE"));
+    EXPECT_THAT(problem_with_tools("T3"), HasSubstr("1:1: T3: the tool table has no tool 3"));
+    EXPECT_THAT(problem_with_tools("G43 H3"), HasSubstr("1:5: H3: the tool table has no tool 3"));
+    EXPECT_THAT(problem_with_tools("M61 Q3"), HasSubstr("has no tool 3"));
+    EXPECT_THAT(problem_with_tools("M61"), HasSubstr("Q word missing"));
+    EXPECT_THAT(problem_with_tools("G43.2"), HasSubstr("H word missing"));
+    EXPECT_THAT(problem_with_tools("H1"), HasSubstr("nothing on this line uses the H word"));
+    EXPECT_EQ(problem_with_tools("T0 M6"), "there are 0 problems");
+    EXPECT_THAT(problem_with_tools("T5 M6\nG43", testing::machine()), HasSubstr("--tools FILE"));
 }
 
 TEST(GcodeWorkSystems, AreNine) {
@@ -149,7 +149,7 @@ TEST(GcodeWorkSystems, AreNine) {
     expect_near(last_end("G59.2\nX#<_coord_system>"), 592, 0, 0);
     expect_near(last_end("G59.3\nX#5220"), 9, 0, 0);
     expect_near(last_end("G10 L2 P9 X4 R30\nX[#5381 + #5390]"), 34, 0, 0);
-    EXPECT_THAT(problem_of("G10 L2 P10 X1"), HasSubstr("nine work systems"));
+    EXPECT_THAT(problem_with_tools("G10 L2 P10 X1"), HasSubstr("nine work systems"));
 }
 
 TEST(GcodeWorkSystems, AreTurnedByR) {
@@ -179,9 +179,9 @@ TEST(GcodeWorkSystems, TurnArcsAndCyclesOfTheirPlane) {
     EXPECT_EQ(moves[1].turns, -1);
     expect_near(last_end("G10 L2 P1 R90\nF9 G98 G81 X3 Y1 Z-1 R2"), -1, 3, 2);
     expect_near(last_end("G10 L2 P1 R90\nF9 G91 G98 G81 X3 Y1 Z-1 R2 L3"), -3, 9, 2);
-    EXPECT_THAT(problem_of("G10 L2 P1 R5\nF9\nG18 G2 X5 Z0 I1 K0"), HasSubstr("turned by 5 degrees"));
-    EXPECT_THAT(problem_of("G10 L2 P1 R5\nF9\nG19 G81 X5 Z0 R1"), HasSubstr("turned by 5 degrees"));
-    EXPECT_THAT(problem_of("G10 L2 P1 R90\nX10001"), HasSubstr("2:1: X10001 leads to Y"));
+    EXPECT_THAT(problem_with_tools("G10 L2 P1 R5\nF9\nG18 G2 X5 Z0 I1 K0"), HasSubstr("turned by 5 degrees"));
+    EXPECT_THAT(problem_with_tools("G10 L2 P1 R5\nF9\nG19 G81 X5 Z0 R1"), HasSubstr("turned by 5 degrees"));
+    EXPECT_THAT(problem_with_tools("G10 L2 P1 R90\nX10001"), HasSubstr("2:1: X10001 leads to Y"));
 }
 
 RC_GTEST_PROP(GcodeWorkSystems, TurnBackAndForth, ()) {
@@ -209,15 +209,16 @@ TEST(GcodeModes, AreKeptAndBroughtBack) {
 }
 
 TEST(GcodeModes, WhatTheMachineDoesNotHaveIsRefused) {
-    EXPECT_EQ(problem_of("M48\nM50\nM50 P1\nM51 P1\nM52 P0\nM53 P1\nM60\nG97 S500"), "there are 0 problems");
-    for (const char* line : {"M52", "M52 P1"}) EXPECT_THAT(problem_of(line), HasSubstr("adaptive feed")) << line;
-    EXPECT_THAT(problem_of("G7"), HasSubstr("X is a radius here, never a diameter"));
-    EXPECT_THAT(problem_of("G8"), HasSubstr("X is always a radius here; leave it out"));
+    EXPECT_EQ(problem_with_tools("M48\nM50\nM50 P1\nM51 P1\nM52 P0\nM53 P1\nM60\nG97 S500"), "there are 0 problems");
+    for (const char* line : {"M52", "M52 P1"})
+        EXPECT_THAT(problem_with_tools(line), HasSubstr("adaptive feed")) << line;
+    EXPECT_THAT(problem_with_tools("G7"), HasSubstr("X is a radius here, never a diameter"));
+    EXPECT_THAT(problem_with_tools("G8"), HasSubstr("X is always a radius here; leave it out"));
     for (const char* line : {"G33 Z1 K1", "G33.1 Z1 K1", "G76 P1", "G95"})
-        EXPECT_THAT(problem_of(line), HasSubstr("angle of the spindle")) << line;
+        EXPECT_THAT(problem_with_tools(line), HasSubstr("angle of the spindle")) << line;
     for (const char* line : {"G87 X1 Z1 R1", "G88 X1 Z1 R1 P1"})
-        EXPECT_THAT(problem_of(line), HasSubstr("use G8")) << line;
-    EXPECT_THAT(problem_of("G96 D100 S5"), HasSubstr("rev/min"));
+        EXPECT_THAT(problem_with_tools(line), HasSubstr("use G8")) << line;
+    EXPECT_THAT(problem_with_tools("G96 D100 S5"), HasSubstr("rev/min"));
 }
 
 }  // namespace motionrack::control::gcode

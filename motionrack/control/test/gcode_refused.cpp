@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// The last line of `program` is the bad one.
-struct Refused {
+struct RefusedLine {
     const char* program;
     int column;
     const char* word;
@@ -21,7 +21,7 @@ struct Refused {
     const char* says;
 };
 
-const Refused refused[] = {
+const RefusedLine refused[] = {
     // letters and numbers
     {"12", 1, "1", 1, "no letter before it"},
     {"G1 X", 4, "X", 2, "X has no number"},
@@ -169,7 +169,7 @@ int last_line(const std::string& program) {
 }  // namespace
 
 TEST(GcodeReader, RefusesWithPlaceWordNumberAndSentence) {
-    for (const Refused& row : refused) {
+    for (const RefusedLine& row : refused) {
         SCOPED_TRACE(row.program);
         const auto program = testing::read(row.program);
         ASSERT_EQ(program.problems.size(), 1u);

@@ -92,14 +92,14 @@ std::string words(const char* letters, std::initializer_list<double> values) {
     return out;
 }
 
-const char* const preamble = "G17 G21 G90 F600\n";
+const char* const spline_preamble = "G17 G21 G90 F600\n";
 
 }  // namespace
 
 RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
     const Spot start = {in_tenths(), in_tenths()}, end = {in_tenths(), in_tenths()};
     const Spot i = {in_tenths(), in_tenths()}, p = {in_tenths(), in_tenths()};
-    const auto program = read(preamble + ("G0" + words("XY", {start.x, start.y})) + "\nG5" +
+    const auto program = read(spline_preamble + ("G0" + words("XY", {start.x, start.y})) + "\nG5" +
                               words("XYIJPQ", {end.x, end.y, i.x, i.y, p.x, p.y}));
     const std::array<Spot, 4> points = {start, Spot{start.x + i.x, start.y + i.y}, Spot{end.x + p.x, end.y + p.y}, end};
     RC_ASSERT(program.problems.empty());
@@ -124,7 +124,7 @@ RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
 }
 
 TEST(GcodeSpline, ArcsPassIntoEachOtherWithoutACorner) {
-    auto moves = read(std::string(preamble) + "G5 X60 Y0 I10 J40 P-30 Q20\nX120 P-10 Q-35\n").moves();
+    auto moves = read(std::string(spline_preamble) + "G5 X60 Y0 I10 J40 P-30 Q20\nX120 P-10 Q-35\n").moves();
     ASSERT_GT(moves.size(), 8u);
     double x = 0, y = 0, out_x = 10 / std::hypot(10, 40), out_y = 40 / std::hypot(10, 40);
     for (const Move& move : moves) {
@@ -146,8 +146,8 @@ TEST(GcodeSpline, ArcsPassIntoEachOtherWithoutACorner) {
 }
 
 TEST(GcodeSpline, QuadraticIsItsCubic) {
-    const auto one = read(std::string(preamble) + "G1 X10 Y5\nG91 G5.1 X30 Y0 I15 J30\n").moves();
-    const auto two = read(std::string(preamble) + "G1 X10 Y5\nG5 X40 Y5 I10 J20 P-10 Q20\n").moves();
+    const auto one = read(std::string(spline_preamble) + "G1 X10 Y5\nG91 G5.1 X30 Y0 I15 J30\n").moves();
+    const auto two = read(std::string(spline_preamble) + "G1 X10 Y5\nG5 X40 Y5 I10 J20 P-10 Q20\n").moves();
     ASSERT_EQ(one.size(), two.size());
     for (std::size_t i = 0; i < one.size(); ++i)
         for (const int axis : {0, 1})
@@ -167,7 +167,7 @@ TEST(GcodeSpline, CuspsLoopsStraightsAndHandlesOfNoLengthAreDriven) {
           "G5 X40 Y0 I0 J0 P0 Q0", "G5 X40 Y20 I0 J0 P-10 Q0", "G5 X40 Y20 I10 J0 P0 Q0", "G5 X40 Y0 I-20 J0 P20 Q0",
           "G5 X0 Y0 I60 J40 P-60 Q40", "G5 X40 Y0 I0.000001 J0 P0 Q0.000001", "G5 X0.0001 Y0 I0.0001 J0.0001 P0 Q0",
           "G5.1 X40 Y0 I-20 J0"}) {
-        const auto program = read(std::string(preamble) + line);
+        const auto program = read(std::string(spline_preamble) + line);
         ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
         EXPECT_LT(program.moves().size(), 300u) << line;
     }
@@ -175,14 +175,14 @@ TEST(GcodeSpline, CuspsLoopsStraightsAndHandlesOfNoLengthAreDriven) {
 
 TEST(GcodeSpline, CurveStaysWithinTheTravel) {
     // It starts along the end of the travel, so that a joint could lie beyond.
-    const auto program = read(std::string(preamble) + "G0 X-500 Y0\nG5 X-400 Y300 I0 J100 P-90 Q-30\n");
+    const auto program = read(std::string(spline_preamble) + "G0 X-500 Y0\nG5 X-400 Y300 I0 J100 P-90 Q-30\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     for (const Move& move : program.moves()) EXPECT_GE(move.end[0], -500 - limit_slack);
 }
 
 namespace {
 
-const testing::Refused refused[] = {
+const testing::Refused spline_refused[] = {
     {"G5 X10 Y0 I1 J1", 1, "needs P and Q"},
     {"G5 X10 Y0 I1 J1 P1", 1, "needs P and Q"},
     {"G5 X10 Y0 P1 Q1", 1, "only a G5 right after another goes on"},
@@ -209,7 +209,7 @@ const testing::Refused refused[] = {
 }  // namespace
 
 TEST(GcodeSpline, RefusesWithPlaceAndSentence) {
-    testing::expect_refused(preamble, refused);
+    testing::expect_refused(spline_preamble, spline_refused);
 }
 
 }  // namespace motionrack::control::gcode

@@ -34,7 +34,7 @@ std::vector<Point> probing_at(std::string_view text, double edge) {
     }
 }
 
-std::string problem_of(const std::string& program, const Settings& settings = testing::machine()) {
+std::string problem_together(const std::string& program, const Settings& settings = testing::machine()) {
     const auto read = testing::read(program, settings);
     return read.problems.empty() ? "" : read.problems[0].text();
 }
@@ -79,8 +79,8 @@ TEST(GcodeTogether, TheCutterGoesBesideATurnedContourAsBesideOneThatIsNot) {
         EXPECT_NEAR(turned[i].end[1], -2 + s * plain[i].end[0] + c * plain[i].end[1], 1e-8) << i;
         EXPECT_EQ(turned[i].end[2], plain[i].end[2]);
     }
-    EXPECT_THAT(problem_of("G10 L2 P1 R30\nG18 G41.1 D2\n"), HasSubstr("in G17 only"));
-    EXPECT_THAT(problem_of("G10 L2 P1 R30\nG17 G41.1 D2\nG1 X9 F9\nG10 L2 P1 R3\n"),
+    EXPECT_THAT(problem_together("G10 L2 P1 R30\nG18 G41.1 D2\n"), HasSubstr("in G17 only"));
+    EXPECT_THAT(problem_together("G10 L2 P1 R30\nG17 G41.1 D2\nG1 X9 F9\nG10 L2 P1 R3\n"),
                 HasSubstr("cutter compensation is on"));
 }
 
@@ -97,13 +97,14 @@ TEST(GcodeTogether, ACurveTurnsWithItsWorkSystem) {
 }
 
 TEST(GcodeTogether, ModesThatComeBackWaitForTheCutter) {
-    EXPECT_THAT(problem_of("G21 G90 F100\nM70\nG55\nG41.1 D4\nG1 X20\nM72\n"),
+    EXPECT_THAT(problem_together("G21 G90 F100\nM70\nG55\nG41.1 D4\nG1 X20\nM72\n"),
                 HasSubstr("the work offset cannot change"));
-    EXPECT_THAT(problem_of("G20\no1 sub\nM73\nG21 F100 G41.1 D4\nG1 X20\no1 endsub\no1 call\nM2\n"),
+    EXPECT_THAT(problem_together("G20\no1 sub\nM73\nG21 F100 G41.1 D4\nG1 X20\no1 endsub\no1 call\nM2\n"),
                 HasSubstr("M73 brings back"));
-    EXPECT_EQ(problem_of("G21 G90 F100\no1 sub\nM73\nG61 F50 G41.1 D4\nG1 X20\nX40\no1 endsub\no1 call\nG40\nM2\n"),
-              "");
-    EXPECT_THAT(problem_of("M61 Q1\nG41.1 D4\nM61 Q2\n"), HasSubstr("M61"));
+    EXPECT_EQ(
+        problem_together("G21 G90 F100\no1 sub\nM73\nG61 F50 G41.1 D4\nG1 X20\nX40\no1 endsub\no1 call\nG40\nM2\n"),
+        "");
+    EXPECT_THAT(problem_together("M61 Q1\nG41.1 D4\nM61 Q2\n"), HasSubstr("M61"));
 }
 
 TEST(GcodeTogether, WhatWaitsAtTheEndOfAWalkIsDriven) {

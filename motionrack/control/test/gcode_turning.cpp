@@ -177,7 +177,8 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
     // down at once, that lies past its first corner, and the line leads over the corner at less than D.
     std::vector<ContourPiece> beside;
     RC_ASSERT(beside_contour(contour, plan.distance, beside) == "");
-    const ContourPiece way_in = {plan.start, beside.front().from};
+    ContourPiece way_in;
+    way_in.from = plan.start, way_in.to = beside.front().from;
     const double over_corner = std::min(plan.distance, distance_to(way_in, contour.front().from));
     for (std::size_t i = 0; i < moves.size(); ++i) {
         for (int k = 0; k <= 12; ++k) {

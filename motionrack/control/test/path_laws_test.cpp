@@ -16,7 +16,7 @@
 namespace motionrack::control {
 namespace {
 
-constexpr double slack = 1 + 1e-9;
+constexpr double law_slack = 1 + 1e-9;
 
 /// Random machines and programs from one seed.
 class Maker {
@@ -119,10 +119,10 @@ void keeps_the_limits_inside(const MachineLimits& limits, const PlannedMove& pla
     RC_ASSERT(planned.exit <= planned.cruise);
     if (planned.move.kind != MoveKind::traverse) {
         const bool inverse = planned.move.feed_mode == FeedMode::inverse_time;
-        RC_ASSERT(planned.cruise <= planned.move.feed * (inverse ? path.length : 1) * slack);
+        RC_ASSERT(planned.cruise <= planned.move.feed * (inverse ? path.length : 1) * law_slack);
     }
     const double change = std::fabs(planned.exit * planned.exit - planned.entry * planned.entry);
-    RC_ASSERT(change <= 2 * planned.accel * planned.length * slack + 1e-12);
+    RC_ASSERT(change <= 2 * planned.accel * planned.length * law_slack + 1e-12);
     const double h = path.length * 1e-5;
     for (int k = 0; k <= 16; ++k) {
         const double s = std::clamp(path.length * k / 16, h, path.length - h);
@@ -130,7 +130,7 @@ void keeps_the_limits_inside(const MachineLimits& limits, const PlannedMove& pla
         const Point before = tangent_at(path, s - h);
         const Point after = tangent_at(path, s + h);
         for (int i = 0; i < axis_count; ++i) {
-            RC_ASSERT(std::fabs(here[i]) * planned.cruise <= limits[i].max_speed * slack);
+            RC_ASSERT(std::fabs(here[i]) * planned.cruise <= limits[i].max_speed * law_slack);
             const double pull = planned.cruise * planned.cruise * (after[i] - before[i]) / (2 * h);
             for (const double along : {planned.accel, 0.0, -planned.accel}) {
                 RC_ASSERT(std::fabs(along * here[i] + pull) <= limits[i].max_accel * (1 + 1e-6));
@@ -152,7 +152,7 @@ void keeps_the_limits_between(const MachineLimits& limits, const PlannedMove& be
     for (int i = 0; i < axis_count; ++i) {
         const double unseen = same_direction * (i < 3 ? 1 : size) * before.exit;
         const double allowed = before.move.path == PathControl::continuous ? limits[i].start_speed : 0;
-        RC_ASSERT(std::fabs(in[i] - out[i]) * before.exit <= std::max(allowed, unseen) * slack);
+        RC_ASSERT(std::fabs(in[i] - out[i]) * before.exit <= std::max(allowed, unseen) * law_slack);
     }
 }
 

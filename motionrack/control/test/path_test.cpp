@@ -12,7 +12,7 @@
 namespace motionrack::control {
 namespace {
 
-MachineLimits machine() {
+MachineLimits path_machine() {
     MachineLimits limits;
     for (int i = 0; i < axis_count; ++i) limits[i] = {true, -1e6, 1e6, 100, 1000, 0, 2, 1000};
     limits[1].max_speed = 80;
@@ -26,7 +26,7 @@ MachineLimits machine() {
     return limits;
 }
 
-Move line_to(double x, double y, double z = 0, double feed = 50, PathControl path = PathControl::exact_path) {
+Move path_line_to(double x, double y, double z = 0, double feed = 50, PathControl path = PathControl::exact_path) {
     Move move;
     move.kind = MoveKind::feed;
     move.path = path;
@@ -35,7 +35,7 @@ Move line_to(double x, double y, double z = 0, double feed = 50, PathControl pat
     return move;
 }
 
-std::vector<PlannedMove> plan(const MachineLimits& limits, const std::vector<Move>& moves, int window = 1024) {
+std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vector<Move>& moves, int window = 1024) {
     Planner planner(limits, Point{}, {window});
     std::vector<PlannedMove> out;
     PlannedMove planned;
@@ -50,7 +50,7 @@ std::vector<PlannedMove> plan(const MachineLimits& limits, const std::vector<Mov
 }
 
 TEST(Planner, ASingleLongLineRisesToTheFeedAndRests) {
-    const auto out = plan(machine(), {line_to(100, 0)});
+    const auto out = plan_path(path_machine(), {path_line_to(100, 0)});
     ASSERT_EQ(out.size(), 1u);
     EXPECT_EQ(out[0].entry, 0);
     EXPECT_EQ(out[0].exit, 0);
@@ -61,37 +61,37 @@ TEST(Planner, ASingleLongLineRisesToTheFeedAndRests) {
 }
 
 TEST(Planner, AShortLineReachesOnlyTheTopOfItsTriangle) {
-    const auto out = plan(machine(), {line_to(0.9, 0)});
+    const auto out = plan_path(path_machine(), {path_line_to(0.9, 0)});
     EXPECT_DOUBLE_EQ(out[0].cruise, 30);
     EXPECT_NEAR(seconds_of(out[0]), 2 * 30.0 / 1000, 1e-12);
 }
 
 TEST(Planner, TheSlowestAxisLimitsADiagonal) {
-    Move move = line_to(30, 40);
+    Move move = path_line_to(30, 40);
     move.kind = MoveKind::traverse;
-    const auto out = plan(machine(), {move});
+    const auto out = plan_path(path_machine(), {move});
     EXPECT_DOUBLE_EQ(out[0].cruise, 100);  // 80 / 0.8 in Y, 100 / 0.6 in X
     EXPECT_DOUBLE_EQ(out[0].accel, 750);   // 600 / 0.8 in Y, 1000 / 0.6 in X
 }
 
 TEST(Planner, InverseTimeTakesTheTimeItSays) {
-    Move move = line_to(10, 0);
+    Move move = path_line_to(10, 0);
     move.feed_mode = FeedMode::inverse_time;
     move.feed = 2;
-    EXPECT_DOUBLE_EQ(plan(machine(), {move})[0].cruise, 20);
+    EXPECT_DOUBLE_EQ(plan_path(path_machine(), {move})[0].cruise, 20);
 }
 
 TEST(Planner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
-    Move move = line_to(0, 0, 0, 500);
+    Move move = path_line_to(0, 0, 0, 500);
     move.end = {0, 0, 0, 360, 90, 0};
-    const auto out = plan(machine(), {move});
+    const auto out = plan_path(path_machine(), {move});
     EXPECT_DOUBLE_EQ(out[0].length, 360);
     EXPECT_DOUBLE_EQ(out[0].cruise, 400);  // B: 100 / 0.25
     EXPECT_DOUBLE_EQ(out[0].accel, 4000);  // B: 1000 / 0.25
 }
 
 TEST(Planner, ExactPathStopsAtACornerAndPassesATangentJoint) {
-    const auto out = plan(machine(), {line_to(20, 0), line_to(40, 0, 0, 30), line_to(40, 20)});
+    const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 0, 0, 30), path_line_to(40, 20)});
     ASSERT_EQ(out.size(), 3u);
     EXPECT_DOUBLE_EQ(out[0].exit, 30);
     EXPECT_DOUBLE_EQ(out[1].entry, 30);
@@ -102,74 +102,74 @@ TEST(Planner, ExactPathStopsAtACornerAndPassesATangentJoint) {
 TEST(Planner, ExactPathSeesAHundredthOfADegree) {
     const double beyond = 0.02 * 0.017453292519943295;
     const double within = 0.005 * 0.017453292519943295;
-    EXPECT_EQ(plan(machine(), {line_to(20, 0), line_to(40, 20 * beyond)})[0].exit, 0);
-    EXPECT_NEAR(plan(machine(), {line_to(20, 0), line_to(40, 20 * within)})[0].exit, 50, 1e-9);
+    EXPECT_EQ(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * beyond)})[0].exit, 0);
+    EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * within)})[0].exit, 50, 1e-9);
 }
 
 TEST(Planner, ExactStopStandsStillAtEveryJoint) {
     std::vector<Move> moves;
-    for (int i = 1; i <= 5; ++i) moves.push_back(line_to(10 * i, 0, 0, 50, PathControl::exact_stop));
-    for (const PlannedMove& planned : plan(machine(), moves)) {
+    for (int i = 1; i <= 5; ++i) moves.push_back(path_line_to(10 * i, 0, 0, 50, PathControl::exact_stop));
+    for (const PlannedMove& planned : plan_path(path_machine(), moves)) {
         EXPECT_EQ(planned.entry, 0);
         EXPECT_EQ(planned.exit, 0);
     }
 }
 
 TEST(Planner, ContinuousCornersObeyTheJumpOfTheAxes) {
-    Move first = line_to(20, 0, 0, 50, PathControl::continuous);
+    Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
-    const auto out = plan(machine(), {first, line_to(20, 20)});
+    const auto out = plan_path(path_machine(), {first, path_line_to(20, 20)});
     EXPECT_DOUBLE_EQ(out[0].exit, 2);  // X jumps by the whole speed
 }
 
 TEST(Planner, ContinuousCornersObeyTheTolerance) {
-    MachineLimits limits = machine();
+    MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
         axis.start_speed = 1000;
         axis.max_accel = 1000;
     }
-    Move first = line_to(20, 0, 0, 50, PathControl::continuous);
+    Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 0.01;
-    const auto out = plan(limits, {first, line_to(20, 20)});
+    const auto out = plan_path(limits, {first, path_line_to(20, 20)});
     // a right angle: s = sin 45 degrees; both axes take part, so a = 1000 sqrt 2
     const double s = std::sqrt(0.5);
     EXPECT_NEAR(out[0].exit, std::sqrt(1000 * std::sqrt(2.0) * 0.01 * s / (1 - s)), 1e-9);
 }
 
 TEST(Planner, GoingBackOnItselfStops) {
-    Move first = line_to(20, 0, 0, 50, PathControl::continuous);
+    Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 1;
-    EXPECT_EQ(plan(machine(), {first, line_to(0, 0)})[0].exit, 0);
+    EXPECT_EQ(plan_path(path_machine(), {first, path_line_to(0, 0)})[0].exit, 0);
 }
 
 TEST(Planner, XyzAndRotaryMovesMeetAtRest) {
-    Move first = line_to(20, 0, 0, 50, PathControl::continuous);
+    Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     Move second = first;
     second.end = {20, 0, 0, 90, 0, 0};
-    EXPECT_EQ(plan(machine(), {first, second})[0].exit, 0);
+    EXPECT_EQ(plan_path(path_machine(), {first, second})[0].exit, 0);
 }
 
 TEST(Planner, ALineIntoATangentArcKeepsThePullOfTheArc) {
-    Move arc = line_to(30, 10);
+    Move arc = path_line_to(30, 10);
     arc.kind = MoveKind::arc;
     arc.turns = 1;
     arc.centre_first = 20;
     arc.centre_second = 10;
-    const auto out = plan(machine(), {line_to(20, 0), arc});
+    const auto out = plan_path(path_machine(), {path_line_to(20, 0), arc});
     // least acceleration of X and Y: 600
     EXPECT_NEAR(out[0].exit, 50, 1e-9);
     EXPECT_NEAR(out[1].accel, 0.4 * 600, 1e-9);
     arc.end = {20.5, 0.5, 0, 0, 0, 0};
     arc.centre_second = 0.5;
-    EXPECT_NEAR(plan(machine(), {line_to(20, 0), arc})[0].exit, std::sqrt(0.8 * 600 * 0.5), 1e-9);
+    EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), arc})[0].exit, std::sqrt(0.8 * 600 * 0.5), 1e-9);
 }
 
 TEST(Planner, ASteepHelixIsPulledLessThanItsCircle) {
-    Move helix = line_to(0.1, 0, 0.2 * 3.14159265358979323846);
+    Move helix = path_line_to(0.1, 0, 0.2 * 3.14159265358979323846);
     helix.kind = MoveKind::arc;
     helix.turns = 1;
-    MachineLimits limits = machine();
+    MachineLimits limits = path_machine();
     limits[2] = limits[0];
     // as high as it is round: half of v^2 / r points to the axis; the way along the arc is sqrt 1/2 of the path
     const Geometry path = geometry_of(helix, {0.1, 0, 0, 0, 0, 0});
@@ -179,15 +179,15 @@ TEST(Planner, ASteepHelixIsPulledLessThanItsCircle) {
 }
 
 TEST(Planner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
-    MachineLimits limits = machine();
+    MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
         axis.start_speed = 1000;
         axis.max_accel = 1000;
     }
-    Move first = line_to(0.1, 0, 0, 50, PathControl::continuous);
+    Move first = path_line_to(0.1, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     const Geometry before = geometry_of(first, Point{});
-    const Move second = line_to(0.1 + 0.08, 0.06);
+    const Move second = path_line_to(0.1 + 0.08, 0.06);
     const Geometry after = geometry_of(second, first.end);
     // Y gains 0.6 of the speed within 0.1 mm: v * 0.6 v / 0.1 <= 1000
     const double squared = PathLimits(limits).joint_squared(before, 50, after, 50, PathControl::continuous, 100);
@@ -196,8 +196,8 @@ TEST(Planner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
 
 TEST(Planner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     std::vector<Move> moves;
-    for (int i = 1; i <= 2000; ++i) moves.push_back(line_to(0.01 * i, 0, 0, 100));
-    const auto out = plan(machine(), moves);
+    for (int i = 1; i <= 2000; ++i) moves.push_back(path_line_to(0.01 * i, 0, 0, 100));
+    const auto out = plan_path(path_machine(), moves);
     ASSERT_EQ(out.size(), 2000u);
     // 100 mm/s take 5 mm: 500 lines up and 500 lines down
     EXPECT_NEAR(out[1000].entry, 100, 1e-9);
@@ -213,7 +213,7 @@ TEST(Planner, ADwellEndsTheWindowAtRest) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;
-    const auto out = plan(machine(), {line_to(20, 0), dwell, line_to(40, 0)});
+    const auto out = plan_path(path_machine(), {path_line_to(20, 0), dwell, path_line_to(40, 0)});
     ASSERT_EQ(out.size(), 3u);
     EXPECT_EQ(out[0].exit, 0);
     EXPECT_EQ(out[1].length, 0);
@@ -231,37 +231,37 @@ TEST(Planner, ADwellEndsTheWindowAtRest) {
 }
 
 TEST(Planner, MovesOfNoLengthAreLeftOut) {
-    const auto out = plan(machine(), {line_to(20, 0), line_to(20, 0), line_to(40, 0)});
+    const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(20, 0), path_line_to(40, 0)});
     ASSERT_EQ(out.size(), 2u);
     EXPECT_DOUBLE_EQ(out[0].exit, 50);
 }
 
 TEST(Planner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
-    MachineLimits limits = machine();
+    MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) axis.max_jerk = 50'000;
-    const auto out = plan(limits, {line_to(30, 40), line_to(60, 80), line_to(60, 100)});
+    const auto out = plan_path(limits, {path_line_to(30, 40), path_line_to(60, 80), path_line_to(60, 100)});
     EXPECT_EQ(out[0].jerk, 0);
     EXPECT_EQ(out[1].jerk, 0);
     EXPECT_DOUBLE_EQ(out[2].jerk, 50'000);
     EXPECT_GT(seconds_of(out[2]), 20.0 / 50 + 50.0 / 600);
     limits[1].max_jerk = 0;
-    EXPECT_EQ(plan(limits, {line_to(30, 40)})[0].jerk, 0);
+    EXPECT_EQ(plan_path(limits, {path_line_to(30, 40)})[0].jerk, 0);
 }
 
 TEST(Planner, RefusesWhatTheMachineCannotDoAndGoesOn) {
-    MachineLimits limits = machine();
+    MachineLimits limits = path_machine();
     limits[4].present = false;
     Planner planner(limits, Point{});
-    Move absent = line_to(1, 0);
+    Move absent = path_line_to(1, 0);
     absent.end[4] = 5;
     absent.line = 12;
     const auto refused = planner.push(absent);
     ASSERT_FALSE(refused.has_value());
     EXPECT_NE(refused.error().message.find("line 12 moves axis B by 5"), std::string::npos) << refused.error().message;
-    EXPECT_FALSE(planner.push(line_to(std::nan(""), 0)).has_value());
-    EXPECT_FALSE(planner.push(line_to(std::numeric_limits<double>::infinity(), 0)).has_value());
-    EXPECT_FALSE(planner.push(line_to(5, 0, 0, 0)).has_value());
-    Move arc = line_to(5, 0);
+    EXPECT_FALSE(planner.push(path_line_to(std::nan(""), 0)).has_value());
+    EXPECT_FALSE(planner.push(path_line_to(std::numeric_limits<double>::infinity(), 0)).has_value());
+    EXPECT_FALSE(planner.push(path_line_to(5, 0, 0, 0)).has_value());
+    Move arc = path_line_to(5, 0);
     arc.kind = MoveKind::arc;
     EXPECT_FALSE(planner.push(arc).has_value());
     Move dwell;
@@ -269,7 +269,7 @@ TEST(Planner, RefusesWhatTheMachineCannotDoAndGoesOn) {
     dwell.seconds = -1;
     EXPECT_FALSE(planner.push(dwell).has_value());
     EXPECT_EQ(planner.position(), Point{});
-    EXPECT_TRUE(planner.push(line_to(5, 0)).has_value());
+    EXPECT_TRUE(planner.push(path_line_to(5, 0)).has_value());
     planner.flush();
     PlannedMove planned;
     ASSERT_TRUE(planner.pull(planned));
@@ -277,12 +277,12 @@ TEST(Planner, RefusesWhatTheMachineCannotDoAndGoesOn) {
 }
 
 TEST(Planner, HandsMovesOutBeforeTheEndOfTheProgram) {
-    Planner planner(machine(), Point{}, {16});
+    Planner planner(path_machine(), Point{}, {16});
     PlannedMove planned;
     int pulled = 0;
     for (int i = 1; i <= 100; ++i) {
         ASSERT_TRUE(planner.has_room());
-        ASSERT_TRUE(planner.push(line_to(0.01 * i, 0)).has_value());
+        ASSERT_TRUE(planner.push(path_line_to(0.01 * i, 0)).has_value());
         while (planner.pull(planned)) ++pulled;
         EXPECT_GE(pulled, i - 20);
     }

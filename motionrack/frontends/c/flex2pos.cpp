@@ -10,8 +10,8 @@
 namespace io = motionrack::ioflex02;
 using namespace motionrack::c;
 
-static_assert(Flex_Ok == io::Flex_Ok && Flex_ErrCfg == io::Flex_ErrCfg && Flex_ErrDevice == io::Flex_ErrDevice &&
-              Flex_ErrProject == io::Flex_ErrProject);
+static_assert(int{Flex_Ok} == int{io::Flex_Ok} && int{Flex_ErrCfg} == int{io::Flex_ErrCfg} &&
+              int{Flex_ErrDevice} == int{io::Flex_ErrDevice} && int{Flex_ErrProject} == int{io::Flex_ErrProject});
 static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io::cRes) &&
               cResNm == static_cast<int>(io::cResNm) && cResNmSig == static_cast<int>(io::cResNmSig));
 
@@ -21,7 +21,6 @@ struct flex2pos {
 };
 
 namespace {
-
 constexpr const char* no_object =
     "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
 
@@ -44,7 +43,6 @@ auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
 }  // namespace
 
 extern "C" {
-
 int flex2pos_open(mr_rack* rack, flex2pos** flex) {
     if (flex != nullptr) *flex = nullptr;
     return guarded(

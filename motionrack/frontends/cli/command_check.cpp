@@ -27,7 +27,7 @@ struct CheckOptions {
     bool json = false;
 };
 
-nlohmann::json json_of(const Error& error) {
+nlohmann::json error_json(const Error& error) {
     return {
         {"file", error.file}, {"line", error.place.line}, {"column", error.place.column}, {"message", error.message}};
 }
@@ -43,8 +43,8 @@ int check_rack(const std::string& path, nlohmann::json* json) {
                                 {"ok", reading.errors.empty()},
                                 {"errors", nlohmann::json::array()},
                                 {"warnings", nlohmann::json::array()}};
-        for (const Error& error : reading.errors) entry["errors"].push_back(json_of(error));
-        for (const Error& warning : reading.warnings) entry["warnings"].push_back(json_of(warning));
+        for (const Error& error : reading.errors) entry["errors"].push_back(error_json(error));
+        for (const Error& warning : reading.warnings) entry["warnings"].push_back(error_json(warning));
         json->push_back(entry);
     } else {
         for (const Error& warning : reading.warnings) print_warning(warning.text());
@@ -74,7 +74,7 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
                                 {"lines", check.lines},   {"moves", check.moves},
                                 {"dwells", check.dwells}, {"errors", nlohmann::json::array()}};
         for (const auto& problem : check.problems) {
-            nlohmann::json one = json_of(problem);
+            nlohmann::json one = error_json(problem);
             one["word"] = problem.word;
             one["grbl_error"] = static_cast<int>(problem.status);
             entry["errors"].push_back(one);

@@ -18,7 +18,7 @@ struct DiffOptions {
     bool json = false, quiet = false;
 };
 
-int compare(const DiffOptions& options) {
+int compare_files(const DiffOptions& options) {
     ProgressLine progress(options.quiet || options.json);
     stop_on_signals();
     trace::DiffSettings settings;
@@ -53,7 +53,7 @@ void add_diff(CLI::App& app, Action& chosen) {
         "Example: motionrack diff before.h5 after.h5\n"
         "Exit code 0: the same; 6: they differ. Names, seconds, ns and ticks of 100 ps of each signal's first "
         "difference are told.");
-    command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
+    command->callback([options, &chosen] { chosen = [options] { return compare_files(*options); }; });
 }
 
 }  // namespace motionrack::cli

@@ -43,7 +43,8 @@ void show(const FeedOptions& options, const rack::FrameWatch& watch, Instant now
 }
 
 /// The rack's time is the time since the start. Gives the number of frames that were handed over.
-std::uint64_t run(const FeedOptions& options, rack::Rack& rack, const rack::FrameWatch& watch, dds::RemoteFeed& feed) {
+std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack::FrameWatch& watch,
+                       dds::RemoteFeed& feed) {
     const std::vector<grating_bus::Card*> cards = remote_cards(rack);
     sim::Kernel& kernel = rack.kernel();
     const Instant begin = dds::monotonic_now(), end = options.seconds > 0 ? from_seconds(options.seconds) : never;
@@ -95,7 +96,7 @@ int feed_rack(const FeedOptions& options) {
     const rack::FrameWatch watch(rack);
     rack.start();
     stop_on_signals();
-    const std::uint64_t given = run(options, rack, watch, feed);
+    const std::uint64_t given = run_feed(options, rack, watch, feed);
     if (stop_asked.load()) return exit_stopped;
     if (given != 0) return exit_done;
     print_error(

@@ -46,7 +46,7 @@ class RackFrames final : public dds::FrameSource {
 };
 
 /// What the publisher did, and how well it kept its times.
-void tell(const dds::Publisher& publisher, const dds::Published& done, const PublishOptions& options) {
+void report_published(const dds::Publisher& publisher, const dds::Published& done, const PublishOptions& options) {
     if (options.json) {
         const nlohmann::ordered_json out = {{"bus", options.bus.name},
                                             {"id", publisher.source().id_text()},
@@ -148,7 +148,7 @@ int publish_rack(Run& run) {
     std::fflush(stdout);
     const Result<dds::Published> done = program ? publish_program(run, *program) : publish_standing(run);
     if (!done) return report(done.error());
-    tell(run.publisher, *done, options);
+    report_published(run.publisher, *done, options);
     for (const std::string& fault : run.faults.not_done()) print_warning(fault);
     if (conflict) {
         print_error(

@@ -25,7 +25,7 @@ struct MarkOptions {
     bool json = false, quiet = false;
 };
 
-nlohmann::ordered_json json_of(const mark::Marked& m) {
+nlohmann::ordered_json mark_json(const mark::Marked& m) {
     nlohmann::ordered_json out = {{"worst_mm", m.deviation.worst_mm},
                                   {"rms_mm", m.deviation.rms_mm},
                                   {"worst_at_mm", {m.deviation.worst_at.x, m.deviation.worst_at.y}},
@@ -62,8 +62,8 @@ std::string json_text(const mark::Outcome& out) {
     nlohmann::ordered_json all = {{"drawing_mm", out.drawing_mm},
                                   {"strokes", out.strokes},
                                   {"elements", out.elements},
-                                  {"marked", json_of(out.on)}};
-    if (out.off) all["without_correction"] = json_of(*out.off);
+                                  {"marked", mark_json(out.on)}};
+    if (out.off) all["without_correction"] = mark_json(*out.off);
     if (out.fits_factor) all["fits_times_the_speed"] = *out.fits_factor;
     const mark::Room room = mark::room_of(out, out.on);
     all["room"] = {{"mm", room.mm}, {"edge", room.edge}};

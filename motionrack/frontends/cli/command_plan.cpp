@@ -104,7 +104,7 @@ double part_of(double value, double limit) {
     return limit > 0 ? value / limit : 0;
 }
 
-void print(const Plans& plans, const rack::RackConfig& config) {
+void print_plans(const Plans& plans, const rack::RackConfig& config) {
     fmt::print("{} on {}: {}.\n", plans.name, config.name, rack::counted(plans.moves, "move"));
     fmt::print("{:>51}    stops\n", "time");
     const auto row = [](const char* name, const Planned& planned) {
@@ -180,7 +180,7 @@ int plan(const PlanOptions& options) {
                       by_trapezoids(moves, limits, settings.start, false),
                       jerk_limited(moves, limits, settings.start, options.json)};
     if (stop_asked) return report({Trouble::stopped, "Stopped before the plan was whole; nothing is told of it."});
-    options.json ? print_json(plans, *config) : print(plans, *config);
+    options.json ? print_json(plans, *config) : print_plans(plans, *config);
     if (options.picture.empty()) return exit_done;
     const std::string title =
         fmt::format("{}: {:.3f} s, trapezoids {:.3f} s", plans.name, plans.ride.seconds, plans.trapezoids.seconds);

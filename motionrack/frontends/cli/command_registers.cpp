@@ -20,7 +20,7 @@ struct RegistersOptions {
     bool clear = false, all = false, json = false;
 };
 
-void print(const rack::RegisterView& view, const RegistersOptions& options) {
+void print_registers(const rack::RegisterView& view, const RegistersOptions& options) {
     fmt::print("{}", options.json ? rack::view_json(view) : rack::view_text(view, options.all));
 }
 
@@ -37,7 +37,7 @@ int live_registers(const RegistersOptions& options) {
     if (!port) return report(port.error());
     const rack::RegisterView view = kind->view(**port, options.clear);
     if ((*port)->trouble()) return report(*(*port)->trouble());
-    print(view, options);
+    print_registers(view, options);
     if (view.answered()) return exit_done;
     print_error(fmt::format("Every register reads FFFFh: no card answers at {}. Check the region, offset and stride.",
                             options.live));
@@ -57,7 +57,7 @@ int virtual_registers(const RegistersOptions& options) {
         if (!options.card.empty() && options.card != card.name()) continue;
         const rack::CardKind* const kind = rack::find_card_kind(config->cards[i].type);
         if (!kind || !kind->view) continue;
-        print(kind->view(*card.port(), options.clear), options);
+        print_registers(kind->view(*card.port(), options.clear), options);
         return exit_done;
     }
     print_error(

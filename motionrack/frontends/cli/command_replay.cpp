@@ -55,7 +55,8 @@ int run_again(const trace::RecordingReader& recording, const std::string& path, 
     return done ? exit_done : report(done.error());
 }
 
-int compare(const trace::RecordingReader& recording, const std::string& path, const ReplayOptions& options) {
+int compare_with_replay(const trace::RecordingReader& recording, const std::string& path,
+                        const ReplayOptions& options) {
     const Result<trace::RecordingReader> again = trace::RecordingReader::open(path);
     if (!again) return report(again.error());
     ProgressLine progress(options.quiet || options.json);
@@ -96,7 +97,7 @@ int replay(const ReplayOptions& options) {
     const std::string path = options.record.empty() ? scratch.folder + "/replay.h5" : options.record;
     if (const int bad = run_again(*recording, path, options); bad != exit_done) return bad;
     if (stop_asked) return report({Trouble::stopped, "Stopped before the replay was done; nothing is told of it."});
-    return compare(*recording, path, options);
+    return compare_with_replay(*recording, path, options);
 }
 
 }  // namespace

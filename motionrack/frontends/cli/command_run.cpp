@@ -66,7 +66,7 @@ void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, 
 }
 
 /// `whole`: what was written while it ran is.
-int write_all(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
+int write_results(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
     std::vector<std::string> written;
     const int code = write_results(job.report(), options.files, written);
     for (const std::string& path : {options.vcd, options.record})
@@ -133,7 +133,7 @@ int run(const RunOptions& options) {
     if (!done) code = report(done.error());
     if (!outcome.ended) code = report(outcome.ended.error());
     print_outcome(**job, request, outcome, options);
-    const int wrote = write_all(**job, options, done.has_value());
+    const int wrote = write_results(**job, options, done.has_value());
     if (code == exit_done) code = wrote;
     return code == exit_done && !outcome.position_trusted ? static_cast<int>(exit_machine) : code;
 }

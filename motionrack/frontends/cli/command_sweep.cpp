@@ -60,7 +60,7 @@ Result<sweep::SweepFiles> load_files(const std::string& file, const sweep::Sweep
     return out;
 }
 
-int tell(const std::vector<Error>& errors) {
+int print_errors(const std::vector<Error>& errors) {
     for (const Error& error : errors) print_error(error.text());
     return errors.empty() ? static_cast<int>(exit_done) : exit_code(errors.front().trouble);
 }
@@ -71,12 +71,12 @@ Loaded load(const std::string& file) {
     const Result<std::string> text = read_text(file);
     if (!text) return out.code = report(text.error()), std::move(out);
     sweep::SweepFileReading read = sweep::read_sweep_file(*text, file);
-    if (out.code = tell(read.errors); out.code != exit_done) return out;
+    if (out.code = print_errors(read.errors); out.code != exit_done) return out;
     const Result<sweep::SweepFiles> files = load_files(file, read.file->settings, out);
     if (!files) return out.code = report(files.error()), std::move(out);
     sweep::SweepReading ready = sweep::prepare(std::move(*read.file), file, *files);
     for (const Error& warning : ready.warnings) print_warning(warning.text());
-    out.code = tell(ready.errors);
+    out.code = print_errors(ready.errors);
     out.sweep = std::move(ready.sweep);
     return out;
 }
@@ -93,7 +93,7 @@ std::string endings(const sweep::Sweep& sweep, const sweep::Results& results) {
     return out;
 }
 
-int write_all(const sweep::Sweep& sweep, sweep::Results& results, const SweepOptions& options) {
+int write_tables(const sweep::Sweep& sweep, sweep::Results& results, const SweepOptions& options) {
     if (const Result<void> done = results.finish(); !done) return report(done.error());
     if (!options.picture.empty())
         if (const Result<void> drawn = write_text(options.picture, sweep::picture_of(sweep, results)); !drawn)
@@ -141,7 +141,7 @@ int sweep_all(const SweepOptions& options) {
         fmt::print("{} of {} were done before\n", before, rack::counted(all.points(), "point"));
     stop_on_signals();
     const Result<void> done = run_missing(all, **results, options);
-    if (done) return write_all(all, **results, options);
+    if (done) return write_tables(all, **results, options);
     if (done.error().trouble != Trouble::stopped) return report(done.error());
     return report({Trouble::stopped,
                    fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.",

@@ -38,7 +38,7 @@ constexpr CountName count_names[] = {
     {"stale", "times stale", &dds::Counts::stale},
 };
 
-ordered_json json_of(const dds::Source& source) {
+ordered_json source_json(const dds::Source& source) {
     return {{"host", source.host_name()}, {"process", source.process}, {"id", source.id_text()}};
 }
 
@@ -74,7 +74,7 @@ std::string status_json(const dds::Subscriber& subscriber, const std::string& bu
         {"bus", bus}, {"joined", judge.joined()}, {"stale", judge.stale()}, {"in_conflict", judge.in_conflict()}};
     if (judge.joined()) {
         const dds::Frame& frame = judge.frame();
-        out["source"] = json_of(judge.source());
+        out["source"] = source_json(judge.source());
         out["period_us"] = to_seconds(judge.period()) * 1e6;
         out["pace_us"] = to_seconds(judge.pace()) * 1e6;
         out["sequence"] = frame.sequence;
@@ -86,7 +86,7 @@ std::string status_json(const dds::Subscriber& subscriber, const std::string& bu
     for (const CountName& each : count_names) counts[each.key] = judge.counts().*each.count;
     counts["overruns"] = subscriber.overruns();
     for (const dds::Other& other : judge.others()) {
-        others.push_back(json_of(other.source));
+        others.push_back(source_json(other.source));
         others.back()["frames"] = other.frames;
         others.back()["in_conflict"] = other.in_conflict;
     }
@@ -98,8 +98,8 @@ std::string status_json(const dds::Subscriber& subscriber, const std::string& bu
 std::string event_json(const dds::Event& event, Instant start) {
     ordered_json out = {
         {"event", dds::name_of(event.kind)}, {"at_s", to_seconds(event.when - start)}, {"text", dds::sentence(event)}};
-    out["source"] = json_of(event.source);
-    if (event.other.process != 0) out["other"] = json_of(event.other);
+    out["source"] = source_json(event.source);
+    if (event.other.process != 0) out["other"] = source_json(event.other);
     return text_of(out);
 }
 

@@ -4,7 +4,8 @@
 namespace motionrack::grbl {
 namespace {
 
-const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n", unlock = "[MSG:'$H'|'$X' to unlock]\r\n";
+const std::string exchange_banner = "\r\nGrbl 1.1h ['$' for help]\r\n",
+                  exchange_unlock = "[MSG:'$H'|'$X' to exchange_unlock]\r\n";
 
 /// On a machine of three axes that stands in Idle at 0; each row begins afresh.
 struct Exchange {
@@ -82,7 +83,7 @@ const Exchange exchanges[] = {
     {"build with a name", "$I=mill 3\n$I\n", "ok\r\n[VER:1.1h.20190830:MILL3]\r\n[OPT:V,15,128]\r\nok\r\n"},
     {"startup lines", "$N\n", "$N0=\r\n$N1=\r\nok\r\n"},
     {"a startup line is kept, and run at a reset", "$N0=G20\n$N\n\x18",
-     "ok\r\n$N0=G20\r\n$N1=\r\nok\r\n" + banner + ">G20:ok\r\n"},
+     "ok\r\n$N0=G20\r\n$N1=\r\nok\r\n" + exchange_banner + ">G20:ok\r\n"},
     {"a startup line must be right", "$N0=G0G1\n", "error:21\r\n"},
     {"unlock where nothing is locked", "$X\n", "ok\r\n"},
     {"offsets", "$#\n",
@@ -92,7 +93,7 @@ const Exchange exchanges[] = {
      "0.000]\r\n"
      "[PRB:0.000,0.000,0.000:0]\r\nok\r\n"},
     {"offsets are forgotten with $RST=#", "G10 L2 P2 X5\n$RST=#\n",
-     "ok\r\n[MSG:Restoring defaults]\r\nok\r\n" + banner},
+     "ok\r\n[MSG:Restoring defaults]\r\nok\r\n" + exchange_banner},
     {"$RST of something else", "$RST=1\n", "error:3\r\n"},
     {"settings that last for the session", "$10=2\n$13=1\n?",
      "ok\r\nok\r\n<Idle|WPos:0.0000,0.0000,0.0000|Bf:15,128|FS:0.0,0|WCO:0.0000,0.0000,0.0000>\r\n"},
@@ -100,17 +101,18 @@ const Exchange exchanges[] = {
     {"a setting of the rack that is different", "$110=500\n",
      "[MSG:$110 is 6000.000 in the rack file. It was not changed; change the rack file]\r\nerror:3\r\n"},
     {"check mode", "$C\nG1 X100 F10\nG1\nG0 G1\n$C\n",
-     "[MSG:Enabled]\r\nok\r\nok\r\nok\r\nerror:21\r\n[MSG:Disabled]\r\nok\r\n" + banner},
+     "[MSG:Enabled]\r\nok\r\nok\r\nok\r\nerror:21\r\n[MSG:Disabled]\r\nok\r\n" + exchange_banner},
     {"check mode in the report", "$C\n?",
      "[MSG:Enabled]\r\nok\r\n<Check|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"sleep takes no line until a reset, then it is locked", "$SLP\nG0 X1\n?\x18",
-     "ok\r\n[MSG:Sleeping]\r\n<Sleep|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + banner + unlock},
+     "ok\r\n[MSG:Sleeping]\r\n<Sleep|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + exchange_banner +
+         exchange_unlock},
     // real-time bytes
     {"a report gives no ok", "?", "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"two before a report are one", "??", "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
-    {"a reset in Idle does not alarm", "\x18", banner},
+    {"a reset in Idle does not alarm", "\x18", exchange_banner},
     {"hold in Idle, then a reset", "!?\x18",
-     "<Hold:0|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + banner},
+     "<Hold:0|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n" + exchange_banner},
     {"a hold keeps G-code waiting, questions are answered", "!\n$G\n$$\nG0\n~",
      "ok\r\n[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\nerror:8\r\nok\r\n"},
     {"a door that is shut again", "\x84?~?",
@@ -121,9 +123,9 @@ const Exchange exchanges[] = {
      "<Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000>\r\n"},
     {"a line of an alarm: too far", "G0 X301\n", "ALARM:2\r\n[MSG:Reset to continue]\r\n"},
     {"after it only a reset is heard, and the line is answered then", "G0 X301\n$X\nG0\n\x18",
-     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + banner + unlock},
+     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + exchange_banner + exchange_unlock},
     {"a lock takes no G-code, $X ends it", "G0 X301\n\x18G0 X1\n$X\n$G\n",
-     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + banner + unlock +
+     "ALARM:2\r\n[MSG:Reset to continue]\r\nok\r\n" + exchange_banner + exchange_unlock +
          "error:9\r\n[MSG:Caution: Unlocked]\r\nok\r\n[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
     {"the end of a program", "M2\n$G\n", "[MSG:Pgm End]\r\nok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n"},
 };

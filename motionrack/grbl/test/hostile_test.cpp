@@ -1,6 +1,7 @@
 // A port that anything may come down.
 #include <cstdlib>
 #include <random>
+#include <tests/environment.hpp>
 
 #include "bench.hpp"
 
@@ -13,16 +14,14 @@ using testing::StartsWith;
 
 /// MOTIONRACK_SEED=N picks the first of them.
 TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
-    const char* wanted = std::getenv("MOTIONRACK_SEED");
-    const unsigned first = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10))
-                                             : std::random_device{}() % 1'000'000;
+    const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> pieces = {"G0", "G1",   "X1",     "Y-3",   "Z5",     "F600", "\n",   "\r\n",
                                              "$$", "$G",   "$H",     "$X",    "$J=",    "G91",  "?",    "!",
                                              "~",  "\x18", "\x84",   "\x85",  "\x90",   "\x91", "\x9E", "M3",
                                              "S5", "M0",   "G4P.1",  "$C",    "$SLP",   "(",    ")",    ";",
                                              "%",  "\n",   "G2X1I1", "$10=3", "$RST=*", "\n",   "G92X0"};
-    for (unsigned seed = first; seed < first + 40; ++seed) {
-        std::mt19937 random(seed);
+    for (std::uint64_t seed = first; seed < first + 40; ++seed) {
+        std::mt19937 random(static_cast<std::uint32_t>(seed));
         Bench b(random() % 2 == 0 ? three_axes() : router());
         for (int i = 0; i < 60; ++i) {
             std::string bytes;
@@ -44,15 +43,13 @@ TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
 /// Lines without a reset, a sleep or a hold among them, however wrong, are answered once each. None leads beyond the
 /// travel: the alarm of that is the answer, as Grbl has it.
 TEST(AGrblPort, AnswersEveryLineOnce) {
-    const char* wanted = std::getenv("MOTIONRACK_SEED");
-    const unsigned first = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10))
-                                             : std::random_device{}() % 1'000'000;
+    const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> words = {"G0",   "G1",     "X1",  "Y3",      "Z.5", "F600", "$$",    "$G",
                                             "$#",   "$I",     "$X",  "$J=X1F9", "G91", "?",    "\x91",  "M3",
                                             "S5",   "G4P.01", "(a)", ";b",      "%",   "G90",  "$10=1", "$N",
                                             "\xFF", "G80",    "M5",  "M8",      "M9",  "$5=1", "Q",     "=1"};
-    for (unsigned seed = first; seed < first + 20; ++seed) {
-        std::mt19937 random(seed);
+    for (std::uint64_t seed = first; seed < first + 20; ++seed) {
+        std::mt19937 random(static_cast<std::uint32_t>(seed));
         Bench b(three_axes());
         int lines = 0, heard = 0;
         for (int i = 0; i < 100; ++i) {

@@ -10,6 +10,7 @@
 #include <future>
 #include <motionrack/journal/journal.hpp>
 #include <random>
+#include <tests/environment.hpp>
 #include <thread>
 
 namespace motionrack::journal {
@@ -187,8 +188,8 @@ TEST_F(AJournal, TakesEntriesOfManyThreads) {
 }
 
 TEST_F(AJournal, LosesNothingThatWasAcknowledgedInAHundredKills) {
-    const std::uint32_t seed = std::random_device{}();
-    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto seed = static_cast<std::uint32_t>(seed_from_environment());
+    SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
     std::mt19937 random(seed);
     std::vector<std::pair<std::int64_t, std::int64_t>> told;
     for (int kill_count = 0; kill_count < 100; ++kill_count) {

@@ -9,16 +9,12 @@
 #include <iostream>
 #include <motionrack/mark/test/mark_fuzz.hpp>
 #include <motionrack/sim/test/fuzz_feed.hpp>
+#include <tests/environment.hpp>
 #include <tests/text_of.hpp>
 #include <vector>
 
 namespace motionrack::mark {
 namespace {
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* const text = std::getenv(name);
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 std::vector<std::string> corpus(const char* name) {
     std::vector<std::filesystem::path> paths;
@@ -62,7 +58,7 @@ void run(const char* name, std::string (*check)(std::string_view), std::uint64_t
     const std::vector<std::string> seeds = corpus(name);
     ASSERT_GE(seeds.size(), 5u);
     for (const std::string& seed : seeds) ASSERT_EQ(check(seed), "") << seed;
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
+    const std::uint64_t seed = seed_from_environment();
     jobs = from_environment("MOTIONRACK_JOBS", jobs);
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << jobs << " jobs" << std::endl;
     for (std::uint64_t i = 0; i < jobs; ++i) {

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 /// The reference job: a square of 10 mm from its corner on, at 500 mm/s on a belt at 100 mm/s.
-const std::string belt_job =
+const std::string mark_belt_job =
     "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 100\n";
 
 /// Whether a point was marked within `near_mm`, as the end of a piece.
@@ -23,7 +23,7 @@ bool has_corner(const Marked& marked, Spot corner, double near_mm) {
 }
 
 TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
-    const Outcome out = run(job_of(belt_job + "[fly]\nmode = 'encoder'\n"));
+    const Outcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_EQ(out.strokes, 1u);
     EXPECT_NEAR(out.drawing_mm, 40, 1e-9);
     EXPECT_LE(out.on.deviation.worst_mm, 0.0025) << "one count and one tick";
@@ -38,7 +38,7 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
 }
 
 TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
-    const Outcome out = run(job_of(belt_job + "[fly]\nmode = 'encoder'\n"));
+    const Outcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_NEAR(out.field.high.x, 60.57, 0.01);
     // The corners are marked after 20, 40, 60 and 80 ms: the second at 10 + 4, the last at 8 mm.
     EXPECT_NEAR(out.on.reach.high.x, 14, 0.05);
@@ -57,7 +57,7 @@ TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
 TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
     for (const char* mode : {"encoder", "simulated", "mcbsp"})
         for (const char* way : {"0", "90", "180", "270", "30"}) {
-            Job job = job_of(belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
+            Job job = job_of(mark_belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
             EXPECT_LE(run(job).on.deviation.worst_mm, std::string(mode) == "mcbsp" ? 0.0045 : 0.003)
                 << mode << ' ' << way;
         }
@@ -72,7 +72,7 @@ TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
 }
 
 TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
-    Job job = job_of(belt_job + "[fly]\nmode = 'encoder'\n");
+    Job job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
     const Outcome out = run(job);
     ASSERT_TRUE(out.fits_factor);
     // 0.08 s and a little until the last corner; the field ends at 60.57 mm.
@@ -89,9 +89,9 @@ TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
 }
 
 TEST(MarkJob, AWrongScaleAndALateSourceShowAsTheirFormulasSay) {
-    const Outcome wrong = run(job_of(belt_job + "[fly]\nmode = 'encoder'\nscale_factor = 1.01\n"));
+    const Outcome wrong = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\nscale_factor = 1.01\n"));
     EXPECT_NEAR(wrong.on.deviation.worst_mm, 0.01 * 100 * wrong.on.seconds, 0.01);
-    const Outcome late = run(job_of(belt_job + "[sender]\ndelay_us = 2000\n[fly]\nmode = 'mcbsp'\n"));
+    const Outcome late = run(job_of(mark_belt_job + "[sender]\ndelay_us = 2000\n[fly]\nmode = 'mcbsp'\n"));
     EXPECT_NEAR(late.on.deviation.worst_mm, 0.2, 0.005) << "2 ms at 100 mm/s";
 }
 

@@ -11,7 +11,7 @@ namespace {
 using rtc5::Engine;
 using rtc5::Op;
 
-constexpr double k = 5184;
+constexpr double counts_per_bit = 5184;
 
 struct LogSink final : rtc5::Sink {
     explicit LogSink(OverflowLog& to) : log(to) {}
@@ -43,9 +43,9 @@ Engine card_with_a_list() {
 
 TEST(OverflowLog, HasTheTicksInWhichTheFlagsAreSetAnew) {
     parts::TrackSettings settings;
-    settings.profile = {{0, 0.6 * 1e6 / k}};
+    settings.profile = {{0, 0.6 * 1e6 / counts_per_bit}};
     const parts::Track track = *parts::Track::make(settings);
-    OverflowLog log(k, track);
+    OverflowLog log(counts_per_bit, track);
     LogSink sink(log);
     Engine card = card_with_a_list();
     ASSERT_TRUE(card.run_to_rest(1'000'000, &sink));
@@ -89,7 +89,7 @@ TEST(OverflowLog, HasTheTicksInWhichTheFlagsAreSetAnew) {
         EXPECT_EQ(o.name, names[seen[i].bit]) << i;
         EXPECT_EQ(o.from_s, static_cast<double>(seen[i].from) * 1e-5) << i;
         EXPECT_EQ(o.to_s, static_cast<double>(seen[i].to) * 1e-5) << i;
-        EXPECT_EQ(o.beyond_mm, seen[i].beyond / k) << i;
+        EXPECT_EQ(o.beyond_mm, seen[i].beyond / counts_per_bit) << i;
         EXPECT_NEAR(o.part.x, o.field.x - track.travel(o.from_s), 1e-9);
         (o.marking ? some_marking : some_dark) = true;
     }

@@ -15,8 +15,9 @@ namespace io = ioflex02;
 using ::testing::HasSubstr;
 
 /// Drives lines with a test lead and reads over the bus.
-struct Bench {
-    explicit Bench(const std::string& text = "card.p1 = \"ioflex02\"") : session(std::move(*Session::open(text))) {
+struct Ioflex02Bench {
+    explicit Ioflex02Bench(const std::string& text = "card.p1 = \"ioflex02\"")
+        : session(std::move(*Session::open(text))) {
         EXPECT_TRUE(session->advance(1'000));  // the first sample counts nothing
     }
     void set(const std::string& wire, int level) {
@@ -53,7 +54,7 @@ struct Bench {
 };
 
 TEST(Ioflex02InARack, CountsWhatItsLinesDoAndAnswersFromItsBaseAddress) {
-    Bench bench;
+    Ioflex02Bench bench;
     EXPECT_EQ(bench.read("SIGNATURE"), 0x4F49u);
     bench.turn(10);
     EXPECT_EQ(bench.position(0), 10);
@@ -67,7 +68,7 @@ TEST(Ioflex02InARack, CountsWhatItsLinesDoAndAnswersFromItsBaseAddress) {
 }
 
 TEST(Ioflex02InARack, IsCalibratedAtTheIndexAfterTheCalibrationInput) {
-    Bench bench;
+    Ioflex02Bench bench;
     bench.turn(7);
     bench.write("CMD", io::cResNmSig);
     EXPECT_EQ(*bench.session->peek("p1", "0.CALIBRATED"), 0);
@@ -81,12 +82,13 @@ TEST(Ioflex02InARack, IsCalibratedAtTheIndexAfterTheCalibrationInput) {
 }
 
 TEST(Ioflex02InARack, SeveralCardsShareABusAndOneAddressIsAConflict) {
-    Bench bench("[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\nserial = 2\n");
+    Ioflex02Bench bench(
+        "[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\nserial = 2\n");
     bench.turn(5, "p2", 3);
     EXPECT_EQ(bench.position(3, "p2"), 5);
     EXPECT_EQ(bench.position(3, "p1"), 0);
     EXPECT_EQ(bench.read("SERIAL", "p2", 0x2400), 2u);
-    Bench same("[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nserial = 2\n");
+    Ioflex02Bench same("[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nserial = 2\n");
     static_cast<void>(same.read("SERIAL"));
     const auto conditions = same.session->rack().kernel().conditions();
     ASSERT_FALSE(conditions.empty());
@@ -164,7 +166,7 @@ TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
 }
 
 TEST(Ioflex02InARack, ACopyOfTheWorldGoesOnAlike) {
-    Bench bench(measured);
+    Ioflex02Bench bench(measured);
     bench.turn(3, "flex", 0);
     const auto copy = bench.session->copy();
     ASSERT_TRUE(bench.session->advance(1'000'000));

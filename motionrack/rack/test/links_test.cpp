@@ -115,7 +115,7 @@ struct Ended {
 };
 
 /// Runs X to 10 mm and A to 20 degrees.
-Ended run(const std::string& wires) {
+Ended run_wires(const std::string& wires) {
     Ended out;
     out.rack = std::make_unique<Rack>(good(rack_with(second_axis + "[wires]\n" + wires)));
     JobSettings settings;
@@ -142,7 +142,7 @@ TEST(Rack, AJobRunsOverAnEightBitBus) {
 }
 
 TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
-    const Ended ended = run("X.step = \"open\"\n");
+    const Ended ended = run_wires("X.step = \"open\"\n");
     const AxisOutcome& x = ended.outcome.axes[0];
     EXPECT_EQ(x.pulses_sent, 6400);
     EXPECT_EQ(x.real_end, 0);
@@ -153,7 +153,7 @@ TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
 }
 
 TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
-    const Ended ended = run("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n");
+    const Ended ended = run_wires("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n");
     // 20 degrees are 16,000 pulses, at 640 pulses a mm; 10 mm are 6400 pulses, at 800 a degree.
     EXPECT_EQ(ended.outcome.axes[0].real_end, 25);
     EXPECT_EQ(ended.outcome.axes[1].real_end, 8);
@@ -161,11 +161,11 @@ TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
 }
 
 TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
-    const Ended crossed = run("m.xeca = \"X.enc_b\"\nm.xecb = \"X.enc_a\"\n");
+    const Ended crossed = run_wires("m.xeca = \"X.enc_b\"\nm.xecb = \"X.enc_a\"\n");
     EXPECT_EQ(crossed.outcome.axes[0].counts_read, -8000);
     EXPECT_EQ(crossed.outcome.axes[0].real_end, 10);
     EXPECT_TRUE(crossed.outcome.position_trusted);
-    const Ended open = run("m.xeca = \"open\"\nm.xecb = \"open\"\n");
+    const Ended open = run_wires("m.xeca = \"open\"\nm.xecb = \"open\"\n");
     EXPECT_EQ(open.outcome.axes[0].counts_read, 0);
     EXPECT_EQ(open.outcome.axes[1].counts_read, 20000);
 }

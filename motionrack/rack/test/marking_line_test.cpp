@@ -15,7 +15,7 @@ using rtc5::Op;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* line = R"([card.scan]
+constexpr const char* marking_line = R"([card.scan]
 type = "rtc5"
 list_memory = 256
 [belt.line]
@@ -29,7 +29,7 @@ bits_per_mm = 5184
 )";
 
 struct Line {
-    explicit Line(const std::string& text = line) {
+    explicit Line(const std::string& text = marking_line) {
         auto opened = Session::open(text);
         if (!opened) ADD_FAILURE() << opened.error().message;
         session = std::move(*opened);
@@ -121,7 +121,7 @@ TEST(MarkingLine, WhatIsMarkedCanBeSeenWhileItRunsAndLooksChangeNothing) {
 }
 
 TEST(MarkingLine, ACopyInTheMiddleOfAMarkGoesOnAlike) {
-    Line bench(std::string(line) +
+    Line bench(std::string(marking_line) +
                "[scanner.head.galvo]\nideal = false\ndead_us = 100\n[scanner.head.laser]\non_delay_us = "
                "35\noff_delay_us = 12\n");
     bench.square(5184.0 / 1000);
@@ -172,7 +172,7 @@ TEST(MarkingLine, TheSpeedCanBeChangedAndTheEncoderBroken) {
     ASSERT_TRUE(bench.session->fault("encoder.broken_a", "line"));
     const std::int64_t broken = bench.peek("ENCODER0");
     bench.ms(100);
-    EXPECT_LE(std::llabs(bench.peek("ENCODER0") - broken), 2) << "one line alone goes to and fro";
+    EXPECT_LE(std::llabs(bench.peek("ENCODER0") - broken), 2) << "one marking_line alone goes to and fro";
     EXPECT_THAT(bench.session->set_part("line.position_mm", 0).error().message, HasSubstr("only speed_mm_s"));
     EXPECT_THAT(bench.session->set_part("line.speed_mm_s", NAN).error().message,
                 HasSubstr("-10000 to 10000 are possible"));
@@ -198,7 +198,7 @@ TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
 }
 
 TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
-    Line bench(std::string(line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\ndelay_us = 350\n");
+    Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\ndelay_us = 350\n");
     bench.ms(100);
     // The last reading whose word is complete: at 99.6 ms, 9.96 mm.
     EXPECT_EQ(bench.part("line.word"), 9960);
@@ -213,9 +213,10 @@ TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
 }
 
 TEST(MarkingLine, EqualWordsCountAsWordsToo) {
-    Line bench(std::string(line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\n");
+    Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\n");
     ASSERT_TRUE(bench.session->set_part("line.speed_mm_s", 0));
-    ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77)) << "the line between sender and card, driven by hand";
+    ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77))
+        << "the marking_line between sender and card, driven by hand";
     ASSERT_TRUE(bench.engine().set_multi_mcbsp_in(1, 16384, 0));
     bench.ms(1);
     // 77 = 9 * 8 + 5: words of type 5 fill the locations in turn.
@@ -223,7 +224,7 @@ TEST(MarkingLine, EqualWordsCountAsWordsToo) {
 }
 
 TEST(MarkingLine, PartsThatPassTheSensorStartTheList) {
-    Line bench(std::string(line) + "[belt.line.parts]\nevery_mm = 20\nfirst_mm = 5\nlength_mm = 8\n");
+    Line bench(std::string(marking_line) + "[belt.line.parts]\nevery_mm = 20\nfirst_mm = 5\nlength_mm = 8\n");
     ASSERT_TRUE(bench.engine().set_start_list(1));
     bench.put(Op::mark_abs, {1000, 0});
     bench.put(Op::jump_abs, {0, 0});
@@ -263,7 +264,8 @@ TEST(MarkingLine, ATableTurnsThePartAndItsEncoderCountsDegrees) {
 }
 
 TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
-    Line bench(std::string(line) + "[wires]\n\"scan.enc0_a\" = \"line.enc_b\"\n\"scan.enc0_b\" = \"line.enc_a\"\n");
+    Line bench(std::string(marking_line) +
+               "[wires]\n\"scan.enc0_a\" = \"line.enc_b\"\n\"scan.enc0_b\" = \"line.enc_a\"\n");
     bench.ms(10);
     EXPECT_NEAR(static_cast<double>(bench.peek("ENCODER0")), -1'000, 1) << "the lines crossed over count backwards";
     Line ramp(
@@ -281,7 +283,8 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
         EXPECT_FALSE(reading.config) << text;
         return reading.errors.empty() ? std::string() : all_texts(reading.errors);
     };
-    EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"), HasSubstr("6:8: belt line: there is no card 'none'"));
+    EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"),
+                HasSubstr("6:8: belt marking_line: there is no card 'none'"));
     EXPECT_THAT(refused("[belt.line]\ncard = \"m\"\n"), HasSubstr("one of type rtc5 marks"));
     EXPECT_THAT(refused("[belt.scan]\n"), HasSubstr("cannot be the name"));
     EXPECT_THAT(refused("[belt.line]\ncentre_x_mm = 1\n"), HasSubstr("centre_x_mm"));
@@ -297,7 +300,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     EXPECT_THAT(refused("[table.dial]\n[table.dial.sender]\ntwo_axes = true\n"), HasSubstr("two_axes"));
     EXPECT_THAT(refused("[scanner.head]\n"), HasSubstr("scanner head has no card"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\npart_on = \"line\"\n"),
-                HasSubstr("there is no belt or table 'line'"));
+                HasSubstr("there is no belt or table 'marking_line'"));
     EXPECT_THAT(refused("[scanner.one]\ncard = \"scan\"\n[scanner.two]\ncard = \"scan\"\n"),
                 HasSubstr("drives scanner one already"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nbits_per_mm = 5000\n[scanner.head.lens]\n"),

@@ -27,7 +27,7 @@ std::string rack_text(const std::string& block, const std::string& more = {}) {
     return text + "[probe]\n" + block + more;
 }
 
-JobOutcome run(const std::string& rack_text, const std::string& program) {
+JobOutcome run_probe(const std::string& rack_text, const std::string& program) {
     Rack rack(good(rack_text));
     JobSettings settings;
     settings.program = program;
@@ -60,7 +60,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
         const std::string program =
             "G21 G90\nG38.2 X" + std::string(feed < 10 ? "1" : "250") + " F" + std::to_string(feed) + "\nM2\n";
         const double edge = feed < 10 ? 0.321 : 187.123;
-        const JobOutcome out = run(rack_text("x_from_mm = " + std::to_string(edge) + "\n"), program);
+        const JobOutcome out = run_probe(rack_text("x_from_mm = " + std::to_string(edge) + "\n"), program);
         ASSERT_TRUE(out.ended) << out.ended.error().message;
         EXPECT_EQ(probed(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
         // It comes to rest behind the edge, by no more than the way to brake and a little.
@@ -73,8 +73,8 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
 
 TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
     const JobOutcome out =
-        run(rack_text("x_from_mm = 41.7\ny_from_mm = 0\ny_to_mm = 100\nz_from_mm = 0\nz_to_mm = 75\n"),
-            "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
+        run_probe(rack_text("x_from_mm = 41.7\ny_from_mm = 0\ny_to_mm = 100\nz_from_mm = 0\nz_to_mm = 75\n"),
+                  "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const auto texts = probed(out);
     ASSERT_EQ(texts.size(), 1u);
@@ -88,8 +88,8 @@ TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
 TEST(Probing, LeavesAndTouchesWithinOneProgram) {
     // The classic: fast down, back until it leaves, slowly down again; then up by increments from where it stands.
     const JobOutcome out =
-        run(rack_text("z_to_mm = 12.34\n"),
-            "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
+        run_probe(rack_text("z_to_mm = 12.34\n"),
+                  "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
     EXPECT_EQ(probed(out), (std::vector{at("touched", 0, 0, edge), at("left", 0, 0, edge + 1 / pulses_per_mm),
@@ -129,7 +129,7 @@ void expect_measured(const JobOutcome& out) {
 }
 
 TEST(Probing, LoopsSubsAndConditionsGoByWhatTheProbeDid) {
-    expect_measured(run(rack_text("z_to_mm = 12.34\n"), measures));
+    expect_measured(run_probe(rack_text("z_to_mm = 12.34\n"), measures));
 }
 
 TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
@@ -148,7 +148,7 @@ TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
 
 TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
     const JobOutcome out =
-        run(rack_text("x_from_mm = 100\nx_to_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
+        run_probe(rack_text("x_from_mm = 100\nx_to_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(probed(out), std::vector{at("touched", 100, 0, 80)});
     EXPECT_EQ(out.axes[0].real_end, 120);
@@ -156,12 +156,12 @@ TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
 
 TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     const std::string rack = rack_text("x_from_mm = 200\n");
-    const JobOutcome may = run(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
+    const JobOutcome may = run_probe(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
     EXPECT_EQ(probed(may),
               std::vector<std::string>{"probe did not touch on its way, which ended at X 50.0000 Y 0.0000 Z 80.0000"});
     EXPECT_EQ(may.axes[0].real_end, 60);
-    const JobOutcome must = run(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
+    const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
     EXPECT_EQ(must.ended.error().trouble, Trouble::machine);
     EXPECT_THAT(must.ended.error().message, HasSubstr("In line 2 the probe did not touch"));
@@ -169,18 +169,18 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
 }
 
 TEST(Probing, IsRefusedWhereTheProbeTouchesAlreadyOrDoesNotYet) {
-    const JobOutcome touches = run(rack_text("x_from_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
+    const JobOutcome touches = run_probe(rack_text("x_from_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
     ASSERT_FALSE(touches.ended);
     EXPECT_THAT(touches.ended.error().message, HasSubstr("touches already"));
     EXPECT_EQ(touches.axes[0].real_end, 20);
-    const JobOutcome free = run(rack_text("x_from_mm = 10\n"), "G21 G90\nG38.5 X50 F600\n");
+    const JobOutcome free = run_probe(rack_text("x_from_mm = 10\n"), "G21 G90\nG38.5 X50 F600\n");
     ASSERT_FALSE(free.ended);
     EXPECT_THAT(free.ended.error().message, HasSubstr("does not touch before the move"));
 }
 
 TEST(Probing, GoesWithLimitedJerkToo) {
-    const JobOutcome out = run(rack_text("x_from_mm = 187.123\n", "[controller]\nprofile = \"jerk_limited\"\n"),
-                               "G21 G90\nG1 X20 Y20 F3000\nG38.2 X250 F3000\nG91 G1 Y-5\nX-10\nM2\n");
+    const JobOutcome out = run_probe(rack_text("x_from_mm = 187.123\n", "[controller]\nprofile = \"jerk_limited\"\n"),
+                                     "G21 G90\nG1 X20 Y20 F3000\nG38.2 X250 F3000\nG91 G1 Y-5\nX-10\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(probed(out), std::vector{at("touched", whole(187.123), 20, 80)});
     EXPECT_NEAR(out.axes[1].real_end, 15, 0.002);
@@ -238,7 +238,7 @@ class ProbingByLines : public testing::TestWithParam<const char*> {
     }
 };
 INSTANTIATE_TEST_SUITE_P(With, ProbingByLines, testing::Values("trapezoid", "jerk_limited"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& each) { return std::string(each.param); });
 
 TEST_P(ProbingByLines, TheLineAfterBeginsWhereTheMachineStands) {
     Fed fed(config("x_from_mm = 187.123\n"));
@@ -298,7 +298,7 @@ TEST_P(ProbingByLines, AStopEndsItAndAHoldWaitsForItsEnd) {
 TEST(Probing, NeedsAProbe) {
     std::string text = rack_text("");
     text.erase(text.find("[probe]"));
-    const JobOutcome out = run(text, "G38.2 X10 F60\n");
+    const JobOutcome out = run_probe(text, "G38.2 X10 F60\n");
     ASSERT_FALSE(out.ended);
     EXPECT_THAT(out.ended.error().message, HasSubstr("this machine has no probe input"));
 }

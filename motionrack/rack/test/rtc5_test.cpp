@@ -18,8 +18,8 @@ using ::testing::HasSubstr;
 
 constexpr const char* small = "[card.c1]\ntype = \"rtc5\"\nlist_memory = 64\n";
 
-struct Bench {
-    explicit Bench(const std::string& text = small) : session(std::move(*Session::open(text))) {}
+struct Rtc5Bench {
+    explicit Rtc5Bench(const std::string& text = small) : session(std::move(*Session::open(text))) {}
 
     rtc5::Engine& engine() { return rtc5_card_of(session->rack(), "c1")->engine(); }
     void put(Op op, std::initializer_list<double> parameters = {}) {
@@ -42,7 +42,7 @@ struct Bench {
 };
 
 TEST(Rtc5InARack, ACardAloneOpensAndItsOutputsReadAsBits) {
-    Bench bench("card.c1 = \"rtc5\"");
+    Rtc5Bench bench("card.c1 = \"rtc5\"");
     bench.begin();
     bench.put(Op::set_mark_speed, {1000});
     bench.put(Op::mark_abs, {-300, 70});
@@ -59,7 +59,7 @@ TEST(Rtc5InARack, ACardAloneOpensAndItsOutputsReadAsBits) {
 }
 
 TEST(Rtc5InARack, ItsEncoderLinesCountFourfold) {
-    Bench bench;
+    Rtc5Bench bench;
     for (int i = 0; i < 10; ++i) bench.set(i % 2 ? "enc0_b" : "enc0_a", i / 2 % 2 == 0);
     EXPECT_EQ(bench.peek("ENCODER0"), 10);
     EXPECT_EQ(bench.peek("ENCODER1"), 0);
@@ -67,7 +67,7 @@ TEST(Rtc5InARack, ItsEncoderLinesCountFourfold) {
 }
 
 TEST(Rtc5InARack, StartAndStopAreActiveLow) {
-    Bench bench;
+    Rtc5Bench bench;
     EXPECT_EQ(*bench.session->wire("c1.start_n"), 1) << "an open line is high";
     bench.begin();
     bench.put(Op::long_delay, {1000});
@@ -82,7 +82,7 @@ TEST(Rtc5InARack, StartAndStopAreActiveLow) {
 }
 
 TEST(Rtc5InARack, AWordOnItsMcbspIsANumberOf32Bits) {
-    Bench bench;
+    Rtc5Bench bench;
     ASSERT_TRUE(bench.engine().set_mcbsp_in(1, 1));
     bench.set("mcbsp", -2'147'483'648.0);
     EXPECT_EQ(bench.peek("MCBSP1"), -2'147'483'648);
@@ -96,7 +96,7 @@ TEST(Rtc5InARack, AWordOnItsMcbspIsANumberOf32Bits) {
 }
 
 TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
-    Bench bench;
+    Rtc5Bench bench;
     EXPECT_THAT(bench.session->read("c1", 16, 0).error().message, HasSubstr("no registers on a bus"));
     EXPECT_THAT(bench.session->write("c1", 16, 0, 0).error().message, HasSubstr("no registers on a bus"));
     const std::string known = bench.session->peek("c1", "HEIGHT").error().message;
@@ -106,7 +106,7 @@ TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
 }
 
 TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTablesAndWhatWasRecorded) {
-    Bench bench;
+    Rtc5Bench bench;
     bench.begin();
     bench.put(Op::set_trigger, {1, 7, 8});
     bench.put(Op::set_fly_x, {2});
@@ -133,7 +133,7 @@ TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTablesAndWhatWasRecorded) {
 }
 
 TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {
-    Bench bench;
+    Rtc5Bench bench;
     const std::string path = (std::filesystem::temp_directory_path() / "motionrack_rtc5_test.csv").string();
     bench.begin();
     bench.put(Op::set_mark_speed, {1000});

@@ -184,7 +184,9 @@ TEST(ServoAxis, ABrokenWireIsAStop) {
     for (const bool from_file : {true, false}) {
         Machine m(from_file ? carriage("", "[wires]\n\"board.esr\" = \"open\"\n") : carriage());
         m.here_is(100);
-        if (!from_file) ASSERT_TRUE(inject_fault(m.rack, "esr.broken", "board"));
+        if (!from_file) {
+            ASSERT_TRUE(inject_fault(m.rack, "esr.broken", "board"));
+        }
         m.run(milliseconds(2));
         EXPECT_THAT(m.axis->move_to(200, 100).error().message, HasSubstr("right end stop"));
         ASSERT_TRUE(m.axis->move_to(0, 100)) << "the other direction stays free";
@@ -266,7 +268,9 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
             const double home = type >= 3 ? 130 : plus ? 126 : 132, called = plus ? 126 : 132;
             EXPECT_NEAR(out.axes[0].counter_position - called, out.axes[0].machine_position - home, 0.0101)
                 << "to a count";
-            if (type % 2 == 0) EXPECT_NEAR(out.axes[0].counter_position, called, 0.05) << "it stands there";
+            if (type % 2 == 0) {
+                EXPECT_NEAR(out.axes[0].counter_position, called, 0.05) << "it stands there";
+            }
             EXPECT_THAT(homing_text(out), HasSubstr("the position is trusted"));
         }
 }

@@ -9,18 +9,18 @@ namespace {
 
 constexpr int index_pin = 0;
 constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
-constexpr std::array<std::string_view, 12> all_faults = {"motor.stall",
-                                                         "motor.lose_steps",
-                                                         "motor.push",
-                                                         "encoder.broken_a",
-                                                         "encoder.broken_b",
-                                                         "encoder.swapped",
-                                                         "limit_minus.stuck_open",
-                                                         "limit_minus.stuck_closed",
-                                                         "limit_plus.stuck_open",
-                                                         "limit_plus.stuck_closed",
-                                                         "home.stuck_open",
-                                                         "home.stuck_closed"};
+constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
+                                                                  "motor.lose_steps",
+                                                                  "motor.push",
+                                                                  "encoder.broken_a",
+                                                                  "encoder.broken_b",
+                                                                  "encoder.swapped",
+                                                                  "limit_minus.stuck_open",
+                                                                  "limit_minus.stuck_closed",
+                                                                  "limit_plus.stuck_open",
+                                                                  "limit_plus.stuck_closed",
+                                                                  "home.stuck_open",
+                                                                  "home.stuck_closed"};
 
 std::int64_t whole(double value) {
     return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5));
@@ -58,7 +58,7 @@ void AxisMachine::connect(sim::Motion& pulses) {
 }
 
 std::span<const std::string_view> AxisMachine::fault_names() {
-    return all_faults;
+    return axis_machine_faults;
 }
 
 // ---- What the pulses tell

@@ -9,8 +9,8 @@ namespace motionrack::parts {
 namespace {
 
 constexpr double nano = 1e9;
-constexpr double exact_limit = 9007199254740992.0;  // 2^53: up to here a double holds every whole number
-constexpr double farthest = 4503599627370496.0;     // microsteps; no axle turns as far
+constexpr double exact_limit = 9007199254740992.0;          // 2^53: up to here a double holds every whole number
+constexpr double farthest_microsteps = 4503599627370496.0;  // microsteps; no axle turns as far
 
 Ratio reduced(std::int64_t num, std::int64_t den) {
     const std::int64_t common = std::gcd(num, den);
@@ -50,10 +50,10 @@ Axle::Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState&
 
 std::int64_t Axle::first_at_or_above(double position) const {
     const double guess = std::floor((position - settings_.start_position) / num_ * den_);
-    auto table = static_cast<std::int64_t>(std::fmin(std::fmax(guess, -farthest), farthest));
+    auto table = static_cast<std::int64_t>(std::fmin(std::fmax(guess, -farthest_microsteps), farthest_microsteps));
     // The division may be off by a rounding; position_of is what counts.
-    while (position_of(table) < position && table < static_cast<std::int64_t>(farthest)) ++table;
-    while (position_of(table - 1) >= position && table > -static_cast<std::int64_t>(farthest)) --table;
+    while (position_of(table) < position && table < static_cast<std::int64_t>(farthest_microsteps)) ++table;
+    while (position_of(table - 1) >= position && table > -static_cast<std::int64_t>(farthest_microsteps)) --table;
     return table;
 }
 

@@ -11,13 +11,13 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> all_faults = {"motor.load", "motor.stall", "motor.push"};
+constexpr std::array<std::string_view, 3> dc_motor_faults = {"motor.load", "motor.stall", "motor.push"};
 constexpr Duration grid = microseconds(1);
 constexpr double grid_s = 1e-6;
 /// The rate is told again when the speed has changed by this part of the top speed.
 constexpr double telling = 1.0 / 16;
 
-int sign(double x) {
+int sign_of(double x) {
     return (x > 0) - (x < 0);
 }
 
@@ -37,13 +37,13 @@ double DcLaw::speed(double seconds) const {
 }
 
 int DcLaw::direction() const {
-    return speed0 != 0 ? sign(speed0) : sign(aim);
+    return speed0 != 0 ? sign_of(speed0) : sign_of(aim);
 }
 
 double DcMotor::wanted_speed() const {
     const double volts = std::fabs(state_.volts) - settings_.dead_band_v;
     if (volts <= 0) return 0;
-    return sign(state_.volts) * std::min(volts * settings_.gain, settings_.top_speed);
+    return sign_of(state_.volts) * std::min(volts * settings_.gain, settings_.top_speed);
 }
 
 /// How it goes on from `speed` with the present voltage and load.
@@ -52,12 +52,12 @@ DcLaw DcMotor::law_from(double speed) const {
     const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia,
                  lag = settings_.lag_s * inertia;
     const double wanted = wanted_speed(), error = wanted - speed;
-    int direction = sign(speed);
+    int direction = sign_of(speed);
     if (direction == 0) {
-        if (state_.held || wanted == 0 || state_.blocked == sign(wanted)) return {0, 0, 0, DcLaw::endless, 0};
+        if (state_.held || wanted == 0 || state_.blocked == sign_of(wanted)) return {0, 0, 0, DcLaw::endless, 0};
         const double push = std::clamp(wanted / lag, -limit, limit);
         if (std::fabs(push) <= friction) return {0, 0, 0, DcLaw::endless, 0};
-        direction = sign(push);
+        direction = sign_of(push);
     }
     DcLaw law{speed, 0, 0, DcLaw::endless, 0};
     const double step = settings_.top_speed * telling;
@@ -65,19 +65,20 @@ DcLaw DcMotor::law_from(double speed) const {
         if (at < law.end) law.end = at, law.after = after;
     };
     if (std::fabs(error) > limit * lag * (1 + 1e-9)) {
-        law.aim = sign(error) * limit - direction * friction;
+        law.aim = sign_of(error) * limit - direction * friction;
         if (law.aim == 0) return law;
-        const double full = wanted - sign(error) * limit * lag;  // here the current comes off its limit
+        const double full = wanted - sign_of(error) * limit * lag;  // here the current comes off its limit
         if ((full - speed) / law.aim > 0) ends((full - speed) / law.aim, full);
         if (law.aim * direction < 0) ends(-speed / law.aim, 0);
-        ends(step / std::fabs(law.aim), speed + sign(law.aim) * step);
+        ends(step / std::fabs(law.aim), speed + sign_of(law.aim) * step);
         return law;
     }
     law.lag = lag;
     law.aim = wanted - direction * friction * lag;
     if (speed != 0 && law.aim * direction < 0) ends(lag * natural_log(1 - speed / law.aim), 0);
     const double gap = law.aim - speed;
-    if (std::fabs(gap) > 1.5 * step) ends(lag * natural_log(gap / (gap - sign(gap) * step)), speed + sign(gap) * step);
+    if (std::fabs(gap) > 1.5 * step)
+        ends(lag * natural_log(gap / (gap - sign_of(gap) * step)), speed + sign_of(gap) * step);
     return law;
 }
 
@@ -229,7 +230,7 @@ bool DcMotor::fault(std::string_view name, double value, Instant now) {
 }
 
 std::span<const std::string_view> DcMotor::fault_names() {
-    return all_faults;
+    return dc_motor_faults;
 }
 
 // ---- listeners

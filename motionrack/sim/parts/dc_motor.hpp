@@ -27,15 +27,15 @@ namespace motionrack::parts {
 
 /// Of the amplifier and the motor alone; counts are those of the rotor's encoder.
 struct DcMotorSettings {
-    double gain = 10'000;                   ///< > 0: counts a second for a volt
-    double top_speed = 100'000;             ///< > 0, at most 1e6: counts/s; saturation of the amplifier
-    double top_accel = 2e6;                 ///< counts/s2 at the current limit; greater than the friction
-    double lag_s = 0.01;                    ///< 0.0001 .. 10: the time constant of the speed
-    double friction = 20'000;               ///< counts/s2, >= 0: how fast it would brake without current
-    double dead_band_v = 0.005;             ///< V, 0 .. 5: below it the amplifier does nothing; it is taken off above
-    double load = 0;                        ///< 0 .. 1000: the load's inertia in units of the motor's own
-    std::optional<std::int64_t> end_minus;  ///< counts where it runs into an end of travel; 0 lies between
-    std::optional<std::int64_t> end_plus;
+    double gain = 10'000;                     ///< > 0: counts a second for a volt
+    double top_speed = 100'000;               ///< > 0, at most 1e6: counts/s; saturation of the amplifier
+    double top_accel = 2e6;                   ///< counts/s2 at the current limit; greater than the friction
+    double lag_s = 0.01;                      ///< 0.0001 .. 10: the time constant of the speed
+    double friction = 20'000;                 ///< counts/s2, >= 0: how fast it would brake without current
+    double dead_band_v = 0.005;               ///< V, 0 .. 5: below it the amplifier does nothing; it is taken off above
+    double load = 0;                          ///< 0 .. 1000: the load's inertia in units of the motor's own
+    std::optional<std::int64_t> end_minus{};  ///< counts where it runs into an end of travel; 0 lies between
+    std::optional<std::int64_t> end_plus{};
 };
 
 /// One stretch of motion, times in seconds from its beginning.

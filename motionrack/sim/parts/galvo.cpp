@@ -9,7 +9,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double tick_s = 1e-5;
+constexpr double galvo_tick_s = 1e-5;
 
 using Matrix = std::array<double, 4>;
 
@@ -46,7 +46,7 @@ Result<void> check(const GalvoSettings& s) {
 
 GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.greatest_speed / 100) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    const double w = 2 * pi * settings.natural_hz * tick_s;  // radians a tick
+    const double w = 2 * pi * settings.natural_hz * galvo_tick_s;  // radians a tick
     over_tick_ = exponential_of({0, 1, -w * w, -2 * settings.damping * w});
     dead_ = static_cast<std::int64_t>(settings.dead_us / 10);
 }

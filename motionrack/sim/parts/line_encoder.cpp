@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double fine = 1e6;  // the eccentricity is kept in millionths of a count
+constexpr double million = 1e6;  // the eccentricity is kept in millionths of a count
 
 LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
     LineOutputSettings out;
@@ -25,19 +25,19 @@ LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::Moti
     : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_disc(settings)) {
     MOTIONRACK_ASSERT(settings.eccentricity >= 0 &&
                       settings.eccentricity <= static_cast<double>(settings.counts_per_turn) / 7);
-    state_.own[0] = static_cast<std::int64_t>(settings.eccentricity * fine);
+    state_.own[0] = static_cast<std::int64_t>(settings.eccentricity * million);
 }
 
 double LineEncoder::displacement(std::int64_t n) const {
     if (state_.own[0] == 0) return 0;
-    return static_cast<double>(state_.own[0]) / fine *
+    return static_cast<double>(state_.own[0]) / million *
            sin_cos(2 * pi * static_cast<double>(n) / static_cast<double>(turn())).sin;
 }
 
 bool LineEncoder::fault(std::string_view name, double value, Instant now) {
     if (bare(name) != "eccentricity") return EncoderPart::fault(name, value, now);
     if (!(value >= 0 && value <= static_cast<double>(turn()) / 7)) return false;
-    state_.own[0] = static_cast<std::int64_t>(value * fine);
+    state_.own[0] = static_cast<std::int64_t>(value * million);
     look_again(now);
     return true;
 }

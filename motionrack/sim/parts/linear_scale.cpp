@@ -10,9 +10,10 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> all_faults = {"scale.lose", "scale.dirt", "scale.swapped", "scale.expansion"};
-constexpr Wide most_ratio = Wide{1} << 50;                // so that all products fit
-constexpr std::int64_t farthest = std::int64_t{1} << 46;  // counts; watches beyond are never left
+constexpr std::array<std::string_view, 4> scale_faults = {"scale.lose", "scale.dirt", "scale.swapped",
+                                                          "scale.expansion"};
+constexpr Wide most_ratio = Wide{1} << 50;                             // so that all products fit
+constexpr std::int64_t farthest_scale_counts = std::int64_t{1} << 46;  // counts; watches beyond are never left
 constexpr Wide billion = 1'000'000'000;
 
 Wide floor_of(Wide a, Wide b) {
@@ -67,7 +68,7 @@ LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Moti
 }
 
 std::span<const std::string_view> LinearScale::fault_names() {
-    return all_faults;
+    return scale_faults;
 }
 
 // ---- the closed form
@@ -118,11 +119,11 @@ Range LinearScale::place_range(const Range& counts) const {
                 seen.below == sim::unwatched_below ? sim::unwatched_above : -seen.below};
     }
     Range out;
-    if (seen.below > -farthest && seen.below < farthest) {
+    if (seen.below > -farthest_scale_counts && seen.below < farthest_scale_counts) {
         const std::int64_t at = seen.below < dirt_at_ ? seen.below : seen.below + state_.dirt;
         out.below = state_.zero + ceiling((Wide{at} + 1) * state_.den, state_.num) - 1;
     }
-    if (seen.above > -farthest && seen.above < farthest) {
+    if (seen.above > -farthest_scale_counts && seen.above < farthest_scale_counts) {
         const std::int64_t at = seen.above <= dirt_at_ ? seen.above : seen.above + state_.dirt;
         out.above = state_.zero + ceiling(Wide{at} * state_.den, state_.num);
     }

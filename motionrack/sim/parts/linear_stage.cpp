@@ -9,16 +9,16 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> all_faults = {"motor.stall", "motor.push", "motor.friction", "motor.load"};
+constexpr std::array<std::string_view, 4> stage_faults = {"motor.stall", "motor.push", "motor.friction", "motor.load"};
 constexpr int fine_bits = 68;
-constexpr double fine = 0x1p68;  // of a count
+constexpr double fine_per_count = 0x1p68;  // of a count
 constexpr double counts_per_m = 1e9 * places_per_nm;
 constexpr double ticks_per_s = 1e10;
 constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t longest = std::int64_t{1} << 40;  // ticks of one parabola: place and speed stay within 128 bits
 constexpr std::int64_t viscous_piece = 1'000'000;        // 100 us
 constexpr double viscous_piece_s = 1e-4;
-constexpr std::int64_t farthest = std::int64_t{1} << 50;  // counts, beyond every end of travel
+constexpr std::int64_t farthest_stage_counts = std::int64_t{1} << 50;  // counts, beyond every end of travel
 
 template <class T>
 int sign(T x) {
@@ -31,11 +31,11 @@ Wide fine_place(std::int64_t count) {
 
 /// m/s as 2^-68 counts a tick.
 Wide fine_speed(double m_s) {
-    return static_cast<Wide>(m_s * (counts_per_m / ticks_per_s) * fine);
+    return static_cast<Wide>(m_s * (counts_per_m / ticks_per_s) * fine_per_count);
 }
 
 double in_m_s(Wide speed) {
-    return static_cast<double>(speed) / fine * (ticks_per_s / counts_per_m);
+    return static_cast<double>(speed) / fine_per_count * (ticks_per_s / counts_per_m);
 }
 
 std::int64_t count_of_nm(double nm) {
@@ -73,7 +73,7 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
 }
 
 std::span<const std::string_view> LinearStage::fault_names() {
-    return all_faults;
+    return stage_faults;
 }
 
 // ---- where it is
@@ -83,11 +83,11 @@ std::int64_t LinearStage::count(Instant t) const {
 }
 
 double LinearStage::rate(Instant t) const {
-    return static_cast<double>(speed_at(t)) / fine * ticks_per_s;
+    return static_cast<double>(speed_at(t)) / fine_per_count * ticks_per_s;
 }
 
 double LinearStage::position_nm(Instant t) const {
-    return static_cast<double>(place_at(t)) / (fine * static_cast<double>(places_per_nm));
+    return static_cast<double>(place_at(t)) / (fine_per_count * static_cast<double>(places_per_nm));
 }
 
 double LinearStage::speed(Instant t) const {
@@ -95,7 +95,7 @@ double LinearStage::speed(Instant t) const {
 }
 
 double LinearStage::accel() const {
-    return static_cast<double>(state_.half_accel) * 2 / fine * (ticks_per_s * ticks_per_s / counts_per_m);
+    return static_cast<double>(state_.half_accel) * 2 / fine_per_count * (ticks_per_s * ticks_per_s / counts_per_m);
 }
 
 /// Where the first tick of the parabola leads, and so all of it.
@@ -112,7 +112,7 @@ std::int64_t LinearStage::accel_law(double push, int direction) const {
     const double accel =
         (push - direction * rubbing - viscous * in_m_s(state_.speed)) / (1 + viscous * viscous_piece_s / 2);
     return static_cast<std::int64_t>(
-        std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine / 2) + 0.5));
+        std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine_per_count / 2) + 0.5));
 }
 
 /// How it goes on from the present place and speed.
@@ -204,7 +204,7 @@ std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
 /// The first instant of the present law at which the count is there; never if it does not come there.
 Instant LinearStage::reaches(std::int64_t there) const {
     const int way = direction();
-    if (way == 0 || there > farthest || there < -farthest) return never;
+    if (way == 0 || there > farthest_stage_counts || there < -farthest_stage_counts) return never;
     const Wide edge = fine_place(way > 0 ? there : there + 1);
     const auto passed = [&](std::int64_t ticks) {
         return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge;
@@ -306,7 +306,8 @@ int LinearStage::listen(sim::MotionListener& listener) {
 void LinearStage::mark_rate(double rate) {
     MOTIONRACK_ASSERT(mark_count_ < slots && rate >= 0);
     const double limit = static_cast<double>(top_speed_);
-    marks_[static_cast<std::size_t>(mark_count_++)] = static_cast<Wide>(std::min(rate / ticks_per_s * fine, limit));
+    marks_[static_cast<std::size_t>(mark_count_++)] =
+        static_cast<Wide>(std::min(rate / ticks_per_s * fine_per_count, limit));
 }
 
 void LinearStage::listen_edges(sim::EdgeListener* listener) {

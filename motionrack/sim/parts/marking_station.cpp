@@ -8,7 +8,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double tick_s = 1e-5;
+constexpr double station_tick_s = 1e-5;
 
 }  // namespace
 
@@ -60,18 +60,19 @@ void MarkingStation::block(std::int64_t first_tick, std::span<const std::int32_t
 
 /// A tick in which the laser shines, for some of it; straight in the field, and the part goes on under it.
 void MarkingStation::mark(std::int64_t tick, sim::Spot from, sim::Spot to) {
-    const double begin_s = static_cast<double>(tick) * tick_s;
+    const double begin_s = static_cast<double>(tick) * station_tick_s;
     gate_.shine(tick, [&](LaserGate::Light light) {
         const auto at = [&](double part) {
             const sim::Spot field{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
-            return track().on_part(field, begin_s + part * tick_s);
+            return track().on_part(field, begin_s + part * station_tick_s);
         };
         // The end of a tick is the begin of the next one, to the bit, or a stroke would break: both are computed from
         // the next tick's begin.
         const sim::Spot first = at(light.from);
         const sim::Spot last =
-            light.to == 1 ? track().on_part(to, static_cast<double>(tick + 1) * tick_s) : at(light.to);
-        workpiece_.add(first, last, gate_.power_w() * (light.to - light.from) * tick_s, begin_s + light.from * tick_s);
+            light.to == 1 ? track().on_part(to, static_cast<double>(tick + 1) * station_tick_s) : at(light.to);
+        workpiece_.add(first, last, gate_.power_w() * (light.to - light.from) * station_tick_s,
+                       begin_s + light.from * station_tick_s);
     });
 }
 

@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double fine = 1e9;  // gain and offsets are kept in billionths
+constexpr double billionths = 1e9;  // gain and offsets are kept in billionths
 constexpr double most = 0.3;
 
 LineOutputSettings lines_of_converter(const ResolverSettings& s) {
@@ -29,9 +29,9 @@ Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::Motion& pl
 /// A sin t - B cos t = C  with  A = (1 + g) cos f,  B = sin f,  C = b sin f - a cos f.
 double Resolver::displacement(std::int64_t n) const {
     if (state_.own[gain] == 0 && state_.own[offset_sin] == 0 && state_.own[offset_cos] == 0) return 0;
-    const double g = static_cast<double>(state_.own[gain]) / fine;
-    const double a = static_cast<double>(state_.own[offset_sin]) / fine,
-                 b = static_cast<double>(state_.own[offset_cos]) / fine;
+    const double g = static_cast<double>(state_.own[gain]) / billionths;
+    const double a = static_cast<double>(state_.own[offset_sin]) / billionths,
+                 b = static_cast<double>(state_.own[offset_cos]) / billionths;
     const double counts = static_cast<double>(turn());
     const double f = 2 * pi * static_cast<double>(n) / counts;
     const SinCos shown = sin_cos(f);
@@ -58,7 +58,7 @@ bool Resolver::fault(std::string_view fault_name, double value, Instant now) {
                                              : -1;
     if (which < 0) return EncoderPart::fault(name, value, now);
     if (!(value >= -most && value <= most)) return false;
-    state_.own[which] = static_cast<std::int64_t>(value * fine);
+    state_.own[which] = static_cast<std::int64_t>(value * billionths);
     look_again(now);
     return true;
 }

@@ -12,7 +12,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double tick_s = 1e-5;
+constexpr double track_tick_s = 1e-5;
 
 /// -1 .. 1, the same for the same tick.
 double tremble(std::int64_t tick) {
@@ -154,7 +154,7 @@ double Track::leaves(double from_s, double low, double high) const {
 void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
     const double per_unit = settings_.counts_per_unit * (1 - settings_.slip);
     const auto time = [&](std::size_t i) {
-        return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * tick_s;
+        return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * track_tick_s;
     };
     for (std::size_t begin = 0; begin < out.size();) {
         // The profile is looked through once a stretch, not once a tick.

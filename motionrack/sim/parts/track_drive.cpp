@@ -6,19 +6,19 @@
 namespace motionrack::parts {
 
 namespace {
-constexpr std::array<std::string_view, 2> all_faults = {"drive.speed", "drive.profile"};
+constexpr std::array<std::string_view, 2> track_drive_faults = {"drive.speed", "drive.profile"};
 }
 
 TrackDrive::TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track, double greatest_speed)
     : track_(track), greatest_speed_(greatest_speed), id_(kernel.add(*this, sim::Phase::parts, name)) {}
 
 std::span<const std::string_view> TrackDrive::fault_names() {
-    return all_faults;
+    return track_drive_faults;
 }
 
 bool TrackDrive::fault(std::string_view name, double value, Instant now) {
-    const bool by_hand = name == all_faults[0];
-    if (!by_hand && name != all_faults[1]) return false;
+    const bool by_hand = name == track_drive_faults[0];
+    if (!by_hand && name != track_drive_faults[1]) return false;
     if (!(std::fabs(value) <= greatest_speed_)) return false;
     for (TrackMotion* motion : motions_) motion->hand_over_edges();
     const double speed_before = track_.speed(to_seconds(now));

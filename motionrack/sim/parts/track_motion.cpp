@@ -9,8 +9,8 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double ticks_per_s = 1e10;
-constexpr double endless_s = static_cast<double>(never.count()) / ticks_per_s;
+constexpr double track_ticks_per_s = 1e10;
+constexpr double endless_s = static_cast<double>(never.count()) / track_ticks_per_s;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Instant TrackMotion::leaves(const Range& range, Instant from) const {
     if (!(at_s < endless_s / 2)) return never;
     // The solution is near; the instant is the first tick of which the count itself says so.
     const Instant first = from + Duration{1};
-    Instant at = std::max(first, Instant{static_cast<std::int64_t>(at_s * ticks_per_s)});
+    Instant at = std::max(first, Instant{static_cast<std::int64_t>(at_s * track_ticks_per_s)});
     Duration step{1};
     while (!range.left(count(at)) && step.count() < 1'000'000) at += step, step *= 2;
     while (at > first && range.left(count(at - Duration{1}))) at -= Duration{1};

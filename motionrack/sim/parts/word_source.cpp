@@ -8,7 +8,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> all_faults = {"sender.silent"};
+constexpr std::array<std::string_view, 1> word_source_faults = {"sender.silent"};
 constexpr double ticks_per_us = 10'000;
 
 }  // namespace
@@ -28,7 +28,7 @@ WordSource::WordSource(sim::Kernel& kernel, const std::string& name, const std::
 }
 
 std::span<const std::string_view> WordSource::fault_names() {
-    return all_faults;
+    return word_source_faults;
 }
 
 Instant WordSource::reading(std::int64_t n) const {
@@ -59,7 +59,7 @@ void WordSource::act(Instant now) {
 }
 
 bool WordSource::fault(std::string_view name, double value, Instant) {
-    if (name != all_faults[0]) return false;
+    if (name != word_source_faults[0]) return false;
     state_.silent = value != 0;
     return true;
 }

@@ -35,8 +35,8 @@ class Scribe final : public Kernel::WireObserver {
     std::vector<Line> lines;
 };
 
-struct World {
-    World(const AxisMachineSettings& settings, std::vector<PulseLaw> laws)
+struct MachineWorld {
+    MachineWorld(const AxisMachineSettings& settings, std::vector<PulseLaw> laws)
         : pulses(kernel, std::move(laws)), machine(kernel, "X", settings) {
         machine.connect(pulses);
         kernel.observe_wires(&scribe);
@@ -58,7 +58,7 @@ std::vector<std::pair<AxisCondition, std::int64_t>> conditions(const Kernel& ker
 // ---- Truth
 
 TEST(AxisMachine, TurnsPulsesIntoMillimetresExactly) {
-    World w(plain(), {{Instant{0}, microseconds(100), +1}});
+    MachineWorld w(plain(), {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     w.run(milliseconds(320));
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 3200);
@@ -75,7 +75,7 @@ TEST(AxisMachine, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
     AxisMachineSettings s = plain();
     s.axle.travel_per_rev = rotary_travel(7);
     s.axle.start_position = -10;
-    World w(s, {{Instant{0}, microseconds(100), +1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     w.run(milliseconds(320 * 7));
     EXPECT_EQ(w.machine.position(w.kernel.now()), 350.0);
@@ -84,7 +84,7 @@ TEST(AxisMachine, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
 TEST(AxisMachine, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
     AxisMachineSettings s = plain();
     s.axle.backlash = 10 * 5.0 / 3200;
-    World w(s, {{Instant{0}, milliseconds(1), +1}, {milliseconds(50), milliseconds(1), -1}});
+    MachineWorld w(s, {{Instant{0}, milliseconds(1), +1}, {milliseconds(50), milliseconds(1), -1}});
     w.kernel.start();
     auto microsteps = [&] { return std::lround(w.machine.position(w.kernel.now()) * 3200 / 5); };
     w.run(milliseconds(10));
@@ -105,7 +105,7 @@ TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     s.limit_plus.position = 0.5;  // 320 pulses
     s.limit_plus.hysteresis = 0.05;
     s.limit_plus.bounce = Duration{0};
-    World w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(40), microseconds(100), -1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(40), microseconds(100), -1}});
     w.kernel.start();
     w.run(milliseconds(100));
     const WireId wire = w.kernel.find_wire("X.limit_plus");
@@ -120,7 +120,7 @@ TEST(AxisMachine, AHomeSwitchIsActiveAtAndBelowItsPlaceAlreadyAtTheStart) {
     AxisMachineSettings s = plain();
     s.home.position = 0;
     s.home.bounce = Duration{0};
-    World w(s, {{Instant{0}, microseconds(100), +1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     EXPECT_EQ(w.kernel.level(w.machine.home_wire()), 0);
     w.run(milliseconds(10));
@@ -134,7 +134,7 @@ TEST(AxisMachine, ContactsBounceAtFixedInstantsWithinTheBounceTime) {
         AxisMachineSettings s = plain();
         s.limit_minus.position = -0.5;
         s.limit_minus.bounce = milliseconds(2);
-        World w(s, {{Instant{0}, microseconds(100), -1}, {milliseconds(60), microseconds(100), +1}});
+        MachineWorld w(s, {{Instant{0}, microseconds(100), -1}, {milliseconds(60), microseconds(100), +1}});
         w.kernel.start();
         w.run(milliseconds(200));
         return w.scribe.lines;
@@ -163,7 +163,7 @@ TEST(AxisMachine, AStuckSwitchKeepsItsLevelWhateverTheMachineDoes) {
     AxisMachineSettings s = plain();
     s.limit_plus.position = 0.5;
     s.limit_plus.bounce = Duration{0};
-    World w(s, {{Instant{0}, microseconds(100), +1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     EXPECT_TRUE(w.machine.fault("limit_plus.stuck_open", 1, w.kernel.now()));
     w.run(milliseconds(40));
@@ -186,7 +186,7 @@ RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, 
     s.axle.start_position = *rc::gen::inRange(-1000, 1000) / 10.0;
     s.limit_plus.position = s.axle.start_position + *rc::gen::inRange(1, 100) / 100.0;
     s.limit_plus.bounce = Duration{0};
-    World w(s, {{Instant{0}, microseconds(100), +1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     const std::int64_t pulse = w.machine.limit_plus().acts_at();
     w.run(microseconds(100) * pulse - Duration{1});
@@ -202,7 +202,7 @@ RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, 
 TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     AxisMachineSettings s = plain();
     s.motor.start_stop_hz = 2000;
-    World w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(1000), +1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(1000), +1}});
     w.kernel.start();
     w.run(milliseconds(50));
     EXPECT_FALSE(w.machine.in_step());
@@ -221,9 +221,9 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
     AxisMachineSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // 0 -> 2000 -> 4000 -> 0 Hz: the last is a jump of twice the start/stop rate.
-    World w(s, {{Instant{0}, microseconds(500), +1},
-                {milliseconds(10), microseconds(250), +1},
-                {milliseconds(20), microseconds(250), 0}});
+    MachineWorld w(s, {{Instant{0}, microseconds(500), +1},
+                       {milliseconds(10), microseconds(250), +1},
+                       {milliseconds(20), microseconds(250), 0}});
     w.kernel.start();
     w.run(milliseconds(30));
     EXPECT_TRUE(w.machine.in_step());
@@ -234,9 +234,9 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
 TEST(AxisMachine, AMotorDrivenFasterThanItPullsStalls) {
     AxisMachineSettings s = plain();
     s.motor.pull_out_hz = 15'000;
-    World w(s, {{Instant{0}, microseconds(100), +1},
-                {milliseconds(10), microseconds(50), +1},
-                {milliseconds(20), microseconds(100), 0}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1},
+                       {milliseconds(10), microseconds(50), +1},
+                       {milliseconds(20), microseconds(100), 0}});
     w.kernel.start();
     w.run(milliseconds(30));
     EXPECT_EQ(w.machine.lost_steps(), 192);  // 200 pulses: 3 cycles of 64
@@ -253,7 +253,7 @@ RC_GTEST_PROP(AxisMachine, LosesMultiplesOfFourFullStepsAndKeepsThePhase, ()) {
         laws.push_back(
             {milliseconds(10 * i), microseconds(*rc::gen::inRange(20, 2000)), *rc::gen::inRange<std::int64_t>(-1, 2)});
     laws.push_back({milliseconds(10 * size), milliseconds(1), 0});
-    World w(s, laws);
+    MachineWorld w(s, laws);
     w.kernel.start();
     for (int i = 0; i <= size; ++i) {
         w.run(milliseconds(10 * i + 5));
@@ -263,7 +263,7 @@ RC_GTEST_PROP(AxisMachine, LosesMultiplesOfFourFullStepsAndKeepsThePhase, ()) {
 }
 
 TEST(AxisMachine, FaultsStallPushAndLose) {
-    World w(plain(), {{Instant{0}, microseconds(100), +1}});
+    MachineWorld w(plain(), {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     w.run(milliseconds(10));
     EXPECT_TRUE(w.machine.fault("stall", 1, w.kernel.now()));
@@ -281,7 +281,7 @@ TEST(AxisMachine, FaultsStallPushAndLose) {
 TEST(AxisMachine, StopsAtTheEndOfTravelAndComesBackFromIt) {
     AxisMachineSettings s = plain();
     s.axle.end_plus = 1.0;  // 640 pulses
-    World w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(100), -1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(100), -1}});
     w.kernel.start();
     w.run(milliseconds(90));
     EXPECT_EQ(w.machine.position(w.kernel.now()), 1.0);
@@ -311,7 +311,7 @@ TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
     AxisMachineSettings s = plain();
     s.limit_plus.position = 0.5;
     s.limit_plus.bounce = Duration{0};
-    World w(s, {});
+    MachineWorld w(s, {});
     w.kernel.start();
     w.machine.fault("push", 640, w.kernel.now());
     w.kernel.settle();
@@ -328,9 +328,9 @@ TEST(AxisMachine, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
     s.motor.start_stop_hz = 15'000;
     s.limit_plus.position = 0.5;
     s.home.position = 0.1;
-    World w(s, {{Instant{0}, microseconds(100), +1},
-                {milliseconds(45), microseconds(50), -1},
-                {milliseconds(70), microseconds(100), +1}});
+    MachineWorld w(s, {{Instant{0}, microseconds(100), +1},
+                       {milliseconds(45), microseconds(50), -1},
+                       {milliseconds(70), microseconds(100), +1}});
     w.kernel.start();
     const Instant middle = milliseconds(32) + microseconds(300);  // in the bounce
     w.run(middle);

@@ -14,8 +14,8 @@
 namespace motionrack::parts {
 namespace {
 
-struct Rig {
-    explicit Rig(const DcMotorSettings& settings = {}) : motor(kernel, "m", settings) {}
+struct MotorRig {
+    explicit MotorRig(const DcMotorSettings& settings = {}) : motor(kernel, "m", settings) {}
     void volts(double v) {
         kernel.set_wire(motor.drive_wire(), static_cast<int>(std::lround(v * 1e6)));
         kernel.settle();
@@ -29,7 +29,7 @@ struct Rig {
 };
 
 /// The same motor in steps of a microsecond.
-struct Stepped {
+struct SteppedMotor {
     DcMotorSettings s;
     double volts = 0, speed = 0, place = 0.5;
     void run(double seconds) {
@@ -55,9 +55,9 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
     s.load = *rc::gen::element(0.0, 1.0, 9.0);
     s.friction = *rc::gen::element(1'000.0, 20'000.0);
     s.dead_band_v = *rc::gen::element(0.0, 0.01);
-    Rig rig(s);
+    MotorRig rig(s);
     rig.kernel.start();
-    Stepped stepped{s};
+    SteppedMotor stepped{s};
     for (int i = 0; i < 6; ++i) {
         const double volts = *rc::gen::inRange(-12'000, 12'001) * 1e-3 * *rc::gen::element(1.0, 0.01);
         rig.volts(volts);
@@ -75,7 +75,7 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
 TEST(DcMotor, SpeedIsProportionalToTheVoltageUpToSaturation) {
     DcMotorSettings s;
     s.friction = 0;
-    Rig rig(s);
+    MotorRig rig(s);
     rig.kernel.start();
     rig.volts(2.005);
     rig.run(1);
@@ -90,7 +90,7 @@ TEST(DcMotor, SpeedIsProportionalToTheVoltageUpToSaturation) {
 }
 
 TEST(DcMotor, StandsWithinTheDeadBandAndStopsForGoodAtZeroVolts) {
-    Rig rig;
+    MotorRig rig;
     rig.kernel.start();
     rig.volts(0.004);
     rig.run(1);
@@ -110,7 +110,7 @@ TEST(DcMotor, StandsWithinTheDeadBandAndStopsForGoodAtZeroVolts) {
 TEST(DcMotor, ALoadMakesItSlower) {
     double times[2] = {};
     for (int i = 0; i < 2; ++i) {
-        Rig rig;
+        MotorRig rig;
         rig.kernel.start();
         rig.motor.fault("motor.load", i * 4, rig.kernel.now());
         rig.volts(8);
@@ -120,7 +120,7 @@ TEST(DcMotor, ALoadMakesItSlower) {
     EXPECT_NEAR(times[1] / times[0], 5, 0.1);
 }
 
-struct Ear final : sim::MotionListener, sim::EdgeListener {
+struct MotorEar final : sim::MotionListener, sim::EdgeListener {
     void crossed(Instant now) override { at.push_back(now); }
     void rate_changed(double, double after, Instant) override { top = std::max(top, std::fabs(after)), ++told; }
     void edges(const sim::EdgeBatch& batch) override {
@@ -136,8 +136,8 @@ struct Ear final : sim::MotionListener, sim::EdgeListener {
 };
 
 TEST(DcMotor, TellsAWatchAtTheVeryInstantAndHandsOverEveryEdge) {
-    Rig rig;
-    Ear ear;
+    MotorRig rig;
+    MotorEar ear;
     const int slot = rig.motor.listen(ear);
     rig.kernel.start();
     rig.motor.listen_edges(&ear);
@@ -168,7 +168,7 @@ TEST(DcMotor, RunsIntoItsEndsOfTravelAndComesBack) {
     DcMotorSettings s;
     s.end_plus = 1'000;
     s.end_minus = -200;
-    Rig rig(s);
+    MotorRig rig(s);
     rig.kernel.start();
     rig.volts(3);
     rig.run(1);

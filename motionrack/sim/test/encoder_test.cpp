@@ -82,8 +82,8 @@ std::vector<PulseLaw> some_laws(int size, int fastest_us = 2) {
     return laws;
 }
 
-struct World {
-    World(const AxisMachineSettings& settings, std::vector<PulseLaw> laws)
+struct EncoderWorld {
+    EncoderWorld(const AxisMachineSettings& settings, std::vector<PulseLaw> laws)
         : pulses(kernel, std::move(laws)), machine(kernel, "X", settings), ear(kernel) {
         machine.connect(pulses);
         kernel.listen(machine.index_wire(), ear.id, 0);
@@ -100,7 +100,7 @@ struct World {
 
 RC_GTEST_PROP(Encoder, ShowsTheFloorOfTheRatioInBothDirections, ()) {
     const std::int64_t counts = *some_counts();
-    World w(with_counts(counts), some_laws(5));
+    EncoderWorld w(with_counts(counts), some_laws(5));
     w.kernel.start();
     for (int i = 1; i <= 10; ++i) {
         w.kernel.run_until(milliseconds(6 * i));
@@ -115,7 +115,7 @@ RC_GTEST_PROP(Encoder, ShowsTheFloorOfTheRatioInBothDirections, ()) {
 
 RC_GTEST_PROP(Encoder, AWatchIsToldAtTheVeryPulse, ()) {
     const std::int64_t direction = *rc::gen::element<std::int64_t>(-1, 1);
-    World w(with_counts(*some_counts()), {{Instant{0}, microseconds(10), direction}});
+    EncoderWorld w(with_counts(*some_counts()), {{Instant{0}, microseconds(10), direction}});
     CrossingEar ear(w.machine.encoder());
     w.kernel.start();
     const std::int64_t bound = direction * *rc::gen::inRange(1, 500);
@@ -134,7 +134,7 @@ RC_GTEST_PROP(Encoder, AWatchIsToldAtTheVeryPulse, ()) {
 }
 
 TEST(Encoder, AWatchThatIsLeftAlreadyIsToldAtTheNextInstantEvenAtStandstill) {
-    World w(with_counts(4000), {});
+    EncoderWorld w(with_counts(4000), {});
     CrossingEar ear(w.machine.encoder());
     w.kernel.start();
     w.kernel.run_until(Instant{100});
@@ -144,7 +144,7 @@ TEST(Encoder, AWatchThatIsLeftAlreadyIsToldAtTheNextInstantEvenAtStandstill) {
 }
 
 TEST(Encoder, ManyListenersShareOneSlotOfThePulses) {
-    World w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
+    EncoderWorld w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
     std::vector<std::unique_ptr<CrossingEar>> ears;
     for (int i = 0; i < 12; ++i)
         ears.push_back(std::make_unique<CrossingEar>(i % 2 ? w.machine.encoder() : w.machine.rotor()));
@@ -160,7 +160,8 @@ TEST(Encoder, ManyListenersShareOneSlotOfThePulses) {
 // ---- Index
 
 TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
-    World w(with_counts(3200), {{Instant{0}, microseconds(1000), 1}, {milliseconds(4000), microseconds(1000), -1}});
+    EncoderWorld w(with_counts(3200),
+                   {{Instant{0}, microseconds(1000), 1}, {milliseconds(4000), microseconds(1000), -1}});
     w.kernel.start();
     w.kernel.want(w.machine.index_wire(), w.ear.id, true);
     EXPECT_EQ(w.kernel.level(w.machine.index_wire()), 1);
@@ -179,7 +180,7 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
 TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
     AxisMachineSettings s = with_counts(4001);  // turns end between microsteps, counts are skipped
     s.motor.microsteps = 1;                     // 20 counts a pulse
-    World w(s, {{Instant{0}, milliseconds(1), 1}});
+    EncoderWorld w(s, {{Instant{0}, milliseconds(1), 1}});
     w.kernel.start();
     w.kernel.want(w.machine.index_wire(), w.ear.id, true);
     w.kernel.run_until(milliseconds(2010));
@@ -194,7 +195,7 @@ TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
 RC_GTEST_PROP(Encoder, EdgesOneByOneComeToTheSameCountAsTheClosedForm, ()) {
     AxisMachineSettings s = with_counts(*some_counts());
     s.motor.start_stop_hz = *rc::gen::element(20'000.0, 1e6);
-    World w(s, some_laws(6));
+    EncoderWorld w(s, some_laws(6));
     EdgeEar ear, rotor;
     w.kernel.start();
     w.machine.encoder().listen_edges(&ear);
@@ -214,7 +215,7 @@ RC_GTEST_PROP(Encoder, EdgesOneByOneComeToTheSameCountAsTheClosedForm, ()) {
 TEST(Encoder, EdgesStopAtTheEndOfTravel) {
     AxisMachineSettings s = with_counts(4000);
     s.axle.end_plus = 1.0;
-    World w(s, {{Instant{0}, microseconds(10), 1}, {milliseconds(20), microseconds(10), -1}});
+    EncoderWorld w(s, {{Instant{0}, microseconds(10), 1}, {milliseconds(20), microseconds(10), -1}});
     EdgeEar ear, rotor;
     w.kernel.start();
     w.machine.encoder().listen_edges(&ear);
@@ -230,7 +231,7 @@ TEST(Encoder, EdgesStopAtTheEndOfTravel) {
 }
 
 TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
-    World w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
+    EncoderWorld w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
     EdgeEar pulses, encoder;
     w.kernel.start();
     w.machine.listen_pulse_edges(&pulses);
@@ -254,7 +255,7 @@ TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
 
 RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts, ()) {
     const std::string name = *rc::gen::element<std::string>("broken_a", "encoder.broken_b", "swapped");
-    World w(with_counts(800), some_laws(8, 20));  // sampled often enough to see every edge
+    EncoderWorld w(with_counts(800), some_laws(8, 20));  // sampled often enough to see every edge
     EdgeEar edges;
     w.kernel.start();
     w.machine.encoder().listen_edges(&edges);
@@ -283,7 +284,7 @@ RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts,
 }
 
 TEST(Encoder, ABrokenLineMakesTheCountGoToAndFroWithinTheWatchedRange) {
-    World w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
+    EncoderWorld w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
     CrossingEar ear(w.machine.encoder());
     w.kernel.start();
     EXPECT_TRUE(w.machine.fault("broken_a", 1, w.kernel.now()));
@@ -303,7 +304,7 @@ TEST(Encoder, ABrokenLineMakesTheCountGoToAndFroWithinTheWatchedRange) {
 }
 
 TEST(Encoder, SwappedLinesCountBackwards) {
-    World w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
+    EncoderWorld w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
     CrossingEar ear(w.machine.encoder());
     w.kernel.start();
     EXPECT_TRUE(w.machine.fault("swapped", 1, w.kernel.now()));
@@ -319,9 +320,9 @@ TEST(AxisMachine, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
     s.limit_plus.position = 2;
     s.home.position = 1;
     s.motor.start_stop_hz = 150'000;
-    World w(s, {{Instant{0}, microseconds(10), 1},
-                {milliseconds(100), microseconds(10), -1},
-                {milliseconds(150), microseconds(10), 0}});
+    EncoderWorld w(s, {{Instant{0}, microseconds(10), 1},
+                       {milliseconds(100), microseconds(10), -1},
+                       {milliseconds(150), microseconds(10), 0}});
     EdgeEar ear;
     w.kernel.start();
     w.machine.encoder().listen_edges(&ear);

@@ -8,9 +8,9 @@
 namespace motionrack::sim {
 namespace {
 
-class Ear final : public Device {
+class JunctionEar final : public Device {
   public:
-    explicit Ear(Kernel& kernel) : id(kernel.add(*this, Phase::cards, "ear")) {}
+    explicit JunctionEar(Kernel& kernel) : id(kernel.add(*this, Phase::cards, "ear")) {}
     void act(Instant) override {}
     void on_wire(int pin, int level, Instant now) override { heard.push_back({pin, level, now}); }
     struct Change {
@@ -25,7 +25,7 @@ class Ear final : public Device {
 
 TEST(Junctions, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) {
     Kernel kernel;
-    Ear ear(kernel);
+    JunctionEar ear(kernel);
     Junctions junctions(kernel);
     const WireId from = kernel.add_wire("from", 1), same = kernel.add_wire("same", 0),
                  other = kernel.add_wire("other", 0);
@@ -39,7 +39,8 @@ TEST(Junctions, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) {
     EXPECT_EQ(kernel.level(other), 0);
     kernel.set_wire(from, 0);
     kernel.settle();
-    EXPECT_EQ(ear.heard, (std::vector<Ear::Change>{{1, 1, Instant{0}}, {1, 0, Instant{10}}, {2, 1, Instant{10}}}));
+    EXPECT_EQ(ear.heard,
+              (std::vector<JunctionEar::Change>{{1, 1, Instant{0}}, {1, 0, Instant{10}}, {2, 1, Instant{10}}}));
 }
 
 TEST(Junctions, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
@@ -50,7 +51,7 @@ TEST(Junctions, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
     s.encoder.counts_per_rev = 3200;
     parts::AxisMachine machine(kernel, "X", s);
     machine.connect(pulses);
-    Ear ear(kernel);
+    JunctionEar ear(kernel);
     Junctions junctions(kernel);
     const WireId z = kernel.add_wire("card.xin2", 0), unused = kernel.add_wire("card.yin2", 0);
     kernel.listen(z, ear.id, 0);
@@ -64,8 +65,8 @@ TEST(Junctions, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
     EXPECT_EQ(kernel.level(z), 0);
     kernel.want(z, ear.id, true);
     kernel.run_until(milliseconds(100));
-    EXPECT_EQ(ear.heard,
-              (std::vector<Ear::Change>{{0, 1, milliseconds(96)}, {0, 0, milliseconds(96) + microseconds(10)}}));
+    EXPECT_EQ(ear.heard, (std::vector<JunctionEar::Change>{{0, 1, milliseconds(96)},
+                                                           {0, 0, milliseconds(96) + microseconds(10)}}));
     kernel.want(z, ear.id, false);
     const std::uint64_t events = kernel.events();
     kernel.run_until(milliseconds(1000));

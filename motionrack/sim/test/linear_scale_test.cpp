@@ -40,7 +40,7 @@ struct Head final : sim::Device {
     sim::QuadratureDecoder decoder;
 };
 
-struct Ear final : sim::MotionListener, sim::EdgeListener {
+struct ScaleEar final : sim::MotionListener, sim::EdgeListener {
     void crossed(Instant now) override { at = now, ++crossings; }
     void rate_changed(double, double after, Instant) override { rate = after; }
     void edges(const sim::EdgeBatch& batch) override {
@@ -59,8 +59,8 @@ struct Ear final : sim::MotionListener, sim::EdgeListener {
     int crossings = 0, total = 0;
 };
 
-struct Rig {
-    explicit Rig(const LinearScaleSettings& scale_settings = {}, const LinearStageSettings& stage_settings = {})
+struct ScaleRig {
+    explicit ScaleRig(const LinearScaleSettings& scale_settings = {}, const LinearStageSettings& stage_settings = {})
         : stage(kernel, "x", stage_settings),
           scale(kernel, "s", stage, scale_settings),
           head(kernel, scale),
@@ -77,7 +77,7 @@ struct Rig {
     LinearStage stage;
     LinearScale scale;
     Head head;
-    Ear ear;
+    ScaleEar ear;
     int slot;
 };
 
@@ -91,7 +91,7 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
     LinearStageSettings stage;
     stage.start_nm = *rc::gen::element(0.0, -9e8, 9e8);
     stage.top_speed = 0.007;  // below 1e9 counts/s of the finest scale
-    Rig rig(s, stage);
+    ScaleRig rig(s, stage);
     rig.kernel.start();
     for (int i = 0; i < 6; ++i) {
         rig.volts(*rc::gen::inRange(-100, 101) * 0.01);
@@ -114,7 +114,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     LinearStageSettings stage;
     stage.start_nm = -1e9;
     stage.top_speed = 20e6 * 20e-6 / 4'096 * 0.999'999;
-    Rig rig(s, stage);
+    ScaleRig rig(s, stage);
     rig.kernel.start();
     rig.volts(1);
     rig.run(1);
@@ -130,7 +130,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     LinearScaleSettings fine;
     fine.pitch_pm = 512'000;
     fine.fastest = 1e9;
-    Rig wide(fine, stage);
+    ScaleRig wide(fine, stage);
     wide.kernel.start();
     wide.volts(1);
     std::int64_t known = wide.count();
@@ -148,13 +148,13 @@ TEST(LinearScale, TellsAWatchAtTheInstantOfTheEdge) {
     for (const bool reversed : {false, true}) {
         LinearScaleSettings s;
         s.reversed = reversed;
-        Rig rig(s);
+        ScaleRig rig(s);
         rig.kernel.start();
         rig.volts(0.1);
         const std::int64_t there = reversed ? -1'000'000 : 1'000'000;
         rig.scale.watch(rig.slot, reversed ? there : sim::unwatched_below, reversed ? sim::unwatched_above : there);
         while (rig.ear.crossings == 0) rig.run(1e-3);
-        Rig again(s);
+        ScaleRig again(s);
         again.kernel.start();
         again.volts(0.1);
         again.kernel.run_until(rig.ear.at - Duration{1});
@@ -174,7 +174,7 @@ TEST(LinearScale, LinesShowTheCountWhileSomebodyListens) {
     LinearScaleSettings s;
     s.pitch_pm = 2'000'000;
     s.interpolation = 400;  // 5 nm
-    Rig rig(s);
+    ScaleRig rig(s);
     rig.kernel.start();
     std::uint64_t events = 0;
     for (const double volts : {0.2, -0.5, 0.3}) {
@@ -196,7 +196,7 @@ TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
     LinearScaleSettings s;
     LinearStageSettings stage;
     stage.top_speed = 20e6 * 20e-6 / 4'096 * 0.999'999;
-    Rig rig(s, stage);
+    ScaleRig rig(s, stage);
     rig.kernel.start();
     rig.volts(10);
     rig.run(0.1);
@@ -218,7 +218,7 @@ TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
 TEST(LinearScale, LosesWhatIsTooFastAndSaysSo) {
     LinearScaleSettings s;
     s.fastest = 1e6;  // 4.88 mm/s
-    Rig rig(s);
+    ScaleRig rig(s);
     rig.kernel.start();
     rig.volts(1);  // 5 m/s2: too fast after 0.9766 ms
     rig.run(2e-3);
@@ -246,7 +246,7 @@ TEST(LinearScale, FaultsChangeTheMeasureAndNothingElse) {
     LinearScaleSettings s;
     s.dirt_at_nm = 1e6;
     s.index_nm = 2e6;
-    Rig rig(s);
+    ScaleRig rig(s);
     rig.kernel.start();
     const auto truth = [&] { return rig.stage.position_nm(rig.kernel.now()) / rig.scale.nm_per_count(); };
     EXPECT_TRUE(rig.fault("scale.dirt", 10'000));
@@ -281,7 +281,7 @@ TEST(LinearScale, FaultsChangeTheMeasureAndNothingElse) {
 TEST(LinearScale, TheReferenceMarkIsOneCountWide) {
     LinearScaleSettings s;
     s.index_nm = 1e6;
-    Rig rig(s);
+    ScaleRig rig(s);
     rig.kernel.start();
     rig.volts(0.1);
     for (const std::int64_t there : {204'799, 204'800, 204'801}) {
@@ -311,7 +311,7 @@ TEST(LinearScale, RidesOnAnyMotion) {
 RC_GTEST_PROP(LinearScale, ASnapshotContinuesAsTheFirstTime, ()) {
     LinearScaleSettings s;
     s.fastest = 5e6;
-    Rig rig(s);
+    ScaleRig rig(s);
     rig.kernel.start();
     rig.volts(1);
     rig.run(1e-4 * *rc::gen::inRange(1, 100));

@@ -18,7 +18,7 @@ TEST(Interval, ItsSidesAreLeftAtTheFirstPlaceThatIsOnAnother) {
     }
 }
 
-struct Ear final : MotionListener {
+struct ListenersEar final : MotionListener {
     void crossed(Instant) override { ++crossings; }
     void rate_changed(double from, double to, Instant) override { before = from, after = to; }
     int crossings = 0;
@@ -28,7 +28,7 @@ struct Ear final : MotionListener {
 TEST(Listeners, WhoseRangeIsLeftHearsOfItOnceAndTheOthersDoNot) {
     Listeners listeners;
     Listeners::Watches watches{};
-    Ear first, second;
+    ListenersEar first, second;
     watches[static_cast<std::size_t>(listeners.add(first))] = {-5, 5};
     watches[static_cast<std::size_t>(listeners.add(second))] = {unwatched_below, 9};
     EXPECT_EQ(Listeners::quiet(watches), (Range{-5, 5}));

@@ -8,7 +8,7 @@ namespace motionrack::parts {
 namespace {
 
 /// 1000 bits/mm over a part that lies still.
-StationSettings plain() {
+StationSettings plain_head() {
     StationSettings out;
     out.bits_per_mm = 1000;
     out.track.profile = {{0, 0}};
@@ -16,7 +16,7 @@ StationSettings plain() {
 }
 
 struct Bench {
-    explicit Bench(const StationSettings& settings = plain())
+    explicit Bench(const StationSettings& settings = plain_head())
         : x(kernel.add_wire("x", 0, 20)),
           y(kernel.add_wire("y", 0, 20)),
           laser(kernel.add_wire("laser", 0)),
@@ -65,7 +65,7 @@ TEST(ScanHead, AllTheSameHowARunIsCut) {
 }
 
 TEST(ScanHead, NothingIsAllocatedInARunAndPointsBeyondTheRoomAreCounted) {
-    StationSettings settings = plain();
+    StationSettings settings = plain_head();
     settings.galvo.ideal = false;
     settings.galvo.dead_us = 70;
     settings.laser.on_delay_us = 20;

@@ -81,7 +81,7 @@ TEST(TrackMotion, MakesEveryEdgeAtItsInstantThereAndBack) {
 }
 
 TEST(TrackMotion, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
-    struct Ear final : sim::MotionListener {
+    struct RatesEar final : sim::MotionListener {
         void crossed(Instant) override {}
         void rate_changed(double from, double to, Instant) override { before = from, after = to; }
         double before = 0, after = 0;
@@ -91,7 +91,7 @@ TEST(TrackMotion, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
     TrackMotion fine(kernel, "fine", drive.track(), 1000), turned(kernel, "turned", drive.track(), -10);
     drive.add(fine);
     drive.add(turned);
-    Ear of_fine, of_turned;
+    RatesEar of_fine, of_turned;
     fine.listen(of_fine);
     turned.listen(of_turned);
     kernel.start();

@@ -13,7 +13,7 @@
 namespace motionrack::trace {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A run of `samples` along a circle of 20 mm by two axes, with one spike of the speed at two thirds of it.
 ReportData circle(std::size_t samples) {
@@ -187,17 +187,17 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     ReportData data = circle(1000);
     const double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 1000; i += 7) {
-        data.axes[0].speed[i] = static_cast<float>(nan);
+        data.axes[0].speed[i] = static_cast<float>(not_a_number);
         data.axes[1].position[i] = static_cast<float>(-infinity);
-        data.driven[i] = {nan, infinity, 0};
-        data.seconds[i] = i % 2 == 0 ? nan : data.seconds[i];
+        data.driven[i] = {not_a_number, infinity, 0};
+        data.seconds[i] = i % 2 == 0 ? not_a_number : data.seconds[i];
     }
-    data.axes[0].max_speed = nan;
+    data.axes[0].max_speed = not_a_number;
     data.axes[1].max_position = infinity;
     data.axes[0].top_accel = data.axes[0].real_end = data.tolerance_mm = infinity;
-    data.worst = ReportWorst{nan, nan, 0, {nan, 0, 0}};
-    data.blocks[0].duration = data.blocks[0].length = nan;
-    data.warnings[0].seconds = nan;
+    data.worst = ReportWorst{not_a_number, not_a_number, 0, {not_a_number, 0, 0}};
+    data.blocks[0].duration = data.blocks[0].length = not_a_number;
+    data.warnings[0].seconds = not_a_number;
     const std::string page = report_html(data);
     for (const char* word :
          {">nan", ">inf", ":nan", ":inf", ",nan", ",inf", "[nan", "[inf", "\"nan", "\"inf", "-nan", "-inf", "null"}) {

@@ -8,12 +8,12 @@
 namespace motionrack::trace {
 namespace {
 
-const std::vector<double> seconds = {0, 1, 2, 3};
-const std::vector<float> values = {0, 5, 5, 1};
+const std::vector<double> timeline_seconds = {0, 1, 2, 3};
+const std::vector<float> timeline_values = {0, 5, 5, 1};
 
 std::string picture(const std::vector<SvgSpan>& spans) {
-    const std::vector<SvgChart> charts = {{"position, mm", {{"", "z", seconds, values}}, {}},
-                                          {"speed, mm/s", {{"", "y", seconds, values}}, {}}};
+    const std::vector<SvgChart> charts = {{"position, mm", {{"", "z", timeline_seconds, timeline_values}}, {}},
+                                          {"speed, mm/s", {{"", "y", timeline_seconds, timeline_values}}, {}}};
     return svg_timeline("A <title>", charts, spans, {720, 500, true});
 }
 
@@ -41,7 +41,9 @@ TEST(SvgTimeline, NamesOfShortSpansDoNotCoverEachOther) {
 
 TEST(SvgTimeline, NamesTheLinesOfAChart) {
     const std::vector<SvgChart> charts = {
-        {"speed", {{"planned", "x", seconds, values}, {"driven", "y", seconds, values}}, {}}};
+        {"speed",
+         {{"planned", "x", timeline_seconds, timeline_values}, {"driven", "y", timeline_seconds, timeline_values}},
+         {}}};
     const std::string out = svg_timeline("A title", charts, {}, {720, 200, true});
     EXPECT_THAT(out, testing::HasSubstr(">planned</text>"));
     EXPECT_THAT(out, testing::HasSubstr(">driven</text>"));

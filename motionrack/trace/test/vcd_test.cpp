@@ -21,8 +21,8 @@ VcdWriter open(const std::string& path, const VcdSettings& settings = {}) {
 }
 
 TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardSays) {
-    const Scratch scratch;
-    VcdWriter vcd = open(scratch.path("a.vcd"));
+    const Scratch vcd_scratch;
+    VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     vcd.push_scope("x");
     const auto step = vcd.add_wire("step");
     const auto limit = vcd.add_wire("limit+", true);
@@ -36,7 +36,7 @@ TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardSays) {
     vcd.change_real(speed, -2.5, whole_seconds(1));
     vcd.change(counter, 0, whole_seconds(1) + Duration{1});
     ASSERT_TRUE(vcd.close(whole_seconds(2)));
-    EXPECT_EQ(file_text(scratch.path("a.vcd")),
+    EXPECT_EQ(file_text(vcd_scratch.path("a.vcd")),
               "$version Motionrack $end\n"
               "$timescale 100 ps $end\n"
               "$scope module x $end\n"
@@ -55,8 +55,8 @@ TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardSays) {
 }
 
 TEST(VcdWriter, WritesAValueOnlyWhenItIsNew) {
-    const Scratch scratch;
-    VcdWriter vcd = open(scratch.path("a.vcd"));
+    const Scratch vcd_scratch;
+    VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     const auto wire = vcd.add_wire("w");
     const auto real = vcd.add_real("r", 1.5);
     const auto nibble = vcd.add_vector("n", 4, 0x13);
@@ -66,45 +66,45 @@ TEST(VcdWriter, WritesAValueOnlyWhenItIsNew) {
     vcd.change_real(real, std::numeric_limits<double>::quiet_NaN(), Instant{11});
     vcd.change_real(real, std::numeric_limits<double>::infinity(), Instant{12});
     ASSERT_TRUE(vcd.close(Instant{12}));
-    const std::string text = file_text(scratch.path("a.vcd"));
+    const std::string text = file_text(vcd_scratch.path("a.vcd"));
     EXPECT_EQ(text.substr(text.find("$dumpvars")), "$dumpvars\n0!\nr1.5 \"\nb11 #\n$end\n");
 }
 
 TEST(VcdWriter, KeepsTheOrderOfChangesInsideOneUnitOfACoarseTimescale) {
-    const Scratch scratch;
+    const Scratch vcd_scratch;
     VcdSettings settings;
     settings.timescale = nanoseconds(100);
-    VcdWriter vcd = open(scratch.path("a.vcd"), settings);
+    VcdWriter vcd = open(vcd_scratch.path("a.vcd"), settings);
     const auto wire = vcd.add_wire("w");
     vcd.change(wire, 1, nanoseconds(250));
     vcd.change(wire, 0, nanoseconds(299));
     vcd.change(wire, 1, nanoseconds(300));
     ASSERT_TRUE(vcd.close(nanoseconds(1000)));
-    const std::string text = file_text(scratch.path("a.vcd"));
+    const std::string text = file_text(vcd_scratch.path("a.vcd"));
     EXPECT_NE(text.find("$timescale 100 ns $end"), std::string::npos);
     EXPECT_EQ(text.substr(text.find("$dumpvars")), "$dumpvars\n0!\n$end\n#2\n1!\n0!\n#3\n1!\n#10\n");
 }
 
 TEST(VcdWriter, RefusesATimescaleThatVcdDoesNotHave) {
-    const Scratch scratch;
+    const Scratch vcd_scratch;
     for (const Duration bad : {nanoseconds(125), Duration{0}, Duration{-10}, Duration{3}, whole_seconds(10)}) {
         VcdSettings settings;
         settings.timescale = bad;
-        const auto writer = VcdWriter::create(scratch.path("a.vcd"), settings);
+        const auto writer = VcdWriter::create(vcd_scratch.path("a.vcd"), settings);
         ASSERT_FALSE(writer);
         EXPECT_EQ(writer.error().trouble, Trouble::refused);
         EXPECT_NE(writer.error().message.find(std::to_string(bad.count() * 100) + " ps"), std::string::npos);
     }
-    EXPECT_FALSE(std::filesystem::exists(scratch.path("a.vcd")));
+    EXPECT_FALSE(std::filesystem::exists(vcd_scratch.path("a.vcd")));
 }
 
 TEST(VcdWriter, MakesNamesThatEveryReaderTakesAndKeepsThemApart) {
-    const Scratch scratch;
-    VcdWriter vcd = open(scratch.path("a.vcd"));
+    const Scratch vcd_scratch;
+    VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     vcd.push_scope("Fr\xC3\xA4se 1");
     for (const char* name : {"limit-", "", "1st", "a b", "a_b", "a.b", "x[3]", "$end"}) vcd.add_wire(name);
     ASSERT_TRUE(vcd.close(Instant{0}));
-    std::istringstream text(file_text(scratch.path("a.vcd")));
+    std::istringstream text(file_text(vcd_scratch.path("a.vcd")));
     std::vector<std::string> names;
     for (std::string line; std::getline(text, line);) {
         std::istringstream words(line);
@@ -119,11 +119,11 @@ TEST(VcdWriter, MakesNamesThatEveryReaderTakesAndKeepsThemApart) {
 }
 
 TEST(VcdWriter, CodesOfThousandsOfWiresAllDiffer) {
-    const Scratch scratch;
-    VcdWriter vcd = open(scratch.path("a.vcd"));
+    const Scratch vcd_scratch;
+    VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     for (int i = 0; i < 20'000; ++i) vcd.add_wire(std::string("w").append(std::to_string(i)));
     ASSERT_TRUE(vcd.close(Instant{0}));
-    std::istringstream text(file_text(scratch.path("a.vcd")));
+    std::istringstream text(file_text(vcd_scratch.path("a.vcd")));
     std::set<std::string> codes;
     for (std::string line; std::getline(text, line);) {
         if (line.rfind("$var", 0) == 0) codes.insert(line.substr(12, line.find(' ', 12) - 12));
@@ -153,8 +153,8 @@ TEST(VcdWriter, SaysThatAFileCannotBeMade) {
 /// Changes of one random file: gaps between instants and values.
 RC_GTEST_PROP(VcdWriter, TimesAndValuesAreReadBackAsTheyWereWritten,
               (std::vector<std::pair<std::uint32_t, int>> changes)) {
-    const Scratch scratch;
-    VcdWriter vcd = open(scratch.path("a.vcd"));
+    const Scratch vcd_scratch;
+    VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     const auto id = vcd.add_vector("v", 64);
     Instant now{1};
     std::vector<std::pair<std::int64_t, std::uint64_t>> expected;
@@ -167,7 +167,7 @@ RC_GTEST_PROP(VcdWriter, TimesAndValuesAreReadBackAsTheyWereWritten,
         last = wide;
     }
     RC_ASSERT(vcd.close(now).has_value());
-    std::istringstream text(file_text(scratch.path("a.vcd")));
+    std::istringstream text(file_text(vcd_scratch.path("a.vcd")));
     std::vector<std::pair<std::int64_t, std::uint64_t>> read;
     std::int64_t time = 0;
     bool body = false;

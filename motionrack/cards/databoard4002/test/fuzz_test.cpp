@@ -6,17 +6,13 @@
 #include <cstdlib>
 #include <iostream>
 #include <motionrack/cards/databoard4002/test/card_fuzz.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::databoard4002 {
 namespace {
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
-
 TEST(Databoard4002Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
+    const std::uint64_t seed = seed_from_environment();
     const auto count = static_cast<std::int64_t>(from_environment("MOTIONRACK_ACCESSES", 1'000'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;
     fuzz::Verdict verdict;

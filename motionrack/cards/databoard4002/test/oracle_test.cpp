@@ -8,18 +8,14 @@
 #include <iostream>
 #include <motionrack/cards/databoard4002/test/program.hpp>
 #include <string>
+#include <tests/environment.hpp>
 
 namespace motionrack::databoard4002::twin {
 namespace {
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
-
 template <class WayOf>
 void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
+    const std::uint64_t seed = seed_from_environment();
     std::cout << "MOTIONRACK_SEED=" << seed << ", programs " << first << " .. " << first + count - 1 << std::endl;
     std::size_t ops = 0, changes = 0, notes = 0;
     std::int64_t slices = 0, pulses = 0;

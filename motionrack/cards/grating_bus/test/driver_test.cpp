@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Duration period = microseconds(200);
+constexpr Duration driver_period = microseconds(200);
 
 /// A crate with a processor at each card.
 struct Bench : Crate {
@@ -41,12 +41,12 @@ TEST(GratingCardLibrary, KnowsHowTheCardIsSet) {
     EXPECT_TRUE(slave->wrong_direction);
     EXPECT_EQ(host->scales, 6);
     EXPECT_EQ(host->timing, Timing{});
-    EXPECT_EQ(host->period, period);
+    EXPECT_EQ(host->period, driver_period);
 }
 
 TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {
     Bench bench(crew(3));
-    bench.run(7 * period + microseconds(30));
+    bench.run(7 * driver_period + microseconds(30));
     const auto host = bench.libraries[0]->read();
     ASSERT_TRUE(host) << host.error().message;
     for (std::size_t i = 1; i < 4; ++i) {
@@ -60,7 +60,7 @@ TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {
 
 TEST(GratingCardLibrary, IsNeverShownHalfAFrameHoweverSlowItReads) {
     Bench bench(crew(0, 8), 8, microseconds(37));  // a frame is read for some 5 periods
-    bench.run(period);
+    bench.run(driver_period);
     std::uint32_t last = 0;
     for (int i = 0; i < 50; ++i) {
         const auto reading = bench.libraries[0]->read();
@@ -80,7 +80,7 @@ TEST(GratingCardLibrary, IsNeverShownHalfAFrameHoweverSlowItReads) {
 TEST(GratingCardLibrary, WaitsForTheNextFrameByItsInterrupt) {
     Bench bench(crew(1));
     for (std::uint32_t i = 0; i < 20; ++i) {
-        const auto reading = bench.libraries[1]->wait(2 * period);
+        const auto reading = bench.libraries[1]->wait(2 * driver_period);
         ASSERT_TRUE(reading) << reading.error().message;
         EXPECT_EQ(reading->frame.sequence, i);
         EXPECT_LT(bench.kernel.now() - reading->frame.instant(), microseconds(3));
@@ -91,11 +91,11 @@ TEST(GratingCardLibrary, SaysThatThereIsNoFrameYetAndThatTheHostIsGone) {
     Bench bench(crew(1));
     ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
     EXPECT_THAT(bench.libraries[1]->read().error().message, HasSubstr("no frame yet"));
-    EXPECT_THAT(bench.libraries[1]->wait(period).error().message, HasSubstr("within 200 us"));
+    EXPECT_THAT(bench.libraries[1]->wait(driver_period).error().message, HasSubstr("within 200 us"));
     ASSERT_TRUE(bench.cards[0]->fault("off", 0, bench.kernel.now()));
-    ASSERT_TRUE(bench.libraries[1]->wait(2 * period));
+    ASSERT_TRUE(bench.libraries[1]->wait(2 * driver_period));
     ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
-    bench.run(3 * period);
+    bench.run(3 * driver_period);
     EXPECT_TRUE(bench.libraries[1]->stale());
     EXPECT_THAT(bench.libraries[1]->read().error().message, HasSubstr("stale"));
 }
@@ -105,7 +105,7 @@ TEST(GratingCardLibrary, AUserWhoStopsTheWaitingIsNotToldOfATimeOut) {
     ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
     const std::atomic<bool> stop{true};
     bench.ports[1]->set_stop_flag(&stop);
-    const auto reading = bench.libraries[1]->wait(period);
+    const auto reading = bench.libraries[1]->wait(driver_period);
     ASSERT_FALSE(reading);
     EXPECT_EQ(reading.error().trouble, Trouble::stopped);
     EXPECT_THAT(reading.error().message, HasSubstr("stopped by the user"));
@@ -113,15 +113,15 @@ TEST(GratingCardLibrary, AUserWhoStopsTheWaitingIsNotToldOfATimeOut) {
 
 TEST(GratingCardLibrary, FollowsAScaleBeyond32Bits) {
     Bench bench(crew(0));
-    bench.run(period);
+    bench.run(driver_period);
     bench.libraries[0]->set_position(0, std::int64_t{1} << 40);
-    const auto first = bench.libraries[0]->wait(2 * period);
+    const auto first = bench.libraries[0]->wait(2 * driver_period);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->positions[0], (std::int64_t{1} << 40) + bench.truth(0, first->frame.instant()));
     bench.run(whole_seconds(60));
-    (void)bench.libraries[0]->wait(2 * period);  // 60 s at 20 MHz are 1.2e9 counts
+    (void)bench.libraries[0]->wait(2 * driver_period);  // 60 s at 20 MHz are 1.2e9 counts
     bench.run(whole_seconds(60));
-    const auto last = bench.libraries[0]->wait(2 * period);
+    const auto last = bench.libraries[0]->wait(2 * driver_period);
     ASSERT_TRUE(last);
     EXPECT_EQ(last->positions[0] - first->positions[0],
               bench.truth(0, last->frame.instant()) - bench.truth(0, first->frame.instant()));
@@ -130,9 +130,9 @@ TEST(GratingCardLibrary, FollowsAScaleBeyond32Bits) {
 
 TEST(GratingCardLibrary, TellsAndClearsWhatWentWrong) {
     Bench bench(crew(1));
-    bench.run(2 * period + microseconds(10));
+    bench.run(2 * driver_period + microseconds(10));
     ASSERT_TRUE(bench.cards[1]->fault("late", 50, bench.kernel.now()));
-    bench.run(3 * period);
+    bench.run(3 * driver_period);
     const CardErrors errors = bench.libraries[1]->errors();
     EXPECT_EQ(errors.broken, 3);
     EXPECT_EQ(errors.missed_words, 12);

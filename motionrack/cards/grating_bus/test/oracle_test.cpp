@@ -7,14 +7,10 @@
 #include <cstdlib>
 #include <iostream>
 #include <motionrack/cards/grating_bus/test/outcome.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::grating_bus::twin {
 namespace {
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 /// The first that differs, for people.
 std::string difference(const char* what, const std::vector<std::string>& twin, const std::vector<std::string>& cards) {
@@ -33,8 +29,8 @@ std::string difference(const char* what, const std::vector<std::string>& twin, c
     return out;
 }
 
-void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 20'261'121) + first;
+void compare_with_twin(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
+    const std::uint64_t seed = seed_from_environment(20'261'121) + first;
     std::cout << "seed " << seed << ", " << programs << " programs" << std::endl;
     std::size_t frames = 0, conflicts = 0, changes = 0, reports = 0, looks = 0;
     for (std::uint64_t number = 0; number < programs; ++number) {
@@ -63,11 +59,11 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
 }
 
 TEST(GratingBusOracle, RandomProgramsLookTheSameOnTheCardsAndOnTheirTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 2500), false);
+    compare_with_twin(0, from_environment("MOTIONRACK_PROGRAMS", 2500), false);
 }
 
 TEST(GratingBusOracle, ARestoredSnapshotGivesTheSameRest) {
-    compare(1'000'000, from_environment("MOTIONRACK_PROGRAMS", 2500) / 5, true);
+    compare_with_twin(1'000'000, from_environment("MOTIONRACK_PROGRAMS", 2500) / 5, true);
 }
 
 }  // namespace

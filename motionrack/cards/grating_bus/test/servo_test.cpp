@@ -88,7 +88,7 @@ RC_GTEST_PROP(StepProfile, EndsWhereItShould, ()) {
 
 // ---- loops
 
-constexpr Duration period = microseconds(200);
+constexpr Duration servo_period = microseconds(200);
 
 /// One axis: a stage with its scale, and a card whose frames may be late or of another instant.
 struct Axis {
@@ -118,7 +118,7 @@ struct Axis {
     template <class Profile>
     double run(const Profile& profile, double seconds, std::size_t late = 0, Duration skew = Duration{0}) {
         double worst = 0;
-        for (const Instant until = kernel.now() + from_seconds(seconds); next < until; next += period) {
+        for (const Instant until = kernel.now() + from_seconds(seconds); next < until; next += servo_period) {
             kernel.run_until(next);
             worst = std::max(worst, std::fabs(profile.at(to_seconds(next)).position_nm - stage.position_nm(next)));
             kernel.run_until(next + skew);
@@ -127,7 +127,7 @@ struct Axis {
             if (under_way.size() <= late) continue;
             const Frame frame = under_way.front();
             under_way.pop_front();
-            drive(loop.on_frame(frame, wanted_at(profile, to_seconds(frame.instant()), to_seconds(period))));
+            drive(loop.on_frame(frame, wanted_at(profile, to_seconds(frame.instant()), to_seconds(servo_period))));
         }
         return worst;
     }
@@ -260,13 +260,13 @@ TEST(ServoLoop, TooGreatAnErrorOpensTheLoopBeforeItRunsAway) {
 
 TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
     Axis axis;
-    axis.kernel.run_until(period);
-    Frame frame = axis.latch(period);
+    axis.kernel.run_until(servo_period);
+    Frame frame = axis.latch(servo_period);
     const Setpoint wanted{1'000, 0, 0};
     const double volts = axis.loop.on_frame(frame, wanted);
     EXPECT_GT(volts, 0);
     EXPECT_EQ(axis.loop.on_frame(frame, {5'000, 0, 0}), volts) << "the same once more";
-    Frame later = axis.latch(2 * period);
+    Frame later = axis.latch(2 * servo_period);
     later.counts[2] += 1'000;
     EXPECT_EQ(axis.loop.on_frame(later, wanted), volts) << "damaged";
     later.words = 2;

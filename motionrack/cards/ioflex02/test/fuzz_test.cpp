@@ -12,7 +12,7 @@ namespace motionrack::ioflex02 {
 namespace {
 
 TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
+    const std::uint64_t seed = seed_from_environment();
     const auto count = static_cast<std::int64_t>(from_environment("MOTIONRACK_ACCESSES", 500'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;
     fuzz::Verdict verdict;
@@ -32,7 +32,7 @@ TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
 }
 
 TEST(Ioflex02Fuzz, EqualInputsGiveEqualHistoriesHoweverOftenSomebodyLooks) {
-    std::mt19937_64 random(from_environment("MOTIONRACK_SEED", 2004));
+    std::mt19937_64 random(seed_from_environment(2004));
     Rig one, two;
     one.start();
     two.start();

@@ -194,7 +194,7 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
 }
 
 void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 20'261'121) + first;
+    const std::uint64_t seed = seed_from_environment(20'261'121) + first;
     std::cout << "seed " << seed << ", " << programs << " programs" << std::endl;
     std::size_t ops = 0, words = 0, notes = 0;
     for (std::uint64_t number = 0; number < programs; ++number) {

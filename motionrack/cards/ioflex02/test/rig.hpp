@@ -7,14 +7,10 @@
 #include <motionrack/cards/ioflex02/model/bus.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 #include <string>
+#include <tests/environment.hpp>
 #include <vector>
 
 namespace motionrack::ioflex02 {
-
-inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 /// The lines B A of a phase 0 .. 3.
 inline int lines_of_phase(std::int64_t phase) {

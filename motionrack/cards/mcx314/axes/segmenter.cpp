@@ -17,7 +17,7 @@ namespace {
 // so that its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
-constexpr double accesses_to_speed = 8;
+constexpr double accesses_to_write_speed = 8;
 constexpr std::int64_t longest_line = 8'000'000;
 
 }  // namespace
@@ -35,7 +35,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
     : map_(map),
       range_(range),
       pulses_per_v_(rules::clock_hz / range),
-      latency_seconds_(accesses_to_speed * to_seconds(access)),
+      latency_seconds_(accesses_to_write_speed * to_seconds(access)),
       at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {

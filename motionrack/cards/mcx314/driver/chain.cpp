@@ -14,7 +14,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr double most_chain_rate = 2e6;  // pulses a second that continuous interpolation follows
-constexpr Duration look_every = microseconds(20);
+constexpr Duration poll_period_of_chains = microseconds(20);
 
 }  // namespace
 
@@ -186,7 +186,7 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
                 fmt::format("The running segment of the chain did not end within {:.3f} s; it was not stopped. Wait "
                             "longer, or stop the axes.",
                             to_seconds(timeout)));
-        doze(0, look_every);
+        doze(0, poll_period_of_chains);
     }
 }
 

@@ -22,10 +22,10 @@ constexpr HomeState wait_steady(std::string_view name, std::string_view meaning,
     return {name, meaning, HomeDoes::wait_steady, exits};
 }
 
-constexpr HomeState check = {"CHECK_START",
-                             "looks where the axis stands",
-                             HomeDoes::look,
-                             {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
+constexpr HomeState check_start = {"CHECK_START",
+                                   "looks where the axis stands",
+                                   HomeDoes::look,
+                                   {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
 constexpr HomeState search_start =
     drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT", HomeWay::towards, HomePace::fast, HomeUntil::on);
 constexpr HomeState search_wait(Exits exits) {
@@ -71,7 +71,7 @@ constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", H
 
 // ---- the types
 
-constexpr std::array type1 = {check,
+constexpr std::array type1 = {check_start,
                               search_start,
                               search_wait({{{done, "ZERO_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
                               rest_start,
@@ -88,7 +88,7 @@ constexpr std::array type1 = {check,
                               stopping_wait,
                               homed,
                               failed};
-constexpr std::array type2 = {check,
+constexpr std::array type2 = {check_start,
                               search_start,
                               search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
                               rest_start,
@@ -107,7 +107,7 @@ constexpr std::array type2 = {check,
                               stopping_wait,
                               homed,
                               failed};
-constexpr std::array type3 = {check,
+constexpr std::array type3 = {check_start,
                               search_start,
                               search_wait({{{done, "INDEX_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
                               rest_start,
@@ -126,7 +126,7 @@ constexpr std::array type3 = {check,
                               stopping_wait,
                               homed,
                               failed};
-constexpr std::array type4 = {check,
+constexpr std::array type4 = {check_start,
                               search_start,
                               search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
                               rest_start,

@@ -11,7 +11,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr int stack_size = 3;
-constexpr Duration look_every = microseconds(20);
+constexpr Duration poll_period_of_patterns = microseconds(20);
 constexpr std::array<std::uint32_t, 3> plus_registers = {register_named(map::registers, "BP1P").offset,
                                                          register_named(map::registers, "BP2P").offset,
                                                          register_named(map::registers, "BP3P").offset};
@@ -87,7 +87,7 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
                 fmt::format("The pattern's stack had no room for {:.3f} s; nothing was stopped. Wait longer, or stop "
                             "the axes.",
                             to_seconds(timeout)));
-        doze(0, look_every);
+        doze(0, poll_period_of_patterns);
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(pattern_.count); ++i) {
         port_.write(plus_registers[i], word.plus[i]);

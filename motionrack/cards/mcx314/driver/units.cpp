@@ -12,7 +12,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 using rules::clock_hz, rules::rate_unit, rules::jerk_unit;
-constexpr double most_multiple = 500;
+constexpr double max_range_multiple = 500;
 constexpr double most_units = static_cast<double>(rules::most_units);
 constexpr double most_distance = 2'147'483'647;
 
@@ -47,7 +47,7 @@ Result<void> check_value(const Kind& kind, const Scale& scale, double value, dou
                 fmt::format("The {} of {} units/{} is {:.0f} pulses/{}, but the chip makes at most {:.0f}{}: {:.6g} "
                             "units/{}. Nothing was set.",
                             kind.name, value, kind.time, value * scale.pulses_per_unit, kind.time, most,
-                            multiple < most_multiple ? fmt::format(" with M = {:.6g}", multiple) : std::string(),
+                            multiple < max_range_multiple ? fmt::format(" with M = {:.6g}", multiple) : std::string(),
                             most / scale.pulses_per_unit, kind.time));
 }
 
@@ -99,7 +99,7 @@ RealSetting with_range(const Scale& scale, const RealDrive& drive, std::int64_t 
 }  // namespace
 
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
-    MOTIONRACK_CHECK(check_drive(scale, drive, most_multiple));
+    MOTIONRACK_CHECK(check_drive(scale, drive, max_range_multiple));
     const double pulses = scale.pulses_per_unit;
     const double least = std::max({1.0, drive.speed * pulses / speed_kind.most_per_multiple,
                                    drive.start_speed * pulses / start_kind.most_per_multiple,

@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr Duration look_every = microseconds(100);
+constexpr Duration default_poll_period = microseconds(100);
 
 }  // namespace
 
@@ -75,7 +75,7 @@ Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
                 fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
                             to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
         // The drive-end interrupt, where enabled, wakes at once; otherwise the status is looked at now and then.
-        doze(axes, look_every);
+        doze(axes, default_poll_period);
     }
     if (stopped) return fail(Trouble::stopped, fmt::format("Stopped on request; {} stands still.", axes_text(axes)));
     return {};

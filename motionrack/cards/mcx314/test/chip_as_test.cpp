@@ -8,8 +8,8 @@
 namespace motionrack::mcx314::outside {
 namespace {
 
-struct As : Bench {
-    As() : Bench(Variant::mcx314as) {}
+struct ChipAsHost : Bench {
+    ChipAsHost() : Bench(Variant::mcx314as) {}
     void extension(unsigned axes, unsigned em6, unsigned em7 = 0) {
         data(axes, cmd::EM, std::int64_t{em7} << 16 | em6);
     }
@@ -37,7 +37,7 @@ TEST(ChipAs, TheOriginalRefusesItsCommandsAndSaysWhichChipHasThem) {
 TEST(ChipAs, AFilterDelaysByTheTablesValueAndRemovesWhatIsShorter) {
     for (unsigned fl = 0; fl < 8; ++fl) {
         const std::int64_t delay = map::filter_ticks[fl];
-        As b;
+        ChipAsHost b;
         b.start();
         b.mode(X, 1, 0x0020);  // IN2 enabled, active Low
         b.extension(X, filter_of_in2 | fl << 13);
@@ -61,7 +61,7 @@ TEST(ChipAs, AFilterDelaysByTheTablesValueAndRemovesWhatIsShorter) {
 }
 
 TEST(ChipAs, AnUnfilteredInputStopsInTheNextTick) {
-    As b;
+    ChipAsHost b;
     b.start();
     b.mode(X, 1, 0x0020);
     b.extension(X, 0x1D00);  // all filters but that of IN2
@@ -74,7 +74,7 @@ TEST(ChipAs, AnUnfilteredInputStopsInTheNextTick) {
 }
 
 TEST(ChipAs, TheEmergencyStopIsFilteredByXForAllAxes) {
-    As b;
+    ChipAsHost b;
     b.start();
     b.extension(X, 0x0100);
     b.speeds(U, 80'000, 100, 100);
@@ -127,7 +127,7 @@ TEST(ChipAs, AHandWheelDrivesAtEachOfItsCycles) {
 // ---- counters
 
 TEST(ChipAs, InARingTheCountersGoFromTheGreatestValueToZeroAndBack) {
-    As b;
+    ChipAsHost b;
     b.start();
     b.data(X, cmd::COMP_PLUS, 9);
     b.extension(X, ring);
@@ -150,7 +150,7 @@ TEST(ChipAs, InARingTheCountersGoFromTheGreatestValueToZeroAndBack) {
 }
 
 TEST(ChipAs, TheRingHoldsForAConnectedEncoderToo) {
-    As b;
+    ChipAsHost b;
     HandWheel wheel;
     b.chip.connect_encoder(0, wheel);
     b.start();
@@ -174,7 +174,7 @@ TEST(ChipAs, TheRingHoldsForAConnectedEncoderToo) {
 }
 
 TEST(ChipAs, AnInterruptComesAtEachTurnOfTheRing) {
-    As b;
+    ChipAsHost b;
     HandWheel wheel;
     b.chip.connect_encoder(0, wheel);
     b.start();
@@ -192,7 +192,7 @@ TEST(ChipAs, AnInterruptComesAtEachTurnOfTheRing) {
 }
 
 TEST(ChipAs, TheEncoderCanCountTheOtherWayRound) {
-    As b;
+    ChipAsHost b;
     HandWheel wheel;
     b.chip.connect_encoder(0, wheel);
     b.start();
@@ -208,7 +208,7 @@ TEST(ChipAs, TheEncoderCanCountTheOtherWayRound) {
 }
 
 TEST(ChipAs, Input2ClearsTheEncoderCounterEachTimeItBecomesActive) {
-    As b;
+    ChipAsHost b;
     HandWheel wheel;
     b.chip.connect_encoder(0, wheel);
     b.start();
@@ -232,7 +232,7 @@ TEST(ChipAs, Input2ClearsTheEncoderCounterEachTimeItBecomesActive) {
 // ---- pulses and ramps
 
 TEST(ChipAs, ThePulseOutputsCanBeExchanged) {
-    As b;
+    ChipAsHost b;
     WireLog log(b.kernel);
     Follower follower(b.kernel);
     for (const char* wire : {"c.xpp", "c.xpm"}) follower.listen(wire);
@@ -271,7 +271,7 @@ Top drive_and_watch(Bench& b, std::int64_t pulses) {
 
 TEST(ChipAs, TrianglePreventionGivesHalfThePulsesToConstantSpeed) {
     for (const bool prevented : {false, true}) {
-        As b;
+        ChipAsHost b;
         b.start();
         b.speeds(X, 80'000, 100, 8000, 1000);
         b.extension(X, prevented ? field("EM6", "AVTRI").mask : 0u);
@@ -289,7 +289,7 @@ TEST(ChipAs, TrianglePreventionGivesHalfThePulsesToConstantSpeed) {
 }
 
 TEST(ChipAs, AfterATrianglePreventedTheNextDriveGoesToVAgain) {
-    As b;
+    ChipAsHost b;
     b.start();
     b.speeds(X, 80'000, 100, 3000, 1000);
     b.extension(X, field("EM6", "AVTRI").mask);
@@ -355,7 +355,7 @@ TEST(ChipAs, TheFallingSCurveHasAJerkOfItsOwn) {
 
 TEST(ChipAs, NDriveShowsADriveUnlessItGivesTheClearPulse) {
     for (const bool followed : {false, true}) {
-        As b;
+        ChipAsHost b;
         WireLog log(b.kernel);
         Follower follower(b.kernel);
         follower.listen("c.ydrive");

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <motionrack/cards/mcx314/test/chip_fuzz.hpp>
 #include <motionrack/cards/mcx314/test/program.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::mcx314::fuzz {
 namespace {
@@ -21,11 +22,6 @@ class Dice final : public Feed {
     twin::Random random_;
 };
 
-std::int64_t from_environment(const char* name, std::int64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text && *text ? std::strtoll(text, nullptr, 0) : otherwise;
-}
-
 Verdict run_all(std::uint64_t seed, std::int64_t accesses, Variant variant) {
     Verdict verdict;
     for (std::uint64_t chip = 0; verdict.accesses < accesses && verdict.problem.empty(); ++chip) {
@@ -39,8 +35,8 @@ Verdict run_all(std::uint64_t seed, std::int64_t accesses, Variant variant) {
 class ChipFuzz : public testing::TestWithParam<Variant> {};
 
 TEST_P(ChipFuzz, AMillionRandomAccessesBreakNothingAndAreRepeatable) {
-    const auto seed = static_cast<std::uint64_t>(from_environment("MOTIONRACK_SEED", 1));
-    const std::int64_t accesses = from_environment("MOTIONRACK_ACCESSES", 1'000'000);
+    const std::uint64_t seed = seed_from_environment();
+    const std::int64_t accesses = static_cast<std::int64_t>(from_environment("MOTIONRACK_ACCESSES", 1'000'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << accesses << " accesses" << std::endl;
     const Verdict first = run_all(seed, accesses, GetParam());
     ASSERT_EQ(first.problem, "");

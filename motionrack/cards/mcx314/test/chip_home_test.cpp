@@ -132,8 +132,8 @@ TEST(ChipHome, TheIndexCountsOnlyWithinTheSwitchWhereBothAreAskedFor) {
 
 // ---- by hand
 
-struct ByHand : Bench {
-    explicit ByHand(unsigned em7, unsigned em6 = home_interrupt) : Bench(Variant::mcx314as) {
+struct HomeByHand : Bench {
+    explicit HomeByHand(unsigned em7, unsigned em6 = home_interrupt) : Bench(Variant::mcx314as) {
         start();
         speeds(Y, 80'000, 20, 500, 200);
         data(Y, cmd::HV, 10);
@@ -153,7 +153,7 @@ struct ByHand : Bench {
 };
 
 TEST(ChipHome, StepTwoComesBackFromALimitThatItMeets) {
-    ByHand b(0x0C);  // only step 2, towards -
+    HomeByHand b(0x0C);  // only step 2, towards -
     b.command(Y, cmd::HOME);
     EXPECT_EQ(hmst(b, Y), 8u);
     EXPECT_EQ(b.direction(), -1);
@@ -174,7 +174,7 @@ TEST(ChipHome, StepTwoComesBackFromALimitThatItMeets) {
 }
 
 TEST(ChipHome, BeginsAtALimitToo) {
-    ByHand b(0x0F);
+    HomeByHand b(0x0F);
     b.wire("ylmtm", 0);
     b.command(Y, cmd::HOME);
     EXPECT_EQ(hmst(b, Y), 3u);
@@ -190,7 +190,7 @@ TEST(ChipHome, StopsAlarmsAndTheOtherLimitEndIt) {
     } ends[] = {
         {nullptr, 0x26, 0}, {nullptr, 0x27, 0}, {"yalarm", 0, 0x4000}, {"emgn", 0, 0x8000}, {"ylmtp", 0, 0x1000}};
     for (const auto& end : ends) {
-        ByHand b(0x0D);  // step 1 towards +, step 2 towards -
+        HomeByHand b(0x0D);  // step 1 towards +, step 2 towards -
         b.mode(Y, 2, 0x2000);
         b.command(Y, cmd::HOME);
         if (end.pin && std::string(end.pin) == "ylmtp") {  // in the way of the escape of step 2
@@ -215,7 +215,7 @@ TEST(ChipHome, StopsAlarmsAndTheOtherLimitEndIt) {
 }
 
 TEST(ChipHome, DriveCommandsAreIgnoredWhileItSearches) {
-    ByHand b(0x01);
+    HomeByHand b(0x01);
     b.command(Y, cmd::HOME);
     b.advance(milliseconds(1));
     b.command(Y, 0x21);
@@ -231,7 +231,7 @@ TEST(ChipHome, DriveCommandsAreIgnoredWhileItSearches) {
 }
 
 TEST(ChipHome, TheClearPulseLiesBetweenIndexAndOffset) {
-    ByHand b(0x50 | clear_pulse | 3u << 13);  // steps 3 and 4, 200 us
+    HomeByHand b(0x50 | clear_pulse | 3u << 13);  // steps 3 and 4, 200 us
     b.command(Y, cmd::HOME);
     b.advance(milliseconds(5));
     b.wire("yin2", 0);
@@ -250,7 +250,7 @@ TEST(ChipHome, TheClearPulseLiesBetweenIndexAndOffset) {
 }
 
 TEST(ChipHome, WaitsForInPositionBetweenItsSteps) {
-    ByHand b(0x05);
+    HomeByHand b(0x05);
     b.mode(Y, 2, 0x8000);  // nINPOS enabled, Low
     b.command(Y, cmd::HOME);
     b.move("yin0", 0);

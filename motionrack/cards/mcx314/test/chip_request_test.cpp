@@ -32,10 +32,10 @@ class Steps : public Bench {
         advance(tick / 2);
     }
 };
-constexpr unsigned by_command = 0x1000, by_wire = 0x0800;
+constexpr unsigned request_by_command = 0x1000, by_wire = 0x0800;
 
 TEST(ChipSteps, EachCommandMakesOneBasicPulse) {
-    Steps b(by_command);
+    Steps b(request_by_command);
     EXPECT_EQ(b.count(0), 0) << "nothing comes by itself";
     EXPECT_TRUE(field("RR0", "IDRV").test(b.read(0)));
     for (int n = 1; n <= 3; ++n) {
@@ -53,7 +53,7 @@ TEST(ChipSteps, EachCommandMakesOneBasicPulse) {
 }
 
 TEST(ChipSteps, ACommandWhileAStepIsUnderWayIsIgnored) {
-    Steps b(by_command);
+    Steps b(request_by_command);
     b.step();
     b.step();
     b.advance(tick * 200);
@@ -89,7 +89,7 @@ TEST(ChipSteps, TheWireAsksWhenItIsLowForFourClocks) {
 }
 
 TEST(ChipSteps, AStopBetweenStepsIsImmediateEvenAtSpeed) {
-    Steps b(by_command);
+    Steps b(request_by_command);
     b.data(X, cmd::SV, 100);
     b.command(X, cmd::SLOW_STOP);
     b.advance(tick);
@@ -97,7 +97,7 @@ TEST(ChipSteps, AStopBetweenStepsIsImmediateEvenAtSpeed) {
 }
 
 TEST(ChipSteps, AQueuedSegmentHasTheStepsOfItsOwnCommand) {
-    Steps b(by_command, 2, 0);
+    Steps b(request_by_command, 2, 0);
     b.write(5, 0x0004);
     b.data(X, cmd::P, 5);
     b.command(0, cmd::LINE2);
@@ -110,7 +110,7 @@ TEST(ChipSteps, AQueuedSegmentHasTheStepsOfItsOwnCommand) {
 }
 
 TEST(ChipSteps, ABitPatternCanBeStepped) {
-    Steps b(by_command);
+    Steps b(request_by_command);
     b.command(X, cmd::QUICK_STOP);
     b.advance(tick);
     b.command(0, cmd::BP_ENABLE);

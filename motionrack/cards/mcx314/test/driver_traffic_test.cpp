@@ -9,13 +9,13 @@
 namespace motionrack::mcx314 {
 namespace {
 
-struct Access {
+struct PortAccess {
     char kind;  ///< 'w' or 'r'
     std::uint32_t offset;
     std::uint16_t value;
-    friend bool operator==(const Access&, const Access&) = default;
+    friend bool operator==(const PortAccess&, const PortAccess&) = default;
 };
-std::ostream& operator<<(std::ostream& out, const Access& access) {
+std::ostream& operator<<(std::ostream& out, const PortAccess& access) {
     return out << access.kind << access.offset << '=' << std::hex << access.value << std::dec;
 }
 
@@ -37,8 +37,8 @@ class Notebook final : public RegisterPort, public Interrupt {
     Instant now() const override { return now_; }
     bool stop_requested() const override { return stop; }
 
-    std::vector<Access> take() { return std::exchange(list, {}); }
-    std::vector<Access> list;
+    std::vector<PortAccess> take() { return std::exchange(list, {}); }
+    std::vector<PortAccess> list;
     std::array<std::uint16_t, 8> levels = {};
     std::int64_t waits = 0;
     bool line_stuck = false;
@@ -48,10 +48,10 @@ class Notebook final : public RegisterPort, public Interrupt {
     Instant now_{};
 };
 
-Access w0(unsigned axes, unsigned code) {
+PortAccess w0(unsigned axes, unsigned code) {
     return {'w', reg::WR0, static_cast<std::uint16_t>(axes << 8 | code)};
 }
-Access w(std::uint32_t offset, unsigned value) {
+PortAccess w(std::uint32_t offset, unsigned value) {
     return {'w', offset, static_cast<std::uint16_t>(value)};
 }
 
@@ -63,9 +63,9 @@ class Traffic : public testing::Test {
 
 TEST_F(Traffic, DataGoesHighWordLowWordCommand) {
     EXPECT_TRUE(driver_.Pulse(axis_x | axis_u, -0x1234567));
-    EXPECT_EQ(port_.take(), (std::vector<Access>{w(reg::WR7, 0x0123), w(reg::WR6, 0x4567), w0(9, cmd::P)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w(reg::WR7, 0x0123), w(reg::WR6, 0x4567), w0(9, cmd::P)}));
     EXPECT_TRUE(driver_.LPS(axis_y, -2));
-    EXPECT_EQ(port_.take(), (std::vector<Access>{w(reg::WR7, 0xFFFF), w(reg::WR6, 0xFFFE), w0(2, cmd::LP)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w(reg::WR7, 0xFFFF), w(reg::WR6, 0xFFFE), w0(2, cmd::LP)}));
 }
 
 TEST_F(Traffic, MultiplesAreTheSmallestThatReach) {
@@ -109,8 +109,8 @@ TEST_F(Traffic, EachSignalFunctionMovesItsOwnBitAndKeepsTheOthers) {
             EXPECT_TRUE((driver_.*one.call)(0, axis_z));
             const auto set = static_cast<std::uint16_t>(before | one.mask),
                        cleared = static_cast<std::uint16_t>(before & ~one.mask);
-            EXPECT_EQ(port_.take(),
-                      (std::vector<Access>{w0(2, cmd::NOP), w(reg::WR2, set), w0(4, cmd::NOP), w(reg::WR2, cleared)}))
+            EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w0(2, cmd::NOP), w(reg::WR2, set), w0(4, cmd::NOP),
+                                                             w(reg::WR2, cleared)}))
                 << one.name;
             EXPECT_EQ(driver_.mode2(0), before) << one.name;
         }
@@ -142,7 +142,7 @@ TEST_F(Traffic, StopInputsInterruptsAndOutputs) {
     EXPECT_TRUE(driver_.SetOutput(axis_x | axis_u, 2, true));
     EXPECT_TRUE(driver_.SetOutput(axis_y, 0, true));
     EXPECT_TRUE(driver_.SetOutput(axis_u, 2, false));
-    EXPECT_EQ(port_.take(), (std::vector<Access>{w(reg::WR4, 0x4004), w(reg::WR4, 0x4014), w(reg::WR4, 0x0014)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w(reg::WR4, 0x4004), w(reg::WR4, 0x4014), w(reg::WR4, 0x0014)}));
 }
 
 TEST_F(Traffic, InputsAreDecodedForEachAxis) {
@@ -162,10 +162,10 @@ TEST_F(Traffic, DrivesOfTwoDirectionsAreHeldAndFreedTogether) {
     EXPECT_TRUE(driver_.Pulse(axis_x | axis_z, 9));
     EXPECT_TRUE(driver_.Pulse(axis_y, -9));
     EXPECT_TRUE(driver_.DriveFixed(7));
-    const std::vector<Access> all = port_.take();
-    const std::vector<Access> last(all.end() - 4, all.end());
-    EXPECT_EQ(last, (std::vector<Access>{w0(7, cmd::HOLD), w0(5, cmd::FIXED_PLUS), w0(2, cmd::FIXED_MINUS),
-                                         w0(7, cmd::START)}));
+    const std::vector<PortAccess> all = port_.take();
+    const std::vector<PortAccess> last(all.end() - 4, all.end());
+    EXPECT_EQ(last, (std::vector<PortAccess>{w0(7, cmd::HOLD), w0(5, cmd::FIXED_PLUS), w0(2, cmd::FIXED_MINUS),
+                                             w0(7, cmd::START)}));
 }
 
 TEST_F(Traffic, ConstantVectorSpeedLeavesNoTraceInTheNextOwnDrive) {
@@ -174,7 +174,7 @@ TEST_F(Traffic, ConstantVectorSpeedLeavesNoTraceInTheNextOwnDrive) {
     port_.take();
     EXPECT_TRUE(driver_.Line2D_C({0, 100, 0, 0, 0, {10'000, 10'000}}, 0x3));
     EXPECT_EQ(driver_.written(1, cmd::R), 5'656'854);
-    const std::vector<Access> all = port_.take();
+    const std::vector<PortAccess> all = port_.take();
     EXPECT_EQ(all[all.size() - 2], w(reg::WR5, 0x0104));
     EXPECT_EQ(all.back(), w0(0, cmd::LINE2));
     EXPECT_DOUBLE_EQ(driver_.multiple(1), 2);
@@ -187,28 +187,28 @@ TEST_F(Traffic, ABitPatternIsStackedStartedAndClosed) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     EXPECT_TRUE(driver_.BP2D({0, 100, 0, 0}, 0x6));
     EXPECT_EQ(driver_.written(1, cmd::V), 100);
-    std::vector<Access> all = port_.take();
-    EXPECT_EQ(std::vector<Access>(all.end() - 3, all.end()),
-              (std::vector<Access>{w(reg::WR5, 0x0009), w0(0, cmd::BP_CLEAR), w0(0, cmd::BP_ENABLE)}));
+    std::vector<PortAccess> all = port_.take();
+    EXPECT_EQ(std::vector<PortAccess>(all.end() - 3, all.end()),
+              (std::vector<PortAccess>{w(reg::WR5, 0x0009), w0(0, cmd::BP_CLEAR), w0(0, cmd::BP_ENABLE)}));
     EXPECT_FALSE(driver_.BPStart());
     const BPWORD word{{0x1111, 0x2222, 0x3333}, {0x4444, 0x5555, 0x6666}};
     EXPECT_TRUE(driver_.BPStack(word));
-    EXPECT_EQ(port_.take(), (std::vector<Access>{{'r', reg::RR0, 0},
-                                                 w(0x04, 0x1111),
-                                                 w(0x06, 0x4444),
-                                                 w(0x08, 0x2222),
-                                                 w(0x0A, 0x5555),
-                                                 w0(0, cmd::BP_STACK)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{{'r', reg::RR0, 0},
+                                                     w(0x04, 0x1111),
+                                                     w(0x06, 0x4444),
+                                                     w(0x08, 0x2222),
+                                                     w(0x0A, 0x5555),
+                                                     w0(0, cmd::BP_STACK)}));
     EXPECT_TRUE(driver_.BPStart());
-    EXPECT_EQ(port_.take(), (std::vector<Access>{w0(0, cmd::BP2)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w0(0, cmd::BP2)}));
     // Registers that share their places with the pattern's are reached all the same.
     EXPECT_TRUE(driver_.SetV(axis_x, 7));
     EXPECT_TRUE(driver_.HLMTP(1, axis_x));
     EXPECT_TRUE(driver_.SetOutput(axis_x, 0, true));
-    EXPECT_EQ(port_.take(), (std::vector<Access>{w0(0, cmd::BP_DISABLE), w(reg::WR7, 0), w(reg::WR6, 7), w0(1, cmd::V),
-                                                 w0(0, cmd::BP_ENABLE), w0(0, cmd::BP_DISABLE), w0(1, cmd::NOP),
-                                                 w(reg::WR2, 8), w0(0, cmd::BP_ENABLE), w0(0, cmd::BP_DISABLE),
-                                                 w(reg::WR4, 1), w0(0, cmd::BP_ENABLE)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w0(0, cmd::BP_DISABLE), w(reg::WR7, 0), w(reg::WR6, 7),
+                                                     w0(1, cmd::V), w0(0, cmd::BP_ENABLE), w0(0, cmd::BP_DISABLE),
+                                                     w0(1, cmd::NOP), w(reg::WR2, 8), w0(0, cmd::BP_ENABLE),
+                                                     w0(0, cmd::BP_DISABLE), w(reg::WR4, 1), w0(0, cmd::BP_ENABLE)}));
     // Y and Z drive, three words are stacked: there is no room within the time.
     port_.levels[0] = 0x6006;
     const Result<void> full = driver_.BPStack(word, milliseconds(1));
@@ -231,29 +231,29 @@ TEST_F(Traffic, ThreeAxesOfAPatternUseAllItsRegisters) {
     EXPECT_EQ(driver_.written(0, cmd::DP), 40);
     port_.take();
     EXPECT_TRUE(driver_.BPStack({{1, 2, 3}, {4, 5, 6}}));
-    EXPECT_EQ(port_.take(), (std::vector<Access>{{'r', reg::RR0, 0},
-                                                 w(0x04, 1),
-                                                 w(0x06, 4),
-                                                 w(0x08, 2),
-                                                 w(0x0A, 5),
-                                                 w(0x0C, 3),
-                                                 w(0x0E, 6),
-                                                 w0(0, cmd::BP_STACK)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{{'r', reg::RR0, 0},
+                                                     w(0x04, 1),
+                                                     w(0x06, 4),
+                                                     w(0x08, 2),
+                                                     w(0x0A, 5),
+                                                     w(0x0C, 3),
+                                                     w(0x0E, 6),
+                                                     w0(0, cmd::BP_STACK)}));
     EXPECT_TRUE(driver_.BPStart());
-    EXPECT_EQ(port_.take(), (std::vector<Access>{w0(0, cmd::BP3)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w0(0, cmd::BP3)}));
     EXPECT_TRUE(driver_.BPEnd());
 }
 
 TEST_F(Traffic, StepsByCommand) {
     EXPECT_TRUE(driver_.SetStep(StepBy::command));
     EXPECT_TRUE(driver_.Step());
-    EXPECT_EQ(port_.take(), (std::vector<Access>{{'r', reg::RR0, 0}, w(reg::WR5, 0x1000), w0(0, cmd::STEP)}));
+    EXPECT_EQ(port_.take(), (std::vector<PortAccess>{{'r', reg::RR0, 0}, w(reg::WR5, 0x1000), w0(0, cmd::STEP)}));
     EXPECT_TRUE(driver_.SetStep(StepBy::wire));
     EXPECT_EQ(port_.take().back(), w(reg::WR5, 0x0800));
     // The mode stays when a line chooses its axes.
     EXPECT_TRUE(driver_.SetRange(8'000'000));
     EXPECT_TRUE(driver_.Line2D_C({0, 100, 0, 0, 0, {10, 10}}, 0x3));
-    const std::vector<Access> all = port_.take();
+    const std::vector<PortAccess> all = port_.take();
     EXPECT_EQ(all[all.size() - 2], w(reg::WR5, 0x0804));
 }
 

@@ -9,14 +9,10 @@
 #include <motionrack/cards/mcx314/test/chip_rig.hpp>
 #include <motionrack/cards/mcx314/test/shrink.hpp>
 #include <string>
+#include <tests/environment.hpp>
 
 namespace motionrack::mcx314::twin {
 namespace {
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* text = std::getenv(name);
-    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 constexpr ChipOptions as{Variant::mcx314as};
 
@@ -40,7 +36,7 @@ std::string fault(const Program& program, const Way& way, Compared* compared = n
 // Runs `count` programs from number `first` on, the way that `way_of(number)` says; stops at the first difference.
 template <class WayOf>
 void compare(std::uint64_t first, std::uint64_t count, const ChipOptions& options, const WayOf& way_of) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
+    const std::uint64_t seed = seed_from_environment();
     std::cout << "MOTIONRACK_SEED=" << seed << ", programs " << first << " .. " << first + count - 1 << std::endl;
     Compared compared;
     for (std::uint64_t number = first; number < first + count; ++number) {

@@ -8,9 +8,6 @@ namespace {
 constexpr std::uint16_t flag_pulse = 1u << 0;
 constexpr std::uint16_t flag_drive_end = 1u << 7;
 
-constexpr bool bit(std::uint16_t value, int n) {
-    return (value >> n & 1) != 0;
-}
 }  // namespace
 
 void Twin::tick() {

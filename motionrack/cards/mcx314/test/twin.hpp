@@ -17,6 +17,10 @@
 
 namespace motionrack::mcx314::twin {
 
+constexpr bool bit(std::uint16_t value, int n) {
+    return (value >> n & 1) != 0;
+}
+
 inline constexpr int axis_count = 4;
 
 /// A pulse: the tick of its active edge, the axis 0..3 and the direction +1 or -1.

@@ -4,12 +4,6 @@
 
 namespace motionrack::mcx314::twin {
 
-namespace {
-constexpr bool bit(std::uint16_t value, int n) {
-    return (value >> n & 1) != 0;
-}
-}  // namespace
-
 Twin::Twin(const ChipOptions& options) : options_(options), extended_(options.variant == Variant::mcx314as) {
     reset();
 }

@@ -4,12 +4,6 @@
 
 namespace motionrack::mcx314::twin {
 
-namespace {
-constexpr bool bit(std::uint16_t value, int n) {
-    return (value >> n & 1) != 0;
-}
-}  // namespace
-
 int Twin::selected() const {
     int a = 0;
     while (a < axis_count - 1 && !(selected_ >> a & 1)) ++a;

@@ -5,9 +5,6 @@
 namespace motionrack::mcx314::twin {
 
 namespace {
-constexpr bool bit(std::uint16_t value, int n) {
-    return (value >> n & 1) != 0;
-}
 constexpr bool drives_by_wire(const Axis& axis) {
     return bit(axis.wr3, 3) != bit(axis.wr3, 4);  // EXOP 1 or 2
 }

@@ -5,7 +5,7 @@
 namespace motionrack::rtc5 {
 namespace {
 
-constexpr double k = 5184;  // bits/mm
+constexpr double fly_k = 5184;  // bits/mm
 
 /// Counts that grow by a rate, words from a list.
 class Belt final : public Inputs {
@@ -31,7 +31,7 @@ TEST(Rtc5Fly, AnEncoderOf2000CountsAMillimetreMovesTheOutputByAMicrometreATick) 
     belt.per_tick = 2;
     rig.card.set_inputs(&belt);
     rig.run(5);
-    rig.put(Op::set_fly_x, {k / 2000});
+    rig.put(Op::set_fly_x, {fly_k / 2000});
     rig.put(Op::long_delay, {10'000});
     rig.go();
     EXPECT_EQ(rig.x[5], 0);
@@ -43,7 +43,7 @@ TEST(Rtc5Fly, AnEncoderOf2000CountsAMillimetreMovesTheOutputByAMicrometreATick) 
 TEST(Rtc5Fly, TheSimulatedEncoderCountsAMillionASecond) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(3));
-    rig.put(Op::set_fly_x, {k * 100 / 1e6});
+    rig.put(Op::set_fly_x, {fly_k * 100 / 1e6});
     rig.put(Op::long_delay, {9'999});
     rig.go();
     EXPECT_EQ(rig.card.encoder(0), 100'000);
@@ -103,7 +103,7 @@ TEST(Rtc5Fly, TwoReadingsOfTheMcBspGiveTheScale) {
     rig.run(1);
     const double increment = (rig.card.read_mcbsp(0) - before) / 50.0;
     EXPECT_DOUBLE_EQ(increment, 1000);
-    EXPECT_DOUBLE_EQ(k / increment, 5.184);
+    EXPECT_DOUBLE_EQ(fly_k / increment, 5.184);
 }
 
 TEST(Rtc5Fly, LocationZeroIsFilledAfterFlyReturnAndAfterAReset) {
@@ -227,16 +227,16 @@ TEST(Rtc5Fly, ASquareOnABeltIsASquareOnThePart) {
     for (const bool fly : {false, true}) {
         Rig rig;
         ASSERT_TRUE(rig.card.simulate_encoder(1));
-        rig.put(Op::set_fly_x, {fly ? k * 100 / 1e6 : 0});
+        rig.put(Op::set_fly_x, {fly ? fly_k * 100 / 1e6 : 0});
         rig.put(Op::set_mark_speed, {2592});
         for (const auto& [x, y] : {std::pair{10, 0}, std::pair{10, 10}, std::pair{0, 10}, std::pair{0, 0}})
-            rig.put(Op::mark_abs, {x * k, y * k});
+            rig.put(Op::mark_abs, {x * fly_k, y * fly_k});
         EXPECT_EQ(rig.go(), 8002);
         for (int i = 0; i < 5; ++i) {
             const auto tick = static_cast<std::size_t>(i * 2000);
             const double belt = static_cast<double>(tick) * 1e-5 * 100;  // the part has gone so far since tick 0
-            EXPECT_NEAR(rig.x[tick] / k - belt, (fly ? corners_on : corners_off)[i][0], 0.0011) << i;
-            EXPECT_NEAR(rig.y[tick] / k, (fly ? corners_on : corners_off)[i][1], 0.0011) << i;
+            EXPECT_NEAR(rig.x[tick] / fly_k - belt, (fly ? corners_on : corners_off)[i][0], 0.0011) << i;
+            EXPECT_NEAR(rig.y[tick] / fly_k, (fly ? corners_on : corners_off)[i][1], 0.0011) << i;
         }
     }
 }

@@ -6,17 +6,13 @@
 #include <cstdlib>
 #include <iostream>
 #include <motionrack/cards/rtc5/test/card_fuzz.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::rtc5 {
 namespace {
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* const text = std::getenv(name);
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
 TEST(Rtc5Fuzz, AnyNumbersLeaveTheCardAlive) {
-    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1), jobs = from_environment("MOTIONRACK_JOBS", 60);
+    const std::uint64_t seed = seed_from_environment(), jobs = from_environment("MOTIONRACK_JOBS", 60);
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << jobs << " jobs" << std::endl;
     fuzz::Verdict verdict;
     for (std::uint64_t i = 0; i < jobs && verdict.problem.empty(); ++i) {

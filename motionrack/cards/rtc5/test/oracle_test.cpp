@@ -12,6 +12,7 @@
 #include <motionrack/cards/rtc5/test/job.hpp>
 #include <motionrack/cards/rtc5/test/twin.hpp>
 #include <string>
+#include <tests/environment.hpp>
 
 namespace motionrack::rtc5 {
 namespace {
@@ -354,11 +355,9 @@ class Pair {
 };
 
 TEST(Rtc5Oracle, RandomJobsLookTheSameOnTheTwin) {
-    const char *const seed_text = std::getenv("MOTIONRACK_SEED"), *const count_text =
-                                                                      std::getenv("MOTIONRACK_PROGRAMS");
-    const std::uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 10) : 20250;
-    const int count = count_text != nullptr ? std::atoi(count_text) : 1500;
-    std::cout << "seed " << seed << ", " << count << " jobs\n";
+    const std::uint64_t seed = seed_from_environment(20250);
+    const auto count = static_cast<int>(from_environment("MOTIONRACK_PROGRAMS", 1500));
+    std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " jobs\n";
     for (int i = 0; i < count; ++i) {
         const std::uint64_t own = seed + static_cast<std::uint64_t>(i);
         const Job job = JobMaker(own).make();

@@ -7,7 +7,7 @@
 namespace motionrack::rtc5 {
 namespace {
 
-constexpr double k = 8656;  // bits/mm
+constexpr double station_k = 8656;  // bits/mm
 
 /// The card's eyes and hands in a marking machine.
 class Machine final : public Sink, public Inputs {
@@ -27,13 +27,13 @@ class Machine final : public Sink, public Inputs {
     /// A 10 mm square at 500 mm/s, with `before` in front.
     parts::Deviation square(std::initializer_list<Command> before) {
         for (const Command& c : before) EXPECT_TRUE(card.put(c));
-        put(Op::set_mark_speed, {500 * k / 1000});
-        put(Op::set_jump_speed, {3000 * k / 1000});
+        put(Op::set_mark_speed, {500 * station_k / 1000});
+        put(Op::set_jump_speed, {3000 * station_k / 1000});
         put(Op::set_laser_delays, {laser_delay, laser_delay});
         put(Op::set_scanner_delays, {60, 60, 60});
-        put(Op::jump_abs, {-5 * k, -5 * k});
+        put(Op::jump_abs, {-5 * station_k, -5 * station_k});
         for (const auto& [x, y] : {std::pair{5, -5}, std::pair{5, 5}, std::pair{-5, 5}, std::pair{-5, -5}})
-            put(Op::mark_abs, {x * k, y * k});
+            put(Op::mark_abs, {x * station_k, y * station_k});
         put(Op::fly_return, {0, 0});
         put(Op::set_end_of_list);
         EXPECT_TRUE(card.execute_list(1));
@@ -60,7 +60,7 @@ parts::StationSettings belt(double mm_s) {
 
 TEST(Rtc5Station, ASquareOnABeltIsDistortedWithoutCorrectionAndRightWithIt) {
     Machine without(belt(100)), with(belt(100));
-    const auto off = without.square({}), on = with.square({*list_command(Op::set_fly_x, {k / 1000})});
+    const auto off = without.square({}), on = with.square({*list_command(Op::set_fly_x, {station_k / 1000})});
     EXPECT_GT(off.worst_mm, 5);
     // One count and one tick.
     EXPECT_LE(on.worst_mm, 0.0021);
@@ -73,15 +73,15 @@ TEST(Rtc5Station, LineSpeedMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
     settings.track.profile = {{0, 50}, {0.05, 150}, {0.1, 80}};
     Machine with(settings), simulated(settings);
     ASSERT_TRUE(simulated.card.simulate_encoder(1));
-    EXPECT_LE(with.square({*list_command(Op::set_fly_x, {k / 1000})}).worst_mm, 0.003);
-    EXPECT_GT(simulated.square({*list_command(Op::set_fly_x, {k * 100 / 1e6})}).worst_mm, 0.5);
+    EXPECT_LE(with.square({*list_command(Op::set_fly_x, {station_k / 1000})}).worst_mm, 0.003);
+    EXPECT_GT(simulated.square({*list_command(Op::set_fly_x, {station_k * 100 / 1e6})}).worst_mm, 0.5);
 }
 
 TEST(Rtc5Station, TheTrackingErrorTakesTheMirrorsLagOffTheBelt) {
     auto settings = belt(500);
     settings.galvo = {.ideal = false, .dead_us = 50, .natural_hz = 3183.1, .damping = 1, .greatest_speed = 1e7};
     settings.track.counts_per_unit = 20'000;
-    const auto start = *list_command(Op::set_fly_x, {k / 20'000});
+    const auto start = *list_command(Op::set_fly_x, {station_k / 20'000});
     Machine plain(settings), ahead(settings);
     EXPECT_NEAR(plain.station.galvo().lag_us(), 150, 0.1);
     ahead.card.set_tracking_error(15, 0);
@@ -105,7 +105,7 @@ TEST(Rtc5Station, PositionWordsCorrectLikeAnEncoderAndTheirDelayShifts) {
     Machine prompt(belt(100)), late(belt(100));
     prompt.sender = *parts::PositionSender::make(prompt.station.track(), {.bits_per_mm = 1000});
     late.sender = *parts::PositionSender::make(late.station.track(), {.bits_per_mm = 1000, .delay_us = 2000});
-    const Command start = *list_command(Op::set_fly_x_pos, {k / 1000});
+    const Command start = *list_command(Op::set_fly_x_pos, {station_k / 1000});
     EXPECT_LE(prompt.square({start}).worst_mm, 0.0021);
     EXPECT_NEAR(late.square({start}).worst_mm, 0.2, 0.003) << "2 ms at 100 mm/s";
 }
@@ -114,7 +114,7 @@ TEST(Rtc5Station, ARotaryTableIsFollowed) {
     parts::StationSettings settings;
     settings.track = {.rotary = true, .centre_mm = {-30, 0}, .profile = {{0, 60}}, .counts_per_unit = 10'000};
     Machine machine(settings);
-    ASSERT_TRUE(machine.card.set_rot_center({-30 * k, 0}));
+    ASSERT_TRUE(machine.card.set_rot_center({-30 * station_k, 0}));
     EXPECT_LE(machine.square({*list_command(Op::set_fly_rot, {3'600'000})}).worst_mm, 0.002);
 }
 

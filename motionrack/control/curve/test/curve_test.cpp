@@ -26,12 +26,12 @@ int rests(const std::vector<Move>& moves) {
 }
 
 /// Greatest bend and twist of XYZ on the curve.
-struct Peaks {
+struct CurvePeaks {
     double bend = 0, twist = 0;
 };
 
-Peaks peaks_of(const std::vector<CurvePiece>& pieces) {
-    Peaks out;
+CurvePeaks peaks_of(const std::vector<CurvePiece>& pieces) {
+    CurvePeaks out;
     for (const CurvePiece& piece : pieces) {
         out.bend = std::max({out.bend, xyz_size(piece.bend), xyz_size(bend_on(piece, piece.length))});
         out.twist = std::max(out.twist, xyz_size(piece.twist));
@@ -155,7 +155,7 @@ TEST(Curve, OfDenseChordsIsAlmostTheArcTheyAreOn) {
         std::vector<CurvePiece> inside;
         for (const CurvePiece& piece : pieces)
             if (piece.begin > 4 && piece.begin < 20) inside.push_back(piece);
-        const Peaks peaks = peaks_of(inside);
+        const CurvePeaks peaks = peaks_of(inside);
         EXPECT_LT(peaks.bend * radius, 1.03) << step;
         EXPECT_LT(peaks.twist, 0.1) << step;
     }

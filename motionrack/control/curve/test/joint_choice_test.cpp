@@ -10,15 +10,15 @@
 namespace motionrack::control {
 namespace {
 
-struct Row {
+struct ChoiceRow {
     std::vector<Leg> legs;
     std::vector<Joint> joints;  ///< one more: the row's begin first
 };
 
-Row random_row(unsigned seed, std::size_t legs) {
+ChoiceRow random_row(unsigned seed, std::size_t legs) {
     std::mt19937 random(seed);
     const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
-    Row out;
+    ChoiceRow out;
     out.joints.push_back({});
     for (std::size_t i = 0; i < legs; ++i) {
         out.legs.push_back({between(0.01, 3), between(5, 100), between(500, 3000), between(1e4, 1e5)});
@@ -34,7 +34,7 @@ Row random_row(unsigned seed, std::size_t legs) {
 }
 
 /// `stops`: bit i of the end of leg i.
-double seconds_of(const Row& row, unsigned stops) {
+double seconds_of_row(const ChoiceRow& row, unsigned stops) {
     double seconds = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {
         const bool begin = i == 0 || (stops >> (i - 1) & 1) != 0, end = (stops >> i & 1) != 0;
@@ -45,7 +45,7 @@ double seconds_of(const Row& row, unsigned stops) {
     return seconds;
 }
 
-unsigned chosen(const Row& row) {
+unsigned chosen(const ChoiceRow& row) {
     JointChoice choice;
     choice.begin();
     unsigned stops = 0, taken = 0;
@@ -60,11 +60,11 @@ unsigned chosen(const Row& row) {
 
 TEST(AChoiceOfJoints, IsTheQuickestOfAllRows) {
     for (unsigned seed = 1; seed <= 300; ++seed) {
-        const Row row = random_row(seed, 1 + seed % 9);
+        const ChoiceRow row = random_row(seed, 1 + seed % 9);
         double least = std::numeric_limits<double>::infinity();
         for (unsigned stops = 0; stops < 1u << row.legs.size(); ++stops)
-            least = std::min(least, seconds_of(row, stops));
-        ASSERT_NEAR(seconds_of(row, chosen(row)) / least, 1, 1e-12) << seed;
+            least = std::min(least, seconds_of_row(row, stops));
+        ASSERT_NEAR(seconds_of_row(row, chosen(row)) / least, 1, 1e-12) << seed;
     }
 }
 

@@ -40,18 +40,18 @@ double length_of(const std::vector<FeedSpan>& spans) {
     return length;
 }
 
-double seconds_of(std::span<const FeedPiece> pieces) {
+double seconds_of_feed(std::span<const FeedPiece> pieces) {
     double seconds = 0;
     for (const FeedPiece& piece : pieces) seconds += piece.seconds;
     return seconds;
 }
 
 /// Greatest parts of the limits, and of any jump between pieces, that a profile has anywhere.
-struct Peaks {
+struct FeedPeaks {
     double speed = 0, accel = 0, jerk = 0, jump = 0;
 };
-Peaks peaks_of(std::span<const FeedPiece> pieces, const std::vector<FeedSpan>& spans) {
-    Peaks out;
+FeedPeaks peaks_of(std::span<const FeedPiece> pieces, const std::vector<FeedSpan>& spans) {
+    FeedPeaks out;
     const double length = length_of(spans);
     FeedState last;
     const auto jump = [&](const FeedState& state) {
@@ -88,8 +88,8 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
             const std::vector<FeedSpan> spans = {{0.3 * length, speed, 1000, 20'000},
                                                  {0.7 * length, speed, 1000, 20'000}};
             const auto pieces = planner.plan(spans);
-            EXPECT_NEAR(seconds_of(pieces) / SCurve(length, speed, 1000, 20'000).duration(), 1, 1e-12) << length;
-            const Peaks peaks = peaks_of(pieces, spans);
+            EXPECT_NEAR(seconds_of_feed(pieces) / SCurve(length, speed, 1000, 20'000).duration(), 1, 1e-12) << length;
+            const FeedPeaks peaks = peaks_of(pieces, spans);
             EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << length;
             EXPECT_LE(peaks.jump, 1e-9) << length;
         }
@@ -101,8 +101,8 @@ TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
     for (const double jerk : {1e9, 1e12, 1e15}) {
         const std::vector<FeedSpan> spans = {{92, 50, 1000, jerk}};
         const auto pieces = planner.plan(spans);
-        EXPECT_NEAR(seconds_of(pieces) / SCurve(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
-        const Peaks peaks = peaks_of(pieces, spans);
+        EXPECT_NEAR(seconds_of_feed(pieces) / SCurve(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
+        const FeedPeaks peaks = peaks_of(pieces, spans);
         EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
         EXPECT_LE(peaks.jump, 1e-8) << jerk;  // roundings of 50 beside speeds of 1e-12
         for (const FeedPiece& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
@@ -115,7 +115,7 @@ TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
         const std::vector<FeedSpan> spans = {{0.5 * length, 100, 1000, 20'000},
                                              {0.5 * length, 100.000001, 1000, 20'000}};
         const double quickest = SCurve(length, 100, 1000, 20'000).duration();
-        const double seconds = seconds_of(planner.plan(spans));
+        const double seconds = seconds_of_feed(planner.plan(spans));
         EXPECT_GE(seconds, quickest * (1 - 1e-6)) << length;
         EXPECT_LE(seconds, quickest * 1.01) << length;
     }
@@ -126,7 +126,7 @@ TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
     RandomSpans random(20261122);
     for (int run = 0; run < 3000; ++run) {
         const std::vector<FeedSpan> spans = random.next(12, run % 2 == 0);
-        const Peaks peaks = peaks_of(planner.plan(spans), spans);
+        const FeedPeaks peaks = peaks_of(planner.plan(spans), spans);
         ASSERT_LE(peaks.speed, 1 + 1e-6) << run;
         ASSERT_LE(peaks.accel, 1 + 1e-6) << run;
         ASSERT_LE(peaks.jerk, 1 + 1e-6) << run;
@@ -146,7 +146,7 @@ TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
     EXPECT_NEAR(up, 1000, 1e-3);
     EXPECT_NEAR(down, -4000, 1e-3);
     const double peak = std::sqrt(200 / (1.0 / 2000 + 1.0 / 8000));
-    EXPECT_NEAR(seconds_of(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
+    EXPECT_NEAR(seconds_of_feed(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
 }
 
 /// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the
@@ -160,7 +160,7 @@ TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
         double stopping = 0;
         for (const FeedSpan& span : spans)
             stopping += SCurve(span.length, span.speed, span.accel, span.jerk).duration();
-        const double seconds = seconds_of(planner.plan(spans));
+        const double seconds = seconds_of_feed(planner.plan(spans));
         ASSERT_LE(seconds, 1.5 * stopping) << run;
         slower += seconds > 1.01 * stopping;
     }
@@ -191,7 +191,7 @@ TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
         quickest += 0.1 / speed;
     }
     const double ends = 2 * (SCurve(1000, 100, 2000, 100'000).duration() - 10);
-    EXPECT_LE(seconds_of(planner.plan(spans)), 1.003 * quickest + ends);
+    EXPECT_LE(seconds_of_feed(planner.plan(spans)), 1.003 * quickest + ends);
 }
 
 TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
@@ -219,7 +219,7 @@ TEST(AFeedProfile, TakesLimitsOfAnySize) {
                     random.between(1e-3, 1e10)};
         for (FeedSpan& span : spans) span.brake = run % 2 == 0 ? span.accel : random.between(1e-3, 1e7);
         const auto pieces = planner.plan(spans);
-        const double seconds = seconds_of(pieces);
+        const double seconds = seconds_of_feed(pieces);
         ASSERT_TRUE(seconds > 0 && seconds < 1e12) << run << ": " << seconds;
         ASSERT_LT(pieces.size(), 2500U) << run;
         for (const FeedPiece& piece : pieces) ASSERT_TRUE(piece.seconds >= 0) << run;
@@ -279,7 +279,7 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
             span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000),
                     random.between(5e3, 1e5)};
         const std::span<const FeedPiece> plan = planner.plan(spans);
-        double time = random.between(0.02, 0.9) * seconds_of(plan), left = seconds_of(plan) - time;
+        double time = random.between(0.02, 0.9) * seconds_of_feed(plan), left = seconds_of_feed(plan) - time;
         std::size_t k = 0;
         while (time > plan[k].seconds) time -= plan[k++].seconds;
         const FeedState state = plan[k].at(time);
@@ -295,11 +295,11 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
         const FeedState first = next[0].at(0);
         EXPECT_NEAR(first.speed, state.speed, 1e-9 * state.speed);
         EXPECT_NEAR(first.accel, state.accel, 1e-6 * rest[0].accel);
-        const Peaks peaks = peaks_of(next, rest);
+        const FeedPeaks peaks = peaks_of(next, rest);
         EXPECT_LE(peaks.speed, 1 + 1e-6);
         EXPECT_LE(peaks.accel, 1 + 1e-6);
         EXPECT_LE(peaks.jerk, 1 + 1e-6);
-        EXPECT_LE(seconds_of(next), 1.1 * left);
+        EXPECT_LE(seconds_of_feed(next), 1.1 * left);
     }
     EXPECT_GT(steady_found, 0.99 * steady);
     EXPECT_GT(found, 0.85 * all);

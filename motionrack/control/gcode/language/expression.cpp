@@ -42,15 +42,11 @@ constexpr double degrees = 180 / pi;
 /// Of an operator in the order of the enumeration; 0 the weakest.
 constexpr std::array<int, 16> strength = {-1, 4, 3, 3, 3, 2, 2, 1, 1, 1, 1, 1, 1, 0, 0, 0};
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
-}
-
 /// Whether `word` stands at `at`, in either case.
 bool stands(const char* at, const char* end, std::string_view word) {
     if (static_cast<std::size_t>(end - at) < word.size()) return false;
     for (std::size_t i = 0; i < word.size(); ++i)
-        if (lower(at[i]) != word[i]) return false;
+        if (to_lower(at[i]) != word[i]) return false;
     return true;
 }
 
@@ -347,7 +343,7 @@ bool ExpressionReader::parameter(const char*& at, ParameterName& name) {
             if (is_blank(*at)) continue;
             if (*at < '!' || *at > '~' || *at == '<' || *at == '#' || *at == '(' || *at == ';')
                 return fail(at, "a parameter's name ends with '>'; it has letters, digits and '_'");
-            name.name += lower(*at);
+            name.name += to_lower(*at);
         }
         if (at == end_) return fail(begin, "this name is not closed: '>' is missing");
         ++at;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/control/gcode/language/flow_line.hpp>
+#include <motionrack/control/gcode/number.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
 #include <span>
 #include <utility>
@@ -18,10 +19,6 @@ constexpr std::array<std::string_view, 16> names = {
     "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
 /// Those that are written.
 constexpr std::size_t of_words = 15;
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
-}
 
 void skip_blanks(std::string_view text, std::size_t& at) {
     while (at < text.size() && is_blank(text[at])) ++at;
@@ -98,7 +95,7 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
         if (close == std::string_view::npos)
             return fail(column, "the name of this O word is not closed: '>' is missing");
         for (; at <= close; ++at)
-            if (!is_blank(text[at])) line.label += lower(text[at]);
+            if (!is_blank(text[at])) line.label += to_lower(text[at]);
     } else if (at < text.size() && (text[at] == '#' || text[at] == '[')) {
         line.computed = true;
         at = end_of_value(text, at);
@@ -112,7 +109,7 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
         return fail(column, "an O word needs a number or a name, e.g. o100 or o<drill>");
     skip_blanks(text, at);
     std::string word;
-    for (; at < text.size() && is_letter(text[at]); ++at) word += lower(text[at]);
+    for (; at < text.size() && is_letter(text[at]); ++at) word += to_lower(text[at]);
     const auto words = std::span(names).first<of_words>();
     const auto found = std::find(words.begin(), words.end(), word);
     const bool numbered = word.empty() && is_digit(text[label_at]) && is_rest_empty(text, at);

@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr double most_repeats = 1e9;
+constexpr double max_loop_repeats = 1e9;
 
 }  // namespace
 
@@ -171,7 +171,7 @@ bool Walk::choose(std::int32_t at, Interpreter& interpreter) {
 bool Walk::begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
     double times = 0;
     const bool good = evaluate(place, interpreter, times);
-    times = std::floor(std::min(times, most_repeats) + 0.5);
+    times = std::floor(std::min(times, max_loop_repeats) + 0.5);
     if (!good || times < 1) {
         jump(place_at(place.end));
         return good;

@@ -18,20 +18,20 @@ double times_stopping(const std::vector<Move>& moves) {
 }
 
 TEST(ARideBesideExactStops, IsSeldomSlower) {
-    int slower = 0, programs = 0;
+    int slower = 0, tried = 0;
     double most = 0;
     for (std::uint64_t seed = 1; seed < 1000; ++seed) {
         const std::vector<Move> moves = curve_test::ProgramMaker(seed).program(2);
         if (std::any_of(moves.begin(), moves.end(), [](const Move& move) { return move.kind == MoveKind::arc; }))
             continue;
         const double times = times_stopping(moves);
-        ++programs;
+        ++tried;
         slower += times > 1.02;
         most = std::max(most, times);
     }
     RecordProperty("slower", slower);
     RecordProperty("most", std::to_string(most));
-    EXPECT_LE(slower, 0.005 * programs) << "of " << programs;
+    EXPECT_LE(slower, 0.005 * tried) << "of " << tried;
     EXPECT_LE(most, 1.04);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <tests/environment.hpp>
 #include <vector>
 
 namespace {
@@ -141,8 +142,7 @@ class Hostile {
 };
 
 std::uint64_t seed_given() {
-    const char* given = std::getenv("MOTIONRACK_SEED");
-    const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : 1;
+    const std::uint64_t seed = seed_from_environment();
     std::cout << "MOTIONRACK_SEED=" << seed << std::endl;
     return seed;
 }

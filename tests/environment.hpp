@@ -1,0 +1,20 @@
+// Numbers that a user of the tests hands over: MOTIONRACK_SEED=7 test_mcx314.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace motionrack {
+
+/// The whole number in an environment variable; `otherwise` where it is not set or empty.
+inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* const text = std::getenv(name);
+    return text != nullptr && *text != '\0' ? std::strtoull(text, nullptr, 0) : otherwise;
+}
+
+/// Where random tests begin: MOTIONRACK_SEED, or the same in every run.
+inline std::uint64_t seed_from_environment(std::uint64_t otherwise = 1) {
+    return from_environment("MOTIONRACK_SEED", otherwise);
+}
+
+}  // namespace motionrack
