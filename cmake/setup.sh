@@ -2,6 +2,8 @@
 # shellcheck shell=bash
 # shellcheck source=cmake/machine.sh
 . "${BASH_SOURCE[0]%/*}/machine.sh"
+# shellcheck source=cmake/page.sh
+. "${BASH_SOURCE[0]%/*}/page.sh"
 
 say() { printf '%s\n' "motionrack: $*" >&2; }
 
@@ -70,27 +72,6 @@ build_in() {
             return 1
         }
     fi
-}
-
-# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin looks for it; only
-# if its sources changed. Where it cannot be built the program shows a text in its place, so that is no failure.
-build_page() {
-    local folder="$PWD/$1/share/motionrack/page" stamp="$1/.page-made-of" want log
-    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum)
-    [ -e "$folder/index.html" ] && [ -d hmi/node_modules ] && [ "$(cat "$stamp" 2>/dev/null)" = "$want" ] && return 0
-    if ! command -v npm >/dev/null 2>&1 && ! need_packages nodejs npm; then
-        say "the operator panel's page needs nodejs and npm; the program shows a text in its place"
-        return 0
-    fi
-    say "building the operator panel's page"
-    log=$(mktemp)
-    if ! (cd hmi && npm ci --no-audit --no-fund && MOTIONRACK_PAGE="$folder" npm run build) >"$log" 2>&1; then
-        tail -n 15 "$log" >&2
-        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place. The whole log is $log"
-        return 0
-    fi
-    rm -f "$log"
-    printf '%s' "$want" >"$stamp"
 }
 
 # What ./run and ./test configure build/release with, besides MOTIONRACK_TESTS.
