@@ -4,8 +4,8 @@
 # Node.js of Debian 12.
 page_node=18
 
-# page_packages: into hmi/node_modules what hmi/package-lock.json names, if something else is there. What npm has
-# fetched once is taken from its cache, so that the network is needed only for what is new.
+# page_packages: the packages of hmi/package-lock.json into hmi/node_modules, unless they are there. npm takes from its
+# cache those that it has fetched before, so that the network is needed only for new ones.
 page_packages() {
     local stamp=hmi/node_modules/.made-of want log
     want=$(sha256sum hmi/package-lock.json)
@@ -20,7 +20,7 @@ page_packages() {
     printf '%s' "$want" >"$stamp"
 }
 
-# why_npm_failed LOG: the sentence for what npm said.
+# why_npm_failed LOG: the sentence for npm's trouble.
 why_npm_failed() {
     local log=$1 unreached
     unreached=$(sed -nE 's/^npm (ERR!|error) request to .* failed, reason: (.*)/\2/p' "$log" | head -n 1)
@@ -34,7 +34,7 @@ why_npm_failed() {
     fi
 }
 
-# page_node_is_new: whether the programs for the page are there, after what could be installed was; says what is not.
+# page_node_is_new: whether node and npm are there, installed if need be, and new enough; says it where not.
 page_node_is_new() {
     local version
     if ! command -v node >/dev/null 2>&1 || ! command -v npm >/dev/null 2>&1; then

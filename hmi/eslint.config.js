@@ -1,5 +1,8 @@
-// What the page's sources must not do: `npm run lint` asks for it, with no warning left.
+// The rules of the page's sources: `npm run lint` asks for them, and a warning counts as an error.
+import { dirname } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import js from '@eslint/js';
+import { defineConfig } from 'eslint/config';
 import hooks from 'eslint-plugin-react-hooks';
 import ts from 'typescript-eslint';
 
@@ -33,7 +36,7 @@ const typed = {
   '@typescript-eslint/no-unused-vars': ['error', { ignoreRestSiblings: true }],
   // An empty sentence is none: `why || undefined` and `mayOperate() || '...'` mean it.
   '@typescript-eslint/prefer-nullish-coalescing': ['error', { ignorePrimitives: { string: true } }],
-  // Numbers and switches in a text are what they look like.
+  // Numbers and switches read well in a text.
   '@typescript-eslint/restrict-template-expressions': ['error', { allowBoolean: true, allowNumber: true }],
 };
 
@@ -42,7 +45,7 @@ const names = (...all) => Object.fromEntries(all.map((name) => [name, 'readonly'
 const node = names('fetch', 'performance', 'process', 'setTimeout', 'URL');
 const page = names('document', 'Event', 'getComputedStyle', 'innerWidth', 'localStorage', 'location', 'window');
 
-export default ts.config(
+export default defineConfig(
   { linterOptions: { reportUnusedDisableDirectives: 'error' } },
   js.configs.recommended,
   { rules: house },
@@ -51,11 +54,13 @@ export default ts.config(
   {
     files: ['src/**/*.{ts,tsx}', 'test/unit/**/*.ts'],
     extends: [ts.configs.strictTypeChecked, ts.configs.stylisticTypeChecked],
-    languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
+    languageOptions: {
+      parserOptions: { projectService: true, tsconfigRootDir: dirname(fileURLToPath(import.meta.url)) },
+    },
     rules: typed,
   },
   {
-    // Each test loads modules anew: what it loads is named by its module.
+    // Each test loads modules anew: their types are named by the module.
     files: ['test/unit/**/*.ts'],
     rules: { '@typescript-eslint/consistent-type-imports': ['error', { disallowTypeAnnotations: false }] },
   },

@@ -1,4 +1,4 @@
-// A work piece under a scan head: what the program tells of it, and how it is drawn.
+// A work piece under a scan head: the program's answer, and its drawing.
 
 export type Place = [number, number];
 export interface PieceAnswer {
@@ -15,7 +15,7 @@ export interface PieceAnswer {
   part?: { name: string; unit: string; position: number; speed: number };
 }
 
-/** What is to be in sight, as left, top, width, height with y downwards: the marks; without any, the field. */
+/** Left, top, width and height of the picture, y downwards: around the marks; without any, around the field. */
 export function sight(piece: PieceAnswer): [number, number, number, number] {
   const marks = piece.marks.flat();
   const points = marks.length > 0 ? marks : [piece.field.least, piece.field.greatest];

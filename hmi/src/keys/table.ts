@@ -92,7 +92,7 @@ export const JOG_KEYS: readonly JogKey[] = [
   },
 ];
 
-/** Where the axes are on the jog pad: in the cross, and in columns beside it. */
+/** The axes on the jog pad: in the cross, and in columns beside it. */
 export function padOf(letters: readonly string[]): { x?: string; y?: string; columns: string[] } {
   const [x, y, ...upright] = JOG_KEYS.map((row) => row.axis(letters));
   const keyed = upright.filter((one): one is string => one !== undefined);

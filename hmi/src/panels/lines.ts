@@ -1,4 +1,4 @@
-// Lines by hand: what is typed, what was sent and what came back, and the history that brings it back.
+// Lines by hand: the draft, the log with its answers, and the history that brings lines back.
 import { signal } from '@preact/signals';
 import { sentence } from '../link/orders';
 import { ask } from '../link/socket';
@@ -34,7 +34,7 @@ export async function send(): Promise<void> {
   log.value = log.value.map((other) => (other === one ? { ...one, ...answer } : other));
 }
 
-/** Back to what was sent before (1), or forth (-1), down to an empty line. */
+/** Back to the lines that were sent before (1), or forth (-1), down to an empty line. */
 export function walk(by: number): void {
   const next = Math.min(history.value.length - 1, Math.max(-1, place.value + by));
   place.value = next;

@@ -127,7 +127,7 @@ function Editor(): JSX.Element {
   );
 }
 
-/** What is done to the text: another one, typed, checked dry, driven line by line. */
+/** Another text, typing, the dry check, and whether it is driven line by line. */
 function Work({ editing }: { editing: Signal<boolean> }): JSX.Element {
   const file = useRef<HTMLInputElement>(null);
   const single = status.value?.program.single_step === true;

@@ -1,4 +1,4 @@
-// From where the path in space is looked at: turned around the middle of the machine, nearer or farther.
+// The place from which the path in space is looked at: turned around the middle of the machine, nearer or farther.
 
 /** Angles in radians, the distance in the unit of the axes. */
 export interface Eye {
@@ -26,7 +26,7 @@ export const turned = (eye: Eye, by: Turn): Eye => ({
   far: within(eye.far * (by.far ?? 1), NEAREST, FARTHEST),
 });
 
-/** What the keys do, by KeyboardEvent.key. */
+/** Turns of the keys, by KeyboardEvent.key. */
 export const KEY_TURNS: Partial<Record<string, Turn>> = {
   ArrowLeft: { turn: -0.1 },
   ArrowRight: { turn: 0.1 },

@@ -1,9 +1,9 @@
-// What of the machine a flat picture of the path shows, and how large.
+// The part of the machine that a flat picture of the path shows, and its scale.
 
 /** x0, x1, y0, y1 in the unit of the axes. */
 export type Box = readonly [number, number, number, number];
 
-/** Where a place is on the canvas: left + x scale, top - y scale. */
+/** A place is on the canvas at left + x scale, top - y scale. */
 export interface Sight {
   scale: number;
   left: number;

@@ -91,7 +91,7 @@ const drawable = (data: (number | null)[][]): uPlot.AlignedData =>
 export function Chart(props: ChartProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  // The plot lives longer than what it is given: it reads the newest.
+  // The plot outlives the properties that it was made of: it reads the newest.
   const now = useRef(props);
   now.current = props;
   const steps = props.names.map((name) => props.stepped?.(name) === true).join();

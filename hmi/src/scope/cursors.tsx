@@ -1,4 +1,4 @@
-// Two cursors over a recording: where they stand, what each channel has there, and the difference.
+// Two cursors over a recording: their times, the values of each channel there, and the differences.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { fixed } from '../parts/numbers';
@@ -6,7 +6,7 @@ import { nearest, thirds, valueAt, type Rows } from './reading';
 
 /** Times of A and B, ms. */
 const cursors = signal<[number, number]>([0, 0]);
-/** Which of them the next click on the chart puts. */
+/** The one that the next click on the chart puts. */
 const moving = signal<0 | 1>(0);
 
 function put(which: 0 | 1, x: number): void {

@@ -1,4 +1,4 @@
-// Reading a recording: where a cursor stands, what a channel has there, all of it as a table.
+// Reading a recording: the place of a cursor, the value of a channel there, all of it as a table.
 
 /** The first row is x, then a row a channel. */
 export type Rows = readonly (readonly (number | null)[])[];
@@ -18,7 +18,7 @@ export function nearest(times: readonly (number | null)[], x: number): number {
   return best;
 }
 
-/** Where cursors stand that were not put anywhere: at a third and two thirds; null: too few times for two cursors. */
+/** Cursors that were not put anywhere stand at a third and two thirds; null: too few times for two cursors. */
 export function thirds(times: readonly (number | null)[]): [number, number] | null {
   if (times.length <= 3) return null;
   return [times[Math.floor(times.length / 3)] ?? 0, times[Math.floor((2 * times.length) / 3)] ?? 0];

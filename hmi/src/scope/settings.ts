@@ -1,4 +1,4 @@
-// What the scope is asked to record: as it is typed, kept by this browser, and as the order that arms it.
+// Settings of the scope: as they are typed, kept by this browser, and as the order that arms it.
 import { signal } from '@preact/signals';
 import type { Fields } from '../link/contract';
 import { typed } from '../parts/numbers';

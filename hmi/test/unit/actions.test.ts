@@ -1,4 +1,4 @@
-// What buttons and keys do: who may, what is sent, and what is said where it may not be.
+// Actions of buttons and keys: the orders that they send, and the reason where they may not.
 import { describe, expect, test } from 'vitest';
 import { settled } from './browser';
 import { axis, connected, type Program } from './program';

@@ -4,7 +4,7 @@ import { vi } from 'vitest';
 export interface Settings {
   /** The address behind #. */
   hash?: string;
-  /** What the browser kept from before. */
+  /** Kept by the browser from before. */
   stored?: Record<string, string>;
   secure?: boolean;
   prefersDark?: boolean;
@@ -33,7 +33,7 @@ export class FakeSocket {
   }
 }
 
-/** What matchMedia gives, changed by the test. */
+/** The answer of matchMedia, changed by the test. */
 class Media extends EventTarget {
   constructor(public matches: boolean) {
     super();
@@ -123,7 +123,7 @@ function storeOf(browser: Browser): Partial<Storage> {
   };
 }
 
-/** A fresh browser with a clock that stands still; what is imported after it is loaded anew. */
+/** A fresh browser with a clock that stands still; modules that are imported after it are loaded anew. */
 export function openBrowser(settings: Settings = {}): Browser {
   vi.resetModules();
   vi.useFakeTimers();

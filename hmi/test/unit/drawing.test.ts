@@ -1,4 +1,4 @@
-// What is drawn of paths and work pieces: colours, what is in sight, from where.
+// Drawings of paths and work pieces: colours, the part in sight, the eye.
 import { describe, expect, test } from 'vitest';
 import { pathOf, sight, strokesOf, type PieceAnswer } from '../../src/cards/piece';
 import { css, errorColour } from '../../src/path/colours';

@@ -1,4 +1,4 @@
-// The keyboard: the table, and what is heard of it.
+// The keyboard: its table, and keys as the page hears them.
 import { describe, expect, test } from 'vitest';
 import { FakeElement, FakeInput, FakeSelect, FakeTextArea, after, type Browser, type Settings } from './browser';
 import { axis, connected, type Program } from './program';

@@ -1,4 +1,4 @@
-// What rests on the connection: channels, control, what the rack is, what happened before.
+// Channels, control, the rack and its history, over the connection.
 import { describe, expect, test } from 'vitest';
 import { after, settled } from './browser';
 import { connected } from './program';

@@ -1,4 +1,4 @@
-// Orders: what is refused is said, what is not allowed says why, and STOP goes both ways.
+// Orders: a refusal is shown, each has its reason why not, and STOP goes both ways.
 import { describe, expect, test } from 'vitest';
 import type { Role } from '../../src/link/contract';
 import { after, openBrowser, settled } from './browser';

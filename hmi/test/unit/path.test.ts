@@ -1,4 +1,4 @@
-// The path: what was planned and what was driven, in the order of the page's axes.
+// The path: planned and driven, in the order of the page's axes.
 import { describe, expect, test } from 'vitest';
 import { after, settled, type Browser } from './browser';
 import { axis, connected, type Program } from './program';

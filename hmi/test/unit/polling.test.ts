@@ -1,4 +1,4 @@
-// What panels ask again and again, and the last seconds of channels.
+// Queries that panels ask again and again, and the last seconds of channels.
 import { signal } from '@preact/signals';
 import { describe, expect, test } from 'vitest';
 import { after, settled, type Browser } from './browser';

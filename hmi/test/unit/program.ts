@@ -1,4 +1,4 @@
-// The program at the other end of the page's socket: what it heard, and the answers that a test gives it.
+// The program at the other end of the page's socket: it writes down the page's messages, and answers as a test wants.
 import type { AxisStatus, Hello, Role, Status } from '../../src/link/contract';
 import { after, openBrowser, settled, FakeSocket, type Browser, type Settings } from './browser';
 
@@ -54,7 +54,7 @@ const hello = (part: Partial<Hello> = {}): Hello => ({
 
 export class Program {
   readonly heard: Message[] = [];
-  /** By the name of the order or query, `token` or `subscribe`; what has no answer here waits for one. */
+  /** By the name of the order or query, `token` or `subscribe`; without an answer here the page waits for one. */
   readonly answers: Record<string, Answer | ((message: Message) => Answer)> = { subscribe: {} };
   private now = status();
   private sequence = 0;
@@ -84,13 +84,13 @@ export class Program {
     this.say({ hello: hello(part) });
   }
 
-  /** A picture; what is not said of the machine stays as it was. */
+  /** A picture; of the machine the rest stays as it was. */
   show(part: Partial<Status> = {}, values?: (number | null)[], lost = 0): void {
     this.now = { ...this.now, ...part };
     this.say({ seq: ++this.sequence, lost, at: this.now.at, status: this.now, ...(values && { values }) });
   }
 
-  /** What was asked by this name, without the numbers that only pair questions with answers. */
+  /** The messages of this name, without the numbers that only pair questions with answers. */
   asked(name: string): Record<string, unknown>[] {
     return this.heard.filter((one) => nameOf(one) === name).map(({ id: _, ...fields }) => fields);
   }

@@ -1,4 +1,4 @@
-// The scope without its chart: what arms it, what it recorded, what is read of that.
+// The scope without its chart: arming, recordings, cursors, the search for channels.
 import { beforeEach, describe, expect, test } from 'vitest';
 import type { Settings } from '../../src/scope/settings';
 import { csv, nearest, thirds, valueAt } from '../../src/scope/reading';

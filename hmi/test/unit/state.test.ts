@@ -1,4 +1,4 @@
-// What the page knows of the machine: states, control, alarms, and how old it is.
+// The page's picture of the machine: states, control, alarms, age.
 import { describe, expect, test } from 'vitest';
 import { alarmState } from '../../src/link/alarms';
 import type { Alarm } from '../../src/link/contract';

@@ -1,4 +1,4 @@
-// Which view is open, and the settings of this browser.
+// The open view, and the settings of this browser.
 import { describe, expect, test } from 'vitest';
 import { openBrowser, type Browser, type Settings } from './browser';
 

@@ -1,4 +1,4 @@
-// The unit tests: what of the page needs no browser.
+// The unit tests: all of the page that needs no browser.
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
