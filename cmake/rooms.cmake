@@ -39,8 +39,8 @@ if(MOTIONRACK_UNITY)
   endif()
 endif()
 
-# motionrack_compile_quickly(TARGET): code that is compiled longer than it runs (the network, the command line, tests) is
-# optimised less.
+# motionrack_compile_quickly(TARGET): code that is compiled longer than it runs (the network, the command line, tests)
+# is optimised less.
 function(motionrack_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
@@ -72,10 +72,10 @@ function(motionrack_room name)
 endfunction()
 
 # motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [ALONE]): the test program
-# test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take minutes:
-# ./test leaves them out, ./test --all has them. FAULTS: those that rows of the catalogue of faults name, a filter of
-# GoogleTest; they run as NAME.faults with the label fault. ALONE: each test is a process of its own, where a library has
-# one state for the whole process. tests/programs runs single tests by their names.
+# test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take
+# minutes: ./test leaves them out, ./test --all has them. FAULTS: those that rows of the catalogue of faults name, a
+# filter of GoogleTest; they run as NAME.faults with the label fault. ALONE: each test is a process of its own, where a
+# library has one state for the whole process. tests/programs runs single tests by their names.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()

@@ -2,6 +2,8 @@
 # shellcheck shell=bash
 # shellcheck source=cmake/machine.sh
 . "${BASH_SOURCE[0]%/*}/machine.sh"
+# shellcheck source=cmake/page.sh
+. "${BASH_SOURCE[0]%/*}/page.sh"
 
 say() { printf '%s\n' "motionrack: $*" >&2; }
 
@@ -41,6 +43,19 @@ need_packages() {
     rm -f "$log"
 }
 
+# without_ninja_idle FOLDER: what ninja says once there is something to build, with a sentence before it.
+without_ninja_idle() {
+    local line said=""
+    while IFS= read -r line; do
+        case $line in
+            "ninja: Entering directory"* | "ninja: no work to do"* | *"Re-checking globbed directories"*) continue ;;
+        esac
+        [ -n "$said" ] || say "building in $1 (the first time takes some minutes)"
+        said=yes
+        printf '%s\n' "$line"
+    done
+}
+
 # build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong
 # or long. A folder that has the tests too does for what is asked without them, so ./run and ./test share one.
 build_in() {
@@ -63,39 +78,12 @@ build_in() {
         }
         printf '%s' "$want" >"$stamp"
     fi
+    # What ninja says before it knows whether there is work is left out.
     # shellcheck disable=SC2086  # the targets are words
-    if ! ninja -C "$folder" -n $targets 2>&1 | grep 'no work to do' >/dev/null; then
-        say "building in $folder (the first time takes about four minutes on two cores)"
-        # shellcheck disable=SC2086  # the targets are words
-        ninja -C "$folder" $targets >&2 || {
-            no_room "$folder" || say "the build failed; see above"
-            return 1
-        }
-    fi
-}
-
-# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin
-# looks for it; only if its sources changed. Where it cannot be built the program shows a text in its place, so that is
-# no failure.
-build_page() {
-    local folder="$PWD/$1/share/motionrack/page" stamp="$1/.page-made-of" want log
-    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 |
-        sort -z | xargs -0 sha256sum | sha256sum)
-    [ -e "$folder/index.html" ] && [ -d hmi/node_modules ] && [ "$(cat "$stamp" 2>/dev/null)" = "$want" ] && return 0
-    if ! command -v npm >/dev/null 2>&1 && ! need_packages nodejs npm; then
-        say "the operator panel's page needs nodejs and npm; the program shows a text in its place"
-        return 0
-    fi
-    say "building the operator panel's page"
-    log=$(mktemp)
-    if ! (cd hmi && npm ci --no-audit --no-fund && MOTIONRACK_PAGE="$folder" npm run build) >"$log" 2>&1; then
-        tail -n 15 "$log" >&2
-        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place"
-        say "the whole log is $log"
-        return 0
-    fi
-    rm -f "$log"
-    printf '%s' "$want" >"$stamp"
+    ninja -C "$folder" $targets 2>&1 | without_ninja_idle "$folder" >&2 || {
+        no_room "$folder" || say "the build failed; see above"
+        return 1
+    }
 }
 
 # What ./run and ./test configure build/release with, besides MOTIONRACK_TESTS.

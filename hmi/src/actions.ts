@@ -28,7 +28,8 @@ async function oneStep(): Promise<void> {
 }
 
 /** The chosen axis; the first one where the machine has no such axis. */
-export const axisLetter = (): string => (axes.value.some((axis) => axis.letter === chosenAxis.value) ? chosenAxis.value : (axes.value[0]?.letter ?? ''));
+export const axisLetter = (): string =>
+  axes.value.some((axis) => axis.letter === chosenAxis.value) ? chosenAxis.value : (axes.value[0]?.letter ?? '');
 
 function declare(): void {
   const position = typed(placeText.value);
@@ -52,7 +53,8 @@ export const actions = {
   enable: { label: 'Enable drives', why: mayOperate, run: () => void order('enable', { on: !enabled() }) },
   estop: {
     label: 'E-stop input (simulated)',
-    why: () => whyNot('operate') || (status.value?.estop.wired === false ? 'The rack file wires no emergency stop.' : ''),
+    why: () =>
+      whyNot('operate') || (status.value?.estop.wired === false ? 'The rack file wires no emergency stop.' : ''),
     run: () => void order('press_estop', { pressed: !status.value?.estop.pressed }),
   },
   home: { label: 'Home all', why: mayOperate, run: () => void order('home') },

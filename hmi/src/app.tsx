@@ -44,12 +44,39 @@ function Operate(): JSX.Element {
 
 function View(): JSX.Element {
   switch (view.value) {
-    case 'operate': return <Operate />;
-    case 'scope': return <div class="view"><Scope /></div>;
-    case 'cards': return <div class="view"><Cards /></div>;
-    case 'registers': return <div class="view"><Registers /></div>;
-    case 'faults': return <div class="view"><Faults /></div>;
-    case 'events': return <div class="view two"><Alarms /><Events /></div>;
+    case 'operate':
+      return <Operate />;
+    case 'scope':
+      return (
+        <div class="view">
+          <Scope />
+        </div>
+      );
+    case 'cards':
+      return (
+        <div class="view">
+          <Cards />
+        </div>
+      );
+    case 'registers':
+      return (
+        <div class="view">
+          <Registers />
+        </div>
+      );
+    case 'faults':
+      return (
+        <div class="view">
+          <Faults />
+        </div>
+      );
+    case 'events':
+      return (
+        <div class="view two">
+          <Alarms />
+          <Events />
+        </div>
+      );
   }
 }
 
@@ -58,7 +85,11 @@ function Phone(): JSX.Element {
   return (
     <div class="view phone">
       <Dro />
-      {state.status.value?.program.name ? <Panel title="Program"><Progress /></Panel> : null}
+      {state.status.value?.program.name ? (
+        <Panel title="Program">
+          <Progress />
+        </Panel>
+      ) : null}
       <Alarms />
       <p class="hint">This narrow screen watches and stops. Everything else is on a wider one.</p>
     </div>
@@ -72,7 +103,9 @@ function Notices(): JSX.Element {
         <div key={one.key} class={`notice ${one.kind}`}>
           <Icon name={one.kind === 'done' ? 'check' : 'alarm'} />
           <p>{one.text}</p>
-          <button type="button" class="button quiet" aria-label="Close this message" onClick={() => dismiss(one.key)}><Icon name="close" size={16} /></button>
+          <button type="button" class="button quiet" aria-label="Close this message" onClick={() => dismiss(one.key)}>
+            <Icon name="close" size={16} />
+          </button>
         </div>
       ))}
     </div>
@@ -90,8 +123,16 @@ export function App(): JSX.Element {
       <main>
         <h1 class="hidden">{state.hello.value?.rack ?? 'Motionrack'}, operator panel</h1>
         {state.status.value === null ? (
-          <p class="waiting">{state.link.value === 'lost' ? 'The connection to the program was lost; trying again …' : 'Connecting to the program …'}</p>
-        ) : narrow.value ? <Phone /> : <View />}
+          <p class="waiting">
+            {state.link.value === 'lost'
+              ? 'The connection to the program was lost; trying again …'
+              : 'Connecting to the program …'}
+          </p>
+        ) : narrow.value ? (
+          <Phone />
+        ) : (
+          <View />
+        )}
       </main>
       <footer>
         <span>{state.hello.value?.rack ?? ''}</span>

@@ -7,6 +7,7 @@ import './style/layout.css';
 import './style/axes.css';
 import './style/panels.css';
 import './style/cards.css';
+import './style/scope.css';
 import { App } from './app';
 import { listen } from './keys/handler';
 import { loadHistory } from './link/history';

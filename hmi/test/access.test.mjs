@@ -1,4 +1,5 @@
-// Accessibility and field use: axe-core on every view, sizes of targets, order of focus, live regions, themes, phone, motion.
+// Accessibility and field use: axe-core on every view, sizes of targets, order of focus, live regions, themes, phone,
+// motion.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -17,14 +18,27 @@ async function go(tab, view) {
 
 async function faults(tab) {
   await tab.page.evaluate(AXE);
-  const result = await tab.page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }));
-  return result.violations.flatMap((one) => one.nodes.map((node) => `${one.id}: ${node.target.join(' ')}: ${node.failureSummary.split('\n')[1] ?? ''}`));
+  const result = await tab.page.evaluate(() =>
+    window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }),
+  );
+  return result.violations.flatMap((one) =>
+    one.nodes.map((node) => `${one.id}: ${node.target.join(' ')}: ${node.failureSummary.split('\n')[1] ?? ''}`),
+  );
 }
 
 /** What can be pressed and is in sight, with its size in CSS pixels. */
 const targets = (tab, selector) =>
-  tab.page.evaluate((which) => [...document.querySelectorAll(which)].filter((one) => one.offsetParent !== null && !one.classList.contains('hidden'))
-    .map((one) => ({ text: one.getAttribute('aria-label') ?? one.textContent, width: one.getBoundingClientRect().width, height: one.getBoundingClientRect().height })), selector);
+  tab.page.evaluate(
+    (which) =>
+      [...document.querySelectorAll(which)]
+        .filter((one) => one.offsetParent !== null && !one.classList.contains('hidden'))
+        .map((one) => ({
+          text: one.getAttribute('aria-label') ?? one.textContent,
+          width: one.getBoundingClientRect().width,
+          height: one.getBoundingClientRect().height,
+        })),
+    selector,
+  );
 
 for (const scheme of ['dark', 'light'])
   test(`axe-core finds nothing on any view, ${scheme}`, async () => {
@@ -51,8 +65,10 @@ test('every target is at least 24 by 24 CSS pixels, machine controls at least 44
   await takeControl(tab);
   for (const view of VIEWS) {
     await go(tab, view);
-    for (const one of await targets(tab, 'button, a, input, select, textarea, summary, [role=switch]')) assert.ok(one.width >= 24 && one.height >= 24, `${view}: ${one.text} is ${one.width} x ${one.height}`);
-    for (const one of await targets(tab, '.button.machine, .stop, .jog, button.letter')) assert.ok(one.width >= 44 && one.height >= 44, `${view}: ${one.text} is ${one.width} x ${one.height}`);
+    for (const one of await targets(tab, 'button, a, input, select, textarea, summary, [role=switch]'))
+      assert.ok(one.width >= 24 && one.height >= 24, `${view}: ${one.text} is ${one.width} x ${one.height}`);
+    for (const one of await targets(tab, '.button.machine, .stop, .jog, button.letter'))
+      assert.ok(one.width >= 44 && one.height >= 44, `${view}: ${one.text} is ${one.width} x ${one.height}`);
   }
   await tab.context.close();
 });
@@ -76,7 +92,9 @@ test('new alarms are told at once, the state politely', async () => {
 
 test('every lamp has a letter and a name, so that no lamp is told by its colour alone', async () => {
   const tab = await openTab(all.browser, all.server);
-  const lamps = await tab.page.evaluate(() => [...document.querySelectorAll('.led')].map((one) => [one.textContent, one.getAttribute('aria-label')]));
+  const lamps = await tab.page.evaluate(() =>
+    [...document.querySelectorAll('.led')].map((one) => [one.textContent, one.getAttribute('aria-label')]),
+  );
   assert.ok(lamps.length > 8);
   for (const [letter, name] of lamps) assert.ok(letter.length > 0 && /: (on|off)$/.test(name), `${letter} ${name}`);
   await tab.context.close();
@@ -97,24 +115,36 @@ for (const width of [600, 768, 1024, 1280, 1440, 1920])
     const tab = await openTab(all.browser, all.server, { width });
     for (const view of VIEWS) {
       await go(tab, view);
-      assert.ok(await tab.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${view} sticks out`);
+      assert.ok(
+        await tab.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth),
+        `${view} sticks out`,
+      );
     }
     await tab.context.close();
   });
 
 test('who wants less motion gets none', async () => {
   const tab = await openTab(all.browser, all.server, { reduced: true });
-  const moving = await tab.page.evaluate(() => [...document.querySelectorAll('*')].filter((one) => {
-    const style = getComputedStyle(one);
-    return (parseFloat(style.transitionDuration) || 0) > 0 || style.animationName !== 'none';
-  }).length);
+  const moving = await tab.page.evaluate(
+    () =>
+      [...document.querySelectorAll('*')].filter((one) => {
+        const style = getComputedStyle(one);
+        return (parseFloat(style.transitionDuration) || 0) > 0 || style.animationName !== 'none';
+      }).length,
+  );
   assert.equal(moving, 0);
   await tab.context.close();
 });
 
 test('the digits of the axes do not jump: all have one width', async () => {
   const tab = await openTab(all.browser, all.server);
-  assert.match(await tab.page.locator('.commanded').first().evaluate((one) => getComputedStyle(one).fontVariantNumeric + getComputedStyle(one).fontFeatureSettings), /tabular-nums|tnum/);
+  assert.match(
+    await tab.page
+      .locator('.commanded')
+      .first()
+      .evaluate((one) => getComputedStyle(one).fontVariantNumeric + getComputedStyle(one).fontFeatureSettings),
+    /tabular-nums|tnum/,
+  );
   await tab.context.close();
 });
 

@@ -54,7 +54,15 @@ test('a held arrow jogs, is renewed every 100 ms at most, and stops on keyup', a
   await done(tab);
 });
 
-for (const [key, axis, sign] of [['ArrowLeft', 'X', -1], ['ArrowUp', 'Y', 1], ['ArrowDown', 'Y', -1], ['PageUp', 'Z', 1], ['PageDown', 'Z', -1], ['[', 'A', -1], [']', 'A', 1]])
+for (const [key, axis, sign] of [
+  ['ArrowLeft', 'X', -1],
+  ['ArrowUp', 'Y', 1],
+  ['ArrowDown', 'Y', -1],
+  ['PageUp', 'Z', 1],
+  ['PageDown', 'Z', -1],
+  ['[', 'A', -1],
+  [']', 'A', 1],
+])
   test(`${key} jogs ${axis} ${sign < 0 ? '-' : '+'}`, async () => {
     const tab = await armed();
     await tab.page.keyboard.down(key);
@@ -95,18 +103,29 @@ test('step mode moves once per press', async () => {
     await state(tab, 'standstill');
     await pause(100);
   }
-  assert.deepEqual(named(tab, 'jog_by').map((one) => [one.axis, one.distance]), [['X', 0.1], ['X', 0.1], ['X', 0.1]]);
+  assert.deepEqual(
+    named(tab, 'jog_by').map((one) => [one.axis, one.distance]),
+    [
+      ['X', 0.1],
+      ['X', 0.1],
+      ['X', 0.1],
+    ],
+  );
   assert.equal(named(tab, 'jog').length, 0);
   await done(tab);
 });
 
 for (const [what, end] of [
   ['blur', (tab) => tab.page.evaluate(() => window.dispatchEvent(new Event('blur')))],
-  ['visibilitychange', (tab) => tab.page.evaluate(() => {
-    Object.defineProperty(document, 'hidden', { value: true, configurable: true });
-    document.dispatchEvent(new Event('visibilitychange'));
-    delete document.hidden;
-  })],
+  [
+    'visibilitychange',
+    (tab) =>
+      tab.page.evaluate(() => {
+        Object.defineProperty(document, 'hidden', { value: true, configurable: true });
+        document.dispatchEvent(new Event('visibilitychange'));
+        delete document.hidden;
+      }),
+  ],
   ['pagehide', (tab) => tab.page.evaluate(() => window.dispatchEvent(new Event('pagehide')))],
   ['the arm switch off', (tab) => arm(tab)],
 ])

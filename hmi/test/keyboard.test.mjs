@@ -34,7 +34,10 @@ test('Esc stops, also while a field is typed in', async () => {
   await tab.page.getByLabel('Line of G-code').focus();
   await tab.page.keyboard.press('Escape');
   await until(() => named(tab, 'stop').length === 2, 'a second stop');
-  assert.ok(tab.requests.some((url) => url.endsWith('/api/stop')), 'STOP goes by HTTP, too');
+  assert.ok(
+    tab.requests.some((url) => url.endsWith('/api/stop')),
+    'STOP goes by HTTP, too',
+  );
   await rest(tab);
 });
 
@@ -92,14 +95,19 @@ test('digits are the feed override: 1 to 9 for 10 to 90 %, 0 for 100 %, ` for 0 
   const tab = await fresh();
   for (const key of ['1', '5', '9', '0', '`']) await tab.page.keyboard.press(key);
   await until(() => named(tab, 'set_overrides').length === 5, 'five orders');
-  assert.deepEqual(named(tab, 'set_overrides').map((one) => one.feed), [0.1, 0.5, 0.9, 1, 0]);
+  assert.deepEqual(
+    named(tab, 'set_overrides').map((one) => one.feed),
+    [0.1, 0.5, 0.9, 1, 0],
+  );
   await tab.page.keyboard.press('0');
   await rest(tab);
 });
 
 test('F1 toggles the E-stop input, F2 enables; the browser shows no help', async () => {
   const tab = await fresh();
-  await tab.page.evaluate(() => window.addEventListener('keydown', (event) => (window.prevented = event.defaultPrevented), true));
+  await tab.page.evaluate(() =>
+    window.addEventListener('keydown', (event) => (window.prevented = event.defaultPrevented), true),
+  );
   await tab.page.keyboard.press('F1');
   await until(() => tab.status.estop.pressed, 'the E-stop input is pressed');
   await tab.page.getByText('PRESSED', { exact: true }).waitFor();
@@ -141,7 +149,8 @@ test('? shows the table of keys, made from the same declaration', async () => {
   const tab = await fresh();
   await tab.page.keyboard.press('?');
   const help = tab.page.getByRole('dialog', { name: 'Keyboard' });
-  for (const text of ['Esc', 'Space', 'F1', 'F2', 'Ctrl + Home', 'End', 'r or ~', 'p or !', '1 … 9', 'PgDn PgUp']) await help.getByText(text, { exact: true }).waitFor();
+  for (const text of ['Esc', 'Space', 'F1', 'F2', 'Ctrl + Home', 'End', 'r or ~', 'p or !', '1 … 9', 'PgDn PgUp'])
+    await help.getByText(text, { exact: true }).waitFor();
   await tab.page.keyboard.press('?');
   await help.waitFor({ state: 'detached' });
   await rest(tab);
@@ -151,9 +160,13 @@ test('no jog keys and no letters act while a field is typed in', async () => {
   const tab = await fresh();
   await arm(tab);
   await tab.page.getByLabel('Line of G-code').focus();
-  for (const key of ['ArrowRight', 'r', 't', 'p', 's', '5', 'i', 'c', '[', 'PageUp', 'End']) await tab.page.keyboard.press(key);
+  for (const key of ['ArrowRight', 'r', 't', 'p', 's', '5', 'i', 'c', '[', 'PageUp', 'End'])
+    await tab.page.keyboard.press(key);
   await pause(200);
-  assert.deepEqual(tab.sent.map((one) => one.order).filter((one) => !['take_control', 'keep_control'].includes(one)), []);
+  assert.deepEqual(
+    tab.sent.map((one) => one.order).filter((one) => !['take_control', 'keep_control'].includes(one)),
+    [],
+  );
   await rest(tab);
 });
 

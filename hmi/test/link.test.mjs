@@ -33,7 +33,11 @@ test('values older than 500 ms are greyed and show their age; fresh ones are not
   });
   await context.clock.install();
   const tab = await tabOf(context, all.server);
-  const opacity = () => tab.page.locator('.commanded').first().evaluate((one) => Number(getComputedStyle(one).opacity));
+  const opacity = () =>
+    tab.page
+      .locator('.commanded')
+      .first()
+      .evaluate((one) => Number(getComputedStyle(one).opacity));
   await tab.page.clock.pauseAt(Date.now() + 1000);
   const sequence = tab.status.sequence;
   await until(() => tab.status.sequence > sequence + 5, 'fresh values');
@@ -156,7 +160,10 @@ test('no request leaves the machine, and the content policy is kept', async () =
   assert.ok(policy && !/unsafe/.test(policy), `the policy is ${policy}`);
   const origin = new URL(all.server.address).origin;
   for (const url of tab.requests) assert.ok(url.startsWith(origin), url);
-  assert.deepEqual(tab.troubles.filter((one) => /Content Security Policy|Refused/.test(one)), []);
+  assert.deepEqual(
+    tab.troubles.filter((one) => /Content Security Policy|Refused/.test(one)),
+    [],
+  );
   await tab.context.close();
 });
 

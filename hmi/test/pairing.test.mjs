@@ -7,7 +7,11 @@ const all = suite(test, RACKS.axes, { pairing: true });
 let token = '';
 
 async function post(path, fields) {
-  const answer = await fetch(all.server.address + path, { method: 'POST', headers: { 'content-type': 'application/json', ...(token && { authorization: `Bearer ${token}` }) }, body: JSON.stringify(fields) });
+  const answer = await fetch(all.server.address + path, {
+    method: 'POST',
+    headers: { 'content-type': 'application/json', ...(token && { authorization: `Bearer ${token}` }) },
+    body: JSON.stringify(fields),
+  });
   const body = await answer.json();
   assert.equal(answer.status, 200, JSON.stringify(body));
   return body;
@@ -53,7 +57,10 @@ test('who only observes sees controls disabled with the reason, and STOP enabled
   assert.match(await hold.getAttribute('title'), /needs the role operate/);
   await hold.focus();
   await tab.page.keyboard.press('Enter');
-  await tab.page.locator('.notice').getByText(/needs the role operate/).waitFor();
+  await tab.page
+    .locator('.notice')
+    .getByText(/needs the role operate/)
+    .waitFor();
   const stopped = tab.page.waitForResponse((response) => response.url().endsWith('/api/stop'));
   await tab.page.getByRole('button', { name: 'STOP', exact: true }).click();
   assert.equal((await stopped).status(), 200);
@@ -72,7 +79,10 @@ test('somebody who may maintain makes a code for others', async () => {
   const tab = await openTab(all.browser, all.server, { hash: `#pair=${await invite('maintain')}` });
   await tab.page.getByRole('button', { name: 'Invite' }).click();
   await tab.page.getByRole('button', { name: 'Make a code' }).click();
-  await tab.page.getByRole('dialog').getByText(/^[A-Z0-9]{4}-[A-Z0-9]{4}$/).waitFor();
+  await tab.page
+    .getByRole('dialog')
+    .getByText(/^[A-Z0-9]{4}-[A-Z0-9]{4}$/)
+    .waitFor();
   await tab.context.close();
 });
 

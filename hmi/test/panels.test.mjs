@@ -1,4 +1,5 @@
-// The panels of the demonstration rack: each shows what its card or the machine really has; a picture of each is kept in the build folder.
+// The panels of the demonstration rack: each shows what its card or the machine really has; a picture of each is kept
+// in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { openTab, picture, RACKS, state, suite, takeControl, until } from './support.mjs';
@@ -44,13 +45,22 @@ test('a checked program shows its time, extents and path; a bad one its problems
   await tab.page.getByText('planned: the checked program').waitFor();
   await tab.page.getByLabel('Program text').fill('G21\nG1 X9999 F100\n');
   await tab.page.getByRole('button', { name: 'Check' }).click();
-  await tab.page.locator('.problems').getByText(/Line 2/).waitFor();
+  await tab.page
+    .locator('.problems')
+    .getByText(/Line 2/)
+    .waitFor();
   await done(tab);
 });
 
 test('the MCX314 shows its counters, and they count', async () => {
   const tab = await at('cards/motion');
-  const lp = () => panel(tab, /^motion:/).locator('tbody tr').first().locator('td').first().innerText();
+  const lp = () =>
+    panel(tab, /^motion:/)
+      .locator('tbody tr')
+      .first()
+      .locator('td')
+      .first()
+      .innerText();
   await until(async () => Number.isFinite(number(await lp())), 'LP of x');
   const before = number(await lp());
   await panel(tab, 'Moves and homing').getByRole('button', { name: 'Move +' }).click();
@@ -66,7 +76,10 @@ test('the DataBoard 4002 answers at its ports by hand, and shows its status', as
   const ports = panel(tab, 'Ports');
   await ports.getByLabel('Where').selectOption({ label: '01h CS/STAT' });
   await ports.getByRole('button', { name: 'Read' }).click();
-  await ports.getByRole('log').getByText(/^[0-9A-F]{2}h$/).waitFor();
+  await ports
+    .getByRole('log')
+    .getByText(/^[0-9A-F]{2}h$/)
+    .waitFor();
   await tab.page.getByRole('group', { name: /^STAT/ }).getByText('READY').waitFor();
   await ports.getByRole('button', { name: /^G: / }).click();
   await ports.getByRole('log').getByText('command G').waitFor();
@@ -77,7 +90,10 @@ test('the DataBoard 4002 answers at its ports by hand, and shows its status', as
 test('the IOFLEX02 shows four positions and is calibrated', async () => {
   const tab = await at('cards/glass');
   const rows = panel(tab, /^glass:/).locator('tbody tr');
-  await until(async () => Number.isFinite(number(await rows.first().locator('td').first().innerText())), 'the position of axis 0');
+  await until(
+    async () => Number.isFinite(number(await rows.first().locator('td').first().innerText())),
+    'the position of axis 0',
+  );
   assert.equal(await rows.count(), 4);
   await rows.first().getByRole('button', { name: 'cRes, axis 0' }).click();
   await until(async () => (await rows.first().locator('td').first().innerText()) === '0', 'position 0');
@@ -99,7 +115,11 @@ test('the RTC5 marks, and the work piece is drawn', async () => {
   await panel(tab, 'Mark').getByRole('button', { name: 'each part' }).click();
   await panel(tab, 'Mark').getByRole('button', { name: 'Mark', exact: true }).click();
   const piece = panel(tab, /^Work piece/);
-  await until(async () => ((await piece.locator('path.marks').getAttribute('d')) ?? '').length > 100, 'marks on the work piece', 30000);
+  await until(
+    async () => ((await piece.locator('path.marks').getAttribute('d')) ?? '').length > 100,
+    'marks on the work piece',
+    30000,
+  );
   await picture(tab, 'card_rtc5', 1500);
   await panel(tab, 'Mark').getByRole('button', { name: 'Stop marking' }).click();
   await done(tab);
@@ -187,10 +207,16 @@ test('an alarm is told, survives a reload, and is acknowledged', async () => {
   const tab = await at('operate');
   await tab.page.keyboard.press('F1');
   await state(tab, 'error stop');
-  await tab.page.getByRole('alert').getByText(/emergency stop/i).waitFor();
+  await tab.page
+    .getByRole('alert')
+    .getByText(/emergency stop/i)
+    .waitFor();
   await tab.page.reload();
   await tab.page.locator('main .view').first().waitFor();
-  await tab.page.getByRole('alert').getByText(/emergency stop/i).waitFor();
+  await tab.page
+    .getByRole('alert')
+    .getByText(/emergency stop/i)
+    .waitFor();
   await tab.page.evaluate(() => (location.hash = '#/events'));
   await panel(tab, 'Alarms').getByText('active, unacknowledged').waitFor();
   await picture(tab, 'events');
@@ -201,7 +227,10 @@ test('an alarm is told, survives a reload, and is acknowledged', async () => {
   await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
   await panel(tab, 'Alarms').getByRole('button', { name: 'Acknowledge' }).first().click();
   await until(() => tab.status.alarms.every((alarm) => alarm.acknowledged), 'acknowledged');
-  await tab.page.getByRole('alert').getByText(/emergency stop/i).waitFor({ state: 'detached' });
+  await tab.page
+    .getByRole('alert')
+    .getByText(/emergency stop/i)
+    .waitFor({ state: 'detached' });
   await state(tab, 'standstill', 'disabled');
   await tab.context.close();
 });

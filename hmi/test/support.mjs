@@ -17,7 +17,17 @@ export const RACKS = { axes: join(here, 'rack.toml'), all: join(here, '../../exa
 /** Runs `motionrack serve`. Without pairing whoever comes may do everything. */
 export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'motionrack-page-'));
-  const program = spawn(join(BUILD, 'bin/motionrack'), ['serve', rack, '--port', '0', '--page', join(BUILD, 'share/motionrack/page'), '--users', join(folder, 'users.json'), ...(pairing ? [] : ['--no-pairing'])]);
+  const program = spawn(join(BUILD, 'bin/motionrack'), [
+    'serve',
+    rack,
+    '--port',
+    '0',
+    '--page',
+    join(BUILD, 'share/motionrack/page'),
+    '--users',
+    join(folder, 'users.json'),
+    ...(pairing ? [] : ['--no-pairing']),
+  ]);
   process.once('exit', () => program.kill());
   let said = '';
   program.stderr.on('data', (text) => (said += text));
@@ -45,8 +55,17 @@ export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
 export const openBrowser = () => chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox'] });
 
 /** A tab on the panel. `sent`: orders of this tab with their times; `troubles`: what the browser complained of. */
-export async function openTab(browser, server, { hash = '', width = 1440, height = 900, scheme = 'dark', touch = false, reduced = false } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, hasTouch: touch, reducedMotion: reduced ? 'reduce' : 'no-preference' });
+export async function openTab(
+  browser,
+  server,
+  { hash = '', width = 1440, height = 900, scheme = 'dark', touch = false, reduced = false } = {},
+) {
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme: scheme,
+    hasTouch: touch,
+    reducedMotion: reduced ? 'reduce' : 'no-preference',
+  });
   return tabOf(context, server, hash);
 }
 
@@ -86,20 +105,23 @@ export async function until(look, what, ms = 5000) {
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 export const named = (tab, order) => tab.sent.filter((one) => one.order === order);
 /** Waits for one of these states of the machine. */
-export const state = (tab, ...names) => until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
+export const state = (tab, ...names) =>
+  until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
 /** Takes control and enables the drives. */
 export async function takeControl(tab) {
   await tab.page.getByRole('button', { name: /Take control|Take over/ }).click();
   await tab.page.getByText('You hold control').waitFor();
-  if (tab.status.state === 'error stop') await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
+  if (tab.status.state === 'error stop')
+    await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
   await state(tab, 'disabled', 'standstill');
   if (tab.status.state === 'disabled') await tab.page.getByRole('button', { name: 'Enable drives' }).click();
   await state(tab, 'standstill');
 }
 
 export const arm = (tab) => tab.page.getByRole('switch', { name: 'Keyboard' }).click();
-export const chooseStep = (tab, text) => tab.page.getByRole('group', { name: 'Jog step' }).getByRole('button', { name: text, exact: true }).click();
+export const chooseStep = (tab, text) =>
+  tab.page.getByRole('group', { name: 'Jog step' }).getByRole('button', { name: text, exact: true }).click();
 
 /** Into the build folder, for people to look at. */
 export async function picture(tab, name, height = 900) {

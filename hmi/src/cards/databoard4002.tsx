@@ -18,21 +18,41 @@ interface SlopesAnswer {
 }
 
 /** Both halves of the table over one list of places. */
-const curves = (answer: SlopesAnswer): (number | null)[][] =>
-  uPlot.join(answer.slopes.map((slope) => [slope.points.map(([at]) => at), slope.points.map(([, hz]) => hz)] as uPlot.AlignedData)).map((row) => [...(row as (number | null | undefined)[])].map((value) => value ?? null));
+const curves = (slopes: SlopesAnswer['slopes']): (number | null)[][] =>
+  slopes.length === 0
+    ? []
+    : uPlot
+        .join(
+          slopes.map(
+            (slope) => [slope.points.map(([at]) => at), slope.points.map(([, hz]) => hz)] as uPlot.AlignedData,
+          ),
+        )
+        .map((row) => [...(row as (number | null | undefined)[])].map((value) => value ?? null));
 
 function Slope({ card }: { card: CardInfo }): JSX.Element {
   const { data, why } = usePoll<SlopesAnswer>('slopes', { name: card.name }, 2000);
   const names = (data.value?.slopes ?? []).map((slope) => slope.name);
-  const picture = useMemo(() => (data.value === null ? [] : curves(data.value)), [JSON.stringify(data.value?.slopes)]);
+  // Drawn anew when the table changes, not whenever it is asked for.
+  const table = JSON.stringify(data.value?.slopes ?? []);
+  const picture = useMemo(() => curves(JSON.parse(table) as SlopesAnswer['slopes']), [table]);
   const loaded = (picture[0]?.length ?? 0) > 1;
   return (
     <Panel title="Slope" class="slope">
-      {!loaded ? <Empty>{why.value || 'No slope has been loaded into the card (command S).'}</Empty> : (
+      {!loaded ? (
+        <Empty>{why.value || 'No slope has been loaded into the card (command S).'}</Empty>
+      ) : (
         <>
-          <Chart data={picture} names={names} xName="counts" label="Slope table: speed in Hz over the way in counts" height={240} />
+          <Chart
+            data={picture}
+            names={names}
+            xName="counts"
+            label="Slope table: speed in Hz over the way in counts"
+            height={240}
+          />
           <Legend names={names} />
-          <p class="hint tabular">Hz over counts; {data.value?.moving === true ? `it moves at ${fixed(data.value.hz, 0)} Hz` : 'it stands'}</p>
+          <p class="hint tabular">
+            Hz over counts; {data.value?.moving === true ? `it moves at ${fixed(data.value.hz, 0)} Hz` : 'it stands'}
+          </p>
         </>
       )}
     </Panel>
@@ -45,10 +65,14 @@ export function Databoard({ card }: { card: CardInfo }): JSX.Element {
   return (
     <>
       <Panel title={`${card.name}: ${card.title}`} class="wide">
-        {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
+        {shown.map((one) => (
+          <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
+        ))}
         <Quantities card={card} />
       </Panel>
-      <Panel title="Ports" class="ports"><Console card={card} /></Panel>
+      <Panel title="Ports" class="ports">
+        <Console card={card} />
+      </Panel>
       <Slope card={card} />
     </>
   );

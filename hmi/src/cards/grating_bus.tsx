@@ -50,8 +50,16 @@ function Table({ bus }: { bus: Bus }): JSX.Element {
         <table class="counters frames-table">
           <thead>
             <tr>
-              {['Card', 'Role', 'Frame', 'Age, us', 'Skew, ns', 'Broken', 'Untrue', 'Unlike'].map((head) => <th key={head} scope="col">{head}</th>)}
-              {Array.from({ length: scales }, (_, i) => <th key={i} scope="col">Scale {i}</th>)}
+              {['Card', 'Role', 'Frame', 'Age, us', 'Skew, ns', 'Broken', 'Untrue', 'Unlike'].map((head) => (
+                <th key={head} scope="col">
+                  {head}
+                </th>
+              ))}
+              {Array.from({ length: scales }, (_, i) => (
+                <th key={i} scope="col">
+                  Scale {i}
+                </th>
+              ))}
               <th scope="col">Agrees</th>
             </tr>
           </thead>
@@ -66,7 +74,11 @@ function Table({ bus }: { bus: Bus }): JSX.Element {
                 <td class="tabular">{whole(card.broken)}</td>
                 <td class="tabular">{whole(card.untrue)}</td>
                 <td class="tabular">{whole(card.unlike)}</td>
-                {Array.from({ length: scales }, (_, i) => <td key={i} class="tabular">{whole(card.positions?.[i])}</td>)}
+                {Array.from({ length: scales }, (_, i) => (
+                  <td key={i} class="tabular">
+                    {whole(card.positions?.[i])}
+                  </td>
+                ))}
                 <td class={wordFor(card) === 'yes' ? '' : 'bad'}>{wordFor(card)}</td>
               </tr>
             ))}
@@ -81,7 +93,11 @@ export function Frames(): JSX.Element {
   const { data, why } = usePoll<FramesAnswer>('frames', {}, 200);
   return (
     <Panel title="Frames of all cards" class="wide frames">
-      {data.value === null ? <Empty>{why.value || 'Asking for the frames …'}</Empty> : data.value.buses.map((bus) => <Table key={bus.name} bus={bus} />)}
+      {data.value === null ? (
+        <Empty>{why.value || 'Asking for the frames …'}</Empty>
+      ) : (
+        data.value.buses.map((bus) => <Table key={bus.name} bus={bus} />)
+      )}
     </Panel>
   );
 }
@@ -93,7 +109,9 @@ export function Grating({ card }: { card: CardInfo }): JSX.Element {
     <>
       <Frames />
       <Panel title={`${card.name}: ${card.title}`} class="wide">
-        {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
+        {shown.map((one) => (
+          <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
+        ))}
         <Quantities card={card} />
       </Panel>
     </>

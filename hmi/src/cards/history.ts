@@ -5,26 +5,38 @@ import { channel, want } from '../link/channels';
 import { channelNames } from '../link/rack';
 import { whenPicture } from '../link/socket';
 
-/** x in seconds before now, then one array a channel. A chart takes it as it is. `rate` in samples a second. */
-export function useHistory(names: readonly string[], rate: number, seconds: number): Signal<(number | null)[][]> {
-  const known = names.filter((name) => channelNames.value.has(name));
-  const key = known.join(' ');
-  const data = useMemo(() => signal<(number | null)[][]>([[], ...known.map(() => [])]), [key]);
-  useEffect(() => {
-    const stop = want(known, rate);
-    const rows: { at: number; values: (number | null)[] }[] = [];
-    let shown = 0;
-    const unhook = whenPicture((picture) => {
-      rows.push({ at: picture.at, values: known.map((name) => channel(name).peek()) });
-      while (rows.length > 2 && (rows[0]?.at ?? 0) < picture.at - seconds) rows.shift();
-      if (performance.now() - shown < 50) return;
-      shown = performance.now();
-      data.value = [rows.map((row) => row.at - picture.at), ...known.map((_, i) => rows.map((row) => row.values[i] ?? null))];
-    });
-    return () => {
-      stop();
-      unhook();
-    };
-  }, [key, rate, seconds]);
+/** x in seconds before now, then one array a channel. A chart takes it as it is. */
+type Rows = (number | null)[][];
+
+/** A chart is drawn no more often than that. */
+const DRAWN_MS = 50;
+
+/** Fills `data` until the returned function is called. `rate` in samples a second. */
+export function record(names: readonly string[], rate: number, seconds: number, data: Signal<Rows>): () => void {
+  const stop = want([...names], rate);
+  const rows: { at: number; values: (number | null)[] }[] = [];
+  let shown = 0;
+  const unhook = whenPicture((picture) => {
+    rows.push({ at: picture.at, values: names.map((name) => channel(name).peek()) });
+    while (rows.length > 2 && (rows[0]?.at ?? 0) < picture.at - seconds) rows.shift();
+    if (performance.now() - shown < DRAWN_MS) return;
+    shown = performance.now();
+    data.value = [
+      rows.map((row) => row.at - picture.at),
+      ...names.map((_, i) => rows.map((row) => row.values[i] ?? null)),
+    ];
+  });
+  return () => {
+    stop();
+    unhook();
+  };
+}
+
+/** Of those channels that the rack has. */
+export function useHistory(names: readonly string[], rate: number, seconds: number): Signal<Rows> {
+  const key = names.filter((name) => channelNames.value.has(name)).join(' ');
+  const list = useMemo(() => (key === '' ? [] : key.split(' ')), [key]);
+  const data = useMemo(() => signal<Rows>([[], ...list.map(() => [])]), [list]);
+  useEffect(() => record(list, rate, seconds, data), [list, data, rate, seconds]);
   return data;
 }

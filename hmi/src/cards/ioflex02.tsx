@@ -21,17 +21,35 @@ function Axis({ card, answer, axis }: { card: CardInfo; answer: CardAnswer | nul
   const calibrated = valueOf(answer, `${axis}.CALIBRATED`);
   const illegal = valueOf(answer, `${axis}.ILLEGAL_TRANSITIONS`);
   const send = (code: number): void => {
-    if (command !== undefined) void orderFor('write_register', { card: card.name, bits: 16, address: card.bus.base + command.offset, value: code << (2 * axis) });
+    if (command !== undefined)
+      void orderFor('write_register', {
+        card: card.name,
+        bits: 16,
+        address: card.bus.base + command.offset,
+        value: code << (2 * axis),
+      });
   };
   return (
     <tr>
       <th scope="row">{axis}</th>
       <td class="tabular">{whole(valueOf(answer, `${axis}.POSITION`))}</td>
-      <td class="tabular"><Led on={calibrated === 1} letter="C" text={`Axis ${axis} calibrated`} /></td>
-      <td class="tabular"><span class={illegal !== null && illegal > 0 ? 'bad' : ''}>{whole(illegal)}</span></td>
+      <td class="tabular">
+        <Led on={calibrated === 1} letter="C" text={`Axis ${axis} calibrated`} />
+      </td>
+      <td class="tabular">
+        <span class={illegal !== null && illegal > 0 ? 'bad' : ''}>{whole(illegal)}</span>
+      </td>
       <td>
         <span class="buttons">
-          {COMMANDS.map((one) => <Button key={one.name} why={why} label={`${one.name}, axis ${axis}: ${one.text}`} onClick={() => send(one.code)}>{one.name}</Button>)}
+          {COMMANDS.map((one) => (
+            <Button
+              key={one.name}
+              why={why}
+              label={`${one.name}, axis ${axis}: ${one.text}`}
+              onClick={() => send(one.code)}>
+              {one.name}
+            </Button>
+          ))}
         </span>
       </td>
     </tr>
@@ -46,16 +64,32 @@ export function Flex({ card }: { card: CardInfo }): JSX.Element {
       <Panel title={`${card.name}: ${card.title}`} class="wide">
         <div class="scroll" tabIndex={0} role="region" aria-label="Axes of the card">
           <table class="counters">
-            <thead><tr>{['Axis', 'Position, counts', 'Calibrated', 'Illegal transitions', 'Calibrate'].map((head) => <th key={head} scope="col">{head}</th>)}</tr></thead>
-            <tbody>{AXES.map((axis) => <Axis key={axis} card={card} answer={data.value} axis={axis} />)}</tbody>
+            <thead>
+              <tr>
+                {['Axis', 'Position, counts', 'Calibrated', 'Illegal transitions', 'Calibrate'].map((head) => (
+                  <th key={head} scope="col">
+                    {head}
+                  </th>
+                ))}
+              </tr>
+            </thead>
+            <tbody>
+              {AXES.map((axis) => (
+                <Axis key={axis} card={card} answer={data.value} axis={axis} />
+              ))}
+            </tbody>
           </table>
         </div>
       </Panel>
       <Panel title="Diagnostics">
-        {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
+        {shown.map((one) => (
+          <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
+        ))}
         {card.quantities.length > 0 && <Quantities card={card} />}
       </Panel>
-      <Panel title="Registers by hand" class="ports"><Console card={card} /></Panel>
+      <Panel title="Registers by hand" class="ports">
+        <Console card={card} />
+      </Panel>
     </>
   );
 }

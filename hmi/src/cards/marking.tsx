@@ -25,7 +25,10 @@ async function mark(card: string): Promise<void> {
   const reply = await orderFor('mark', { card, job: job.value, start: start.value });
   if (reply === null) return;
   const notes = Array.isArray(reply.notes) ? (reply.notes as string[]) : [];
-  notice('done', [`${String(reply.commands ?? '')} commands are in the card's list.`, ...notes].join(' '));
+  notice(
+    'done',
+    [`${(reply.commands as number | undefined) ?? ''} commands are in the card's list.`, ...notes].join(' '),
+  );
 }
 
 export function Marking({ card }: { card: CardInfo }): JSX.Element {
@@ -33,12 +36,32 @@ export function Marking({ card }: { card: CardInfo }): JSX.Element {
   const why = mayOperate();
   return (
     <Panel title="Mark" class="marking">
-      <label class="hint" for={id}>Marking job (TOML); optics, laser and belt are the rack's</label>
-      <textarea id={id} class="editor" spellcheck={false} value={job.value} onInput={(event) => (job.value = event.currentTarget.value)} />
+      <label class="hint" for={id}>
+        Marking job (TOML); optics, laser and belt are the rack's
+      </label>
+      <textarea
+        id={id}
+        class="editor"
+        spellcheck={false}
+        value={job.value}
+        onInput={(event) => (job.value = event.currentTarget.value)}
+      />
       <div class="row">
-        <Choice label="When" value={start.value} onChange={(to) => (start.value = to)} options={[{ value: 'now', text: 'at once' }, { value: 'parts', text: 'each part' }]} />
-        <Button why={why} kind="main" icon="run" onClick={() => void mark(card.name)}>Mark</Button>
-        <Button why={why} icon="standstill" onClick={() => void order('mark_stop', { card: card.name })}>Stop marking</Button>
+        <Choice
+          label="When"
+          value={start.value}
+          onChange={(to) => (start.value = to)}
+          options={[
+            { value: 'now', text: 'at once' },
+            { value: 'parts', text: 'each part' },
+          ]}
+        />
+        <Button why={why} kind="main" icon="run" onClick={() => void mark(card.name)}>
+          Mark
+        </Button>
+        <Button why={why} icon="standstill" onClick={() => void order('mark_stop', { card: card.name })}>
+          Stop marking
+        </Button>
       </div>
     </Panel>
   );

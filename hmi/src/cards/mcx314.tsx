@@ -1,4 +1,5 @@
-// The MCX314's panel: the counters of its channels, as often as its source's panel reads them, speeds as pictures, drive flags.
+// The MCX314's panel: the counters of its channels, as often as its source's panel reads them, speeds as pictures,
+// drive flags.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
@@ -21,16 +22,28 @@ const COUNTERS = [
   { name: 'CA', text: 'present acceleration' },
 ] as const;
 
-const axisAt = (card: CardInfo, which: string): string | undefined => card.axes.find((axis) => axis.channel === which)?.letter;
+const axisAt = (card: CardInfo, which: string): string | undefined =>
+  card.axes.find((axis) => axis.channel === which)?.letter;
 
 function Counters({ card }: { card: CardInfo }): JSX.Element {
-  const names = card.channels.flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`)).filter((name) => channelNames.value.has(name));
+  const names = card.channels
+    .flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`))
+    .filter((name) => channelNames.value.has(name));
   const key = names.join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), EVERY_HZ), [key]);
   return (
     <table class="counters">
       <thead>
-        <tr><th scope="col">Channel</th>{COUNTERS.map((one) => <th key={one.name} scope="col" title={one.text}>{one.name}<small>{one.text}</small></th>)}<th scope="col">Lamps</th></tr>
+        <tr>
+          <th scope="col">Channel</th>
+          {COUNTERS.map((one) => (
+            <th key={one.name} scope="col" title={one.text}>
+              {one.name}
+              <small>{one.text}</small>
+            </th>
+          ))}
+          <th scope="col">Lamps</th>
+        </tr>
       </thead>
       <tbody>
         {card.channels.map((which) => {
@@ -38,8 +51,15 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
           const axis = letter === undefined ? undefined : axisOf(letter);
           return (
             <tr key={which}>
-              <th scope="row">{which}<small>{letter === undefined ? 'no axis' : `axis ${letter}`}</small></th>
-              {COUNTERS.map((one) => <td key={one.name} class="tabular">{whole(channel(`${card.name}.${which}.${one.name}`).value)}</td>)}
+              <th scope="row">
+                {which}
+                <small>{letter === undefined ? 'no axis' : `axis ${letter}`}</small>
+              </th>
+              {COUNTERS.map((one) => (
+                <td key={one.name} class="tabular">
+                  {whole(channel(`${card.name}.${which}.${one.name}`).value)}
+                </td>
+              ))}
               <td>{axis !== undefined ? <Lamps axis={axis} /> : <span class="hint">–</span>}</td>
             </tr>
           );
@@ -51,11 +71,29 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
 
 function Speeds({ card }: { card: CardInfo }): JSX.Element {
   const what = useSignal<'CV' | 'LP' | 'EP' | 'CA'>('CV');
-  const names = card.channels.map((which) => `${card.name}.${which}.${what.value}`).filter((name) => channelNames.value.has(name));
+  const names = card.channels
+    .map((which) => `${card.name}.${which}.${what.value}`)
+    .filter((name) => channelNames.value.has(name));
   const data = useHistory(names, EVERY_HZ, 10);
   return (
-    <Panel title="Last ten seconds" class="trend" tools={<Choice label="What the picture shows" value={what.value} onChange={(to) => (what.value = to)} options={COUNTERS.map((one) => ({ value: one.name, text: one.name }))} />}>
-      <Chart data={data.value} names={names} xName="s" label={`${what.value} of all channels, last ten seconds`} height={220} />
+    <Panel
+      title="Last ten seconds"
+      class="trend"
+      tools={
+        <Choice
+          label="What the picture shows"
+          value={what.value}
+          onChange={(to) => (what.value = to)}
+          options={COUNTERS.map((one) => ({ value: one.name, text: one.name }))}
+        />
+      }>
+      <Chart
+        data={data.value}
+        names={names}
+        xName="s"
+        label={`${what.value} of all channels, last ten seconds`}
+        height={220}
+      />
       <Legend names={names} />
     </Panel>
   );
@@ -77,15 +115,38 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
   };
   return (
     <Panel title="Moves and homing" class="moves">
-      <Choice label="Axis" value={letter ?? ''} onChange={(to) => (chosen.value = to)} options={letters.map((one) => ({ value: one, text: one }))} />
+      <Choice
+        label="Axis"
+        value={letter ?? ''}
+        onChange={(to) => (chosen.value = to)}
+        options={letters.map((one) => ({ value: one, text: one }))}
+      />
       <div class="row">
-        <Field label="Distance" value={distance.value} unit={unit} mode="decimal" onInput={(text) => (distance.value = text)} />
-        <Field label="Speed" value={speed.value} unit={`${unit}/s`} mode="decimal" onInput={(text) => (speed.value = text)} />
-        <Button machine why={why} icon="left" onClick={() => move(-1)}>Move −</Button>
-        <Button machine why={why} icon="right" onClick={() => move(1)}>Move +</Button>
+        <Field
+          label="Distance"
+          value={distance.value}
+          unit={unit}
+          mode="decimal"
+          onInput={(text) => (distance.value = text)}
+        />
+        <Field
+          label="Speed"
+          value={speed.value}
+          unit={`${unit}/s`}
+          mode="decimal"
+          onInput={(text) => (speed.value = text)}
+        />
+        <Button machine why={why} icon="left" onClick={() => move(-1)}>
+          Move −
+        </Button>
+        <Button machine why={why} icon="right" onClick={() => move(1)}>
+          Move +
+        </Button>
       </div>
       <div class="row">
-        <Button machine icon="home" why={why} onClick={() => void order('home', { axes: letter })}>Home {letter}</Button>
+        <Button machine icon="home" why={why} onClick={() => void order('home', { axes: letter })}>
+          Home {letter}
+        </Button>
       </div>
     </Panel>
   );
@@ -101,12 +162,15 @@ function Drives({ card }: { card: CardInfo }): JSX.Element | null {
   if (!has || register === undefined) return null;
   return (
     <div class="flags" role="group" aria-label="RR0, main status">
-      {fieldValues(register, word ?? 0).filter(({ field }) => field.bits === 1).reverse().map(({ field, value }) => (
-        <span key={field.name} class="flag" title={field.meaning}>
-          <Led on={word !== null && value === 1} letter={word === null ? '–' : String(value)} text={field.meaning} />
-          <code>{field.name}</code>
-        </span>
-      ))}
+      {fieldValues(register, word ?? 0)
+        .filter(({ field }) => field.bits === 1)
+        .reverse()
+        .map(({ field, value }) => (
+          <span key={field.name} class="flag" title={field.meaning}>
+            <Led on={word !== null && value === 1} letter={word === null ? '–' : String(value)} text={field.meaning} />
+            <code>{field.name}</code>
+          </span>
+        ))}
     </div>
   );
 }

@@ -27,7 +27,11 @@ function Tile({ card }: { card: CardInfo }): JSX.Element {
       <strong>{card.name}</strong>
       <span class="type">{card.type}</span>
       <span class="title">{card.title}</span>
-      <span class="axes-of">{card.axes.length > 0 ? `moves ${card.axes.map((axis) => axis.letter).join(', ')}` : `${card.registers.length} registers, ${card.commands.length} commands, ${card.pins.length} pins`}</span>
+      <span class="axes-of">
+        {card.axes.length > 0
+          ? `moves ${card.axes.map((axis) => axis.letter).join(', ')}`
+          : `${card.registers.length} registers, ${card.commands.length} commands, ${card.pins.length} pins`}
+      </span>
     </a>
   );
 }
@@ -39,7 +43,15 @@ export function Cards(): JSX.Element {
     return (
       <div class="column">
         <Panel title={`Cards of ${rack.value?.name ?? 'the rack'}`}>
-          {cards.length === 0 ? <Empty>The rack has no cards.</Empty> : <div class="tiles">{cards.map((one) => <Tile key={one.name} card={one} />)}</div>}
+          {cards.length === 0 ? (
+            <Empty>The rack has no cards.</Empty>
+          ) : (
+            <div class="tiles">
+              {cards.map((one) => (
+                <Tile key={one.name} card={one} />
+              ))}
+            </div>
+          )}
         </Panel>
         {cards.some((one) => one.type === 'grating_bus') && <Frames />}
       </div>
@@ -48,9 +60,19 @@ export function Cards(): JSX.Element {
   return (
     <>
       <nav class="pills" aria-label="Cards">
-        <a href={address('cards')}><Icon name="left" size={14} />all</a>
-        {cards.map((one) => <a key={one.name} href={address('cards', one.name)} aria-current={one === card ? 'page' : undefined}>{one.name}<small>{one.type}</small></a>)}
-        <a class="far" href={address('registers', card.name)}>registers</a>
+        <a href={address('cards')}>
+          <Icon name="left" size={14} />
+          all
+        </a>
+        {cards.map((one) => (
+          <a key={one.name} href={address('cards', one.name)} aria-current={one === card ? 'page' : undefined}>
+            {one.name}
+            <small>{one.type}</small>
+          </a>
+        ))}
+        <a class="far" href={address('registers', card.name)}>
+          registers
+        </a>
       </nav>
       <div class="cardview" key={card.name}>
         {Own !== undefined && <Own card={card} />}

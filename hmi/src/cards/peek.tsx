@@ -14,21 +14,37 @@ export interface CardAnswer {
   pins: Record<string, number>;
 }
 
-export const wordOf = (answer: CardAnswer | null, name: string): number | null => answer?.registers.find((one) => one.name === name)?.word ?? null;
-export const valueOf = (answer: CardAnswer | null, name: string): number | null => answer?.values.find((one) => one.name === name)?.value ?? wordOf(answer, name);
+export const wordOf = (answer: CardAnswer | null, name: string): number | null =>
+  answer?.registers.find((one) => one.name === name)?.word ?? null;
+export const valueOf = (answer: CardAnswer | null, name: string): number | null =>
+  answer?.values.find((one) => one.name === name)?.value ?? wordOf(answer, name);
 
 /** One register: single bits are lamps, wider fields numbers. */
 export function Flags({ register, word }: { register: RegisterInfo; word: number | null }): JSX.Element {
   return (
     <div class="flagset" role="group" aria-label={`${register.name}, ${register.meaning}`}>
-      <p class="head"><code>{register.name}</code><span class="tabular">{hex(word, register.width)}</span><small>{register.meaning}</small></p>
+      <p class="head">
+        <code>{register.name}</code>
+        <span class="tabular">{hex(word, register.width)}</span>
+        <small>{register.meaning}</small>
+      </p>
       <div class="flags">
-        {fieldValues(register, word ?? 0).reverse().map(({ field, value }) => (
-          <span key={field.name} class="flag" title={field.meaning}>
-            {field.bits === 1 ? <Led on={word !== null && value === 1} letter={word === null ? '–' : String(value)} text={field.meaning} /> : <span class="volts tabular">{word === null ? '–' : value}</span>}
-            <code>{field.name}</code>
-          </span>
-        ))}
+        {fieldValues(register, word ?? 0)
+          .reverse()
+          .map(({ field, value }) => (
+            <span key={field.name} class="flag" title={field.meaning}>
+              {field.bits === 1 ? (
+                <Led
+                  on={word !== null && value === 1}
+                  letter={word === null ? '–' : String(value)}
+                  text={field.meaning}
+                />
+              ) : (
+                <span class="volts tabular">{word === null ? '–' : value}</span>
+              )}
+              <code>{field.name}</code>
+            </span>
+          ))}
       </div>
     </div>
   );
@@ -36,7 +52,9 @@ export function Flags({ register, word }: { register: RegisterInfo; word: number
 
 /** The numbers that the card itself tells, live. */
 export function Quantities({ card }: { card: CardInfo }): JSX.Element {
-  const own = channelList.value.filter((one) => one.name.startsWith(`${card.name}.`) && card.quantities.includes(one.name.slice(card.name.length + 1)));
+  const own = channelList.value.filter(
+    (one) => one.name.startsWith(`${card.name}.`) && card.quantities.includes(one.name.slice(card.name.length + 1)),
+  );
   const key = own.map((one) => one.name).join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), 10), [key]);
   if (own.length === 0) return <Empty>The card tells no numbers of its own.</Empty>;
@@ -44,8 +62,15 @@ export function Quantities({ card }: { card: CardInfo }): JSX.Element {
     <dl class="values">
       {own.map((one) => (
         <div key={one.name} title={one.text}>
-          <dt><code>{one.name.slice(card.name.length + 1)}</code></dt>
-          <dd class="tabular">{one.unit === '' && Number.isInteger(channel(one.name).value) ? whole(channel(one.name).value) : fixed(channel(one.name).value, 3)} <small>{one.unit}</small></dd>
+          <dt>
+            <code>{one.name.slice(card.name.length + 1)}</code>
+          </dt>
+          <dd class="tabular">
+            {one.unit === '' && Number.isInteger(channel(one.name).value)
+              ? whole(channel(one.name).value)
+              : fixed(channel(one.name).value, 3)}{' '}
+            <small>{one.unit}</small>
+          </dd>
         </div>
       ))}
     </dl>

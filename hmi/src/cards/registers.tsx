@@ -24,9 +24,27 @@ function Bits({ register, word }: { register: RegisterInfo; word: number }): JSX
   );
 }
 
-function Row({ name, register, word, open, onOpen }: { name: string; register: RegisterInfo | undefined; word: number | null; open: boolean; onOpen(): void }): JSX.Element {
+function Row({
+  name,
+  register,
+  word,
+  open,
+  onOpen,
+}: {
+  name: string;
+  register: RegisterInfo | undefined;
+  word: number | null;
+  open: boolean;
+  onOpen: () => void;
+}): JSX.Element {
   const has = (register?.fields.length ?? 0) > 0;
-  const setBits = register === undefined || word === null ? '' : fieldValues(register, word).filter((one) => one.value !== 0).map((one) => one.field.name).join(' ');
+  const setBits =
+    register === undefined || word === null
+      ? ''
+      : fieldValues(register, word)
+          .filter((one) => one.value !== 0)
+          .map((one) => one.field.name)
+          .join(' ');
   return (
     <li class={`register ${open ? 'open' : ''}`}>
       <button type="button" aria-expanded={has ? open : undefined} onClick={onOpen}>
@@ -57,16 +75,39 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
     <>
       <Field label="Find" value={filter.value} wide placeholder="RR0, LP …" onInput={(text) => (filter.value = text)} />
       {why.value !== '' && <p class="why">{why.value}</p>}
-      {data.value !== null && registers.length + values.length + numbers.length === 0 && <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>}
+      {data.value !== null && registers.length + values.length + numbers.length === 0 && (
+        <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>
+      )}
       <ul class="registers">
         {registers.map((one) => (
-          <Row key={one.name} name={one.name} word={one.word} register={card.registers.find((info) => info.name === one.register)} open={opened.value.includes(one.name)} onOpen={() => toggle(one.name)} />
+          <Row
+            key={one.name}
+            name={one.name}
+            word={one.word}
+            register={card.registers.find((info) => info.name === one.register)}
+            open={opened.value.includes(one.name)}
+            onOpen={() => toggle(one.name)}
+          />
         ))}
       </ul>
       {values.length + numbers.length > 0 && (
         <dl class="values">
-          {values.map(({ name, value }) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{whole(value)}</dd></div>)}
-          {numbers.map(({ name, value }) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{fixed(value, 3)}</dd></div>)}
+          {values.map(({ name, value }) => (
+            <div key={name}>
+              <dt>
+                <code>{name}</code>
+              </dt>
+              <dd class="tabular">{whole(value)}</dd>
+            </div>
+          ))}
+          {numbers.map(({ name, value }) => (
+            <div key={name}>
+              <dt>
+                <code>{name}</code>
+              </dt>
+              <dd class="tabular">{fixed(value, 3)}</dd>
+            </div>
+          ))}
         </dl>
       )}
     </>
@@ -76,13 +117,26 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
 export function Registers(): JSX.Element {
   const cards = rack.value?.cards ?? [];
   const card = cardNamed(detail.value) ?? cards[0];
-  if (card === undefined) return <Panel title="Registers"><Empty>The rack has no cards.</Empty></Panel>;
+  if (card === undefined)
+    return (
+      <Panel title="Registers">
+        <Empty>The rack has no cards.</Empty>
+      </Panel>
+    );
   return (
     <>
       <nav class="pills" aria-label="Cards">
-        {cards.map((one) => <a key={one.name} href={address('registers', one.name)} aria-current={one === card ? 'page' : undefined}>{one.name}<small>{one.type}</small></a>)}
+        {cards.map((one) => (
+          <a key={one.name} href={address('registers', one.name)} aria-current={one === card ? 'page' : undefined}>
+            {one.name}
+            <small>{one.type}</small>
+          </a>
+        ))}
       </nav>
-      <Panel title={`Registers of ${card.name}`} class="inspector" note="Looked at without effects: no register is read through the bus, nothing is cleared.">
+      <Panel
+        title={`Registers of ${card.name}`}
+        class="inspector"
+        note="Looked at without effects: no register is read through the bus, nothing is cleared.">
         <Inspector key={card.name} card={card} />
       </Panel>
     </>

@@ -1,4 +1,4 @@
-// A register's word as its fields: which bits, which value.
+// A register's word: as its fields, and as it is typed.
 import type { FieldInfo, RegisterInfo } from '../link/rack';
 
 export interface FieldValue {
@@ -17,4 +17,15 @@ export function fieldValues(register: RegisterInfo, word: number): FieldValue[] 
       value: Math.floor(word / 2 ** field.low) % 2 ** field.bits,
     }))
     .sort((a, b) => b.field.low - a.field.low);
+}
+
+/** "1Fh", "0x1F", "31", "'G'" as a word of so many bits; null: it is none. */
+export function typedWord(text: string, bits: number): number | null {
+  const plain = text.trim();
+  const letter = /^'(.)'$/.exec(plain)?.[1];
+  let word = NaN;
+  if (letter !== undefined) word = letter.charCodeAt(0);
+  else if (/^[0-9a-f]+h$/i.test(plain)) word = parseInt(plain, 16);
+  else if (/^(0x[0-9a-f]+|\d+)$/i.test(plain)) word = Number(plain);
+  return word < 2 ** bits ? word : null;
 }

@@ -1,6 +1,8 @@
-// Jogging: a lease that is renewed while somebody holds a key or a button, and ended by everything that could mean that nobody does.
+// Jogging: a lease that is renewed while a key or a button is held, and ended by everything that could mean that none
+// is held any more.
 //
-//   begin ──► jog ──80 ms──► jog ──80 ms──► ...      end, blur, hidden, page gone, connection lost, arm switch off ──► jog_stop
+//   begin ──► jog ──80 ms──► jog ──80 ms──► ...
+//   end, blur, hidden, page gone, connection lost, arm switch off ──► jog_stop
 //
 // The program itself stops an axis that was not renewed for 250 ms: what this page does is only to be quicker.
 import { signal } from '@preact/signals';
@@ -42,7 +44,8 @@ interface Held {
 const held = new Map<string, Held>();
 let timer: ReturnType<typeof setInterval> | undefined;
 
-const speedOf = (axis: string, rapid: boolean): number => (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
+const speedOf = (axis: string, rapid: boolean): number =>
+  (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
 
 function renew(): void {
   for (const one of held.values())

@@ -1,4 +1,5 @@
-// What a key does, page-wide: heard before anything on the page, so that a focused button never takes Space for a click.
+// What a key does, page-wide: heard before anything on the page, so that a focused button never takes Space for a
+// click.
 import { armed, begin, end, slowDown } from '../jog/lease';
 import { mayOperate, notice } from '../link/orders';
 import { jogOf, KEYS, type Key } from './table';
@@ -6,7 +7,8 @@ import { jogOf, KEYS, type Key } from './table';
 /** Fields in which keys write, or choose. */
 function types(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return true;
+  if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement)
+    return true;
   return target instanceof HTMLInputElement && !['button', 'submit', 'checkbox', 'radio', 'file'].includes(target.type);
 }
 

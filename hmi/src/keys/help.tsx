@@ -8,17 +8,46 @@ export function Help(): JSX.Element {
   return (
     <Dialog title="Keyboard" open={helpOpen.value} onClose={() => (helpOpen.value = false)} class="help">
       <table>
-        <thead><tr><th scope="col">Key</th><th scope="col">What it does</th></tr></thead>
+        <thead>
+          <tr>
+            <th scope="col">Key</th>
+            <th scope="col">What it does</th>
+          </tr>
+        </thead>
         <tbody>
-          {KEYS.map((key) => <tr key={key.shown}><td><kbd>{key.shown}</kbd></td><td>{key.text}</td></tr>)}
+          {KEYS.map((key) => (
+            <tr key={key.shown}>
+              <td>
+                <kbd>{key.shown}</kbd>
+              </td>
+              <td>{key.text}</td>
+            </tr>
+          ))}
         </tbody>
       </table>
       <h3>With the keyboard armed (the switch of the jog panel)</h3>
       <table>
-        <thead><tr><th scope="col">Key</th><th scope="col">What it does</th></tr></thead>
+        <thead>
+          <tr>
+            <th scope="col">Key</th>
+            <th scope="col">What it does</th>
+          </tr>
+        </thead>
         <tbody>
-          {JOG_KEYS.map((key) => <tr key={key.shown}><td><kbd>{key.shown}</kbd></td><td>{key.text}, while held or by one step</td></tr>)}
-          <tr><td><kbd>Shift</kbd> + a jog key</td><td>Rapid jog: at the axis' greatest speed</td></tr>
+          {JOG_KEYS.map((key) => (
+            <tr key={key.shown}>
+              <td>
+                <kbd>{key.shown}</kbd>
+              </td>
+              <td>{key.text}, while held or by one step</td>
+            </tr>
+          ))}
+          <tr>
+            <td>
+              <kbd>Shift</kbd> + a jog key
+            </td>
+            <td>Rapid jog: at the axis' greatest speed</td>
+          </tr>
         </tbody>
       </table>
       <p class="hint">While you type in a field only Esc, F1 and F2 act. STOP is no emergency stop.</p>

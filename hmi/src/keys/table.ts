@@ -26,19 +26,52 @@ export interface JogKey {
 }
 
 export const KEYS: readonly Key[] = [
-  { keys: ['Escape'], shown: 'Esc', text: 'STOP: controlled stop, the program is aborted', always: true, press: escape },
-  { keys: [' '], shown: 'Space', text: 'Feed hold; a second press does not resume', press: () => perform(actions.hold) },
-  { keys: ['F1'], shown: 'F1', text: 'E-stop input on or off (simulated)', always: true, press: () => perform(actions.estop) },
-  { keys: ['F2'], shown: 'F2', text: 'Enable or disable the drives', always: true, press: () => perform(actions.enable) },
+  {
+    keys: ['Escape'],
+    shown: 'Esc',
+    text: 'STOP: controlled stop, the program is aborted',
+    always: true,
+    press: escape,
+  },
+  {
+    keys: [' '],
+    shown: 'Space',
+    text: 'Feed hold; a second press does not resume',
+    press: () => perform(actions.hold),
+  },
+  {
+    keys: ['F1'],
+    shown: 'F1',
+    text: 'E-stop input on or off (simulated)',
+    always: true,
+    press: () => perform(actions.estop),
+  },
+  {
+    keys: ['F2'],
+    shown: 'F2',
+    text: 'Enable or disable the drives',
+    always: true,
+    press: () => perform(actions.enable),
+  },
   { keys: ['i'], shown: 'i', text: 'Next jog increment', press: nextStep },
   { keys: ['c'], shown: 'c', text: 'Continuous jog', press: () => setStep(STEPS.length - 1) },
   { keys: ['Home'], shown: 'Ctrl + Home', text: 'Home all axes', ctrl: true, press: () => perform(actions.home) },
-  { keys: ['End'], shown: 'End', text: 'Touch off: the chosen axis stands at 0 of the work piece', press: () => perform(actions.touchOff) },
+  {
+    keys: ['End'],
+    shown: 'End',
+    text: 'Touch off: the chosen axis stands at 0 of the work piece',
+    press: () => perform(actions.touchOff),
+  },
   { keys: ['r', '~'], shown: 'r or ~', text: 'Run the program', press: () => perform(actions.run) },
   { keys: ['t'], shown: 't', text: 'One step of the program', press: () => perform(actions.step) },
   { keys: ['p', '!'], shown: 'p or !', text: 'Pause (feed hold)', press: () => perform(actions.hold) },
   { keys: ['s'], shown: 's', text: 'Resume', press: () => perform(actions.resume) },
-  { keys: ['1', '2', '3', '4', '5', '6', '7', '8', '9'], shown: '1 … 9', text: 'Feed override 10 … 90 %', press: (key) => setFeed(Number(key) / 10) },
+  {
+    keys: ['1', '2', '3', '4', '5', '6', '7', '8', '9'],
+    shown: '1 … 9',
+    text: 'Feed override 10 … 90 %',
+    press: (key) => setFeed(Number(key) / 10),
+  },
   { keys: ['0'], shown: '0', text: 'Feed override 100 %', press: () => setFeed(1) },
   { keys: ['`'], shown: '`', text: 'Feed override 0 %', press: () => setFeed(0) },
   { keys: ['?'], shown: '?', text: 'This table', press: () => (helpOpen.value = !helpOpen.peek()) },
@@ -51,8 +84,20 @@ export const JOG_KEYS: readonly JogKey[] = [
   { keys: ['ArrowLeft', 'ArrowRight'], shown: '← →', text: 'Jog X − / +', axis: named('X') },
   { keys: ['ArrowDown', 'ArrowUp'], shown: '↓ ↑', text: 'Jog Y − / +', axis: named('Y') },
   { keys: ['PageDown', 'PageUp'], shown: 'PgDn PgUp', text: 'Jog Z − / +', axis: named('Z') },
-  { keys: ['[', ']'], shown: '[ ]', text: 'Jog the fourth axis − / +', axis: (letters) => letters.find((one) => !'XYZ'.includes(one)) },
+  {
+    keys: ['[', ']'],
+    shown: '[ ]',
+    text: 'Jog the fourth axis − / +',
+    axis: (letters) => letters.find((one) => !'XYZ'.includes(one)),
+  },
 ];
+
+/** The axes on the jog pad: in the cross, and in columns beside it. */
+export function padOf(letters: readonly string[]): { x?: string; y?: string; columns: string[] } {
+  const [x, y, ...upright] = JOG_KEYS.map((row) => row.axis(letters));
+  const keyed = upright.filter((one): one is string => one !== undefined);
+  return { x, y, columns: [...keyed, ...letters.filter((one) => ![x, y, ...keyed].includes(one))] };
+}
 
 /** STOP first; a dialog that is open is closed, too. */
 function escape(): void {

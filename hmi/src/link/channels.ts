@@ -53,6 +53,6 @@ async function subscribe(): Promise<void> {
 
 whenOpen(() => void subscribe());
 whenPicture((picture) => {
-  if (picture.values === undefined || picture.values.length !== order.length) return;
+  if (picture.values?.length !== order.length) return;
   order.forEach((name, i) => (channel(name).value = picture.values?.[i] ?? null));
 });

@@ -14,9 +14,22 @@ export interface Hello {
 }
 
 /** Names as the machine's states are written; blanks and underscores are the same. */
-export type StateName = 'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop';
+export type StateName =
+  'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop';
 
-export const LEDS = ['soft_minus', 'soft_plus', 'hard_minus', 'hard_plus', 'home', 'cam', 'index', 'capture', 'compare', 'in_position', 'alarm'] as const;
+export const LEDS = [
+  'soft_minus',
+  'soft_plus',
+  'hard_minus',
+  'hard_plus',
+  'home',
+  'cam',
+  'index',
+  'capture',
+  'compare',
+  'in_position',
+  'alarm',
+] as const;
 export type LedName = (typeof LEDS)[number];
 
 export interface AxisStatus {
@@ -56,7 +69,14 @@ export interface Status {
   estop: { wired: boolean; pressed: boolean };
   control: { holder: string | null; holder_session?: string; since?: number };
   axes: AxisStatus[];
-  program: { name: string; runs: boolean; line: number; lines: number; remaining_s: number | null; single_step: boolean };
+  program: {
+    name: string;
+    runs: boolean;
+    line: number;
+    lines: number;
+    remaining_s: number | null;
+    single_step: boolean;
+  };
   overrides: { feed: number; rapid: number };
   alarms: Alarm[];
   homing?: { runs: boolean; phases: Record<string, string> };

@@ -47,16 +47,22 @@ export async function orderFor(name: string, fields: Fields = {}): Promise<Reply
 }
 
 /** Asks. Throws Refusal. */
-export const query = async <T>(name: string, fields: Fields = {}): Promise<T> => (await ask({ ...fields, query: name })) as T;
+export const query = async <T>(name: string, fields: Fields = {}): Promise<T> =>
+  (await ask({ ...fields, query: name })) as T;
 
 /** STOP goes both ways, by the stream and by HTTP, and needs neither token nor lease. */
 export function stop(): void {
   ask({ order: 'stop' }).catch(() => undefined);
   fetch('api/stop', { method: 'POST', keepalive: true }).then(
     (answer) => {
-      if (!answer.ok) notice('refused', 'STOP did not reach the program by HTTP. If the machine moves, use its emergency stop.');
+      if (!answer.ok)
+        notice('refused', 'STOP did not reach the program by HTTP. If the machine moves, use its emergency stop.');
     },
-    () => notice('refused', 'STOP did not reach the program: there is no connection. If the machine moves, use its emergency stop.'),
+    () =>
+      notice(
+        'refused',
+        'STOP did not reach the program: there is no connection. If the machine moves, use its emergency stop.',
+      ),
   );
 }
 
@@ -64,11 +70,13 @@ export function hasRole(needed: Role): boolean {
   return ROLES.indexOf(state.role.value) >= ROLES.indexOf(needed);
 }
 
+const standing = (): string => (state.role.value === 'nobody' ? 'are not paired' : `have the role ${state.role.value}`);
+
 /** Why something is not allowed now; empty: it is. Reads signals, so that a component that shows it follows. */
 export function whyNot(needed: Role, control = false): string {
   if (state.link.value !== 'open') return 'There is no connection to the program.';
   if (!hasRole(needed))
-    return `This needs the role ${needed}; you ${state.role.value === 'nobody' ? 'are not paired' : `have the role ${state.role.value}`}. Pair this browser with a code of that role.`;
+    return `This needs the role ${needed}; you ${standing()}. Pair this browser with a code of that role.`;
   if (control && !state.inControl.value) {
     return state.holder.value !== '' ? `${state.holder.value} holds control.` : 'Take control first.';
   }

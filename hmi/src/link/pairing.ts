@@ -23,7 +23,12 @@ export async function pair(code: string, name: string): Promise<void> {
   });
   const body = (await answer.json()) as { token?: string; error?: ErrorBody };
   if (!answer.ok || body.token === undefined)
-    throw new Refusal(body.error ?? { trouble: 'denied', message: `The program answered ${answer.status}; this browser is not paired.` });
+    throw new Refusal(
+      body.error ?? {
+        trouble: 'denied',
+        message: `The program answered ${answer.status}; this browser is not paired.`,
+      },
+    );
   localStorage.setItem(TOKEN_KEY, body.token);
   await showToken();
 }

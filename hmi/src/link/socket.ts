@@ -1,5 +1,14 @@
 // The WebSocket to the program: asks with answers, pictures, events; comes back by itself when it was lost.
-import { Refusal, type ErrorBody, type Fields, type Hello, type MachineEvent, type Picture, type Reply, type Role } from './contract';
+import {
+  Refusal,
+  type ErrorBody,
+  type Fields,
+  type Hello,
+  type MachineEvent,
+  type Picture,
+  type Reply,
+  type Role,
+} from './contract';
 import * as state from './state';
 
 interface Waiting {
@@ -37,17 +46,30 @@ export function whenPicture(call: (picture: Picture) => void): () => void {
 /** Sends one request and waits for its answer. Throws Refusal with the program's sentence. */
 export function ask(fields: Fields): Promise<Reply> {
   const open = socket;
-  if (open === null || open.readyState !== WebSocket.OPEN)
-    return Promise.reject(new Refusal({ trouble: 'io', message: 'There is no connection to the program. Nothing was sent.' }));
+  if (open?.readyState !== WebSocket.OPEN)
+    return Promise.reject(
+      new Refusal({ trouble: 'io', message: 'There is no connection to the program. Nothing was sent.' }),
+    );
   const id = next++;
   return new Promise((resolve, reject) => {
     const timer = setTimeout(() => {
       waiting.delete(id);
-      reject(new Refusal({ trouble: 'io', message: `The program has not answered for ${GIVE_UP_MS / 1000} s. Look at the machine's state before you try again.` }));
+      reject(
+        new Refusal({
+          trouble: 'io',
+          message: `The program has not answered for ${GIVE_UP_MS / 1000} s. Look at the machine's state before you try again.`,
+        }),
+      );
     }, GIVE_UP_MS);
     waiting.set(id, {
-      resolve: (reply) => (clearTimeout(timer), resolve(reply)),
-      reject: (why) => (clearTimeout(timer), reject(why)),
+      resolve: (reply) => {
+        clearTimeout(timer);
+        resolve(reply);
+      },
+      reject: (why) => {
+        clearTimeout(timer);
+        reject(why);
+      },
     });
     open.send(JSON.stringify({ id, ...fields }));
   });
@@ -105,21 +127,26 @@ export async function showToken(): Promise<void> {
     try {
       const reply = await ask({ token });
       state.role.value = reply.role as Role;
-      state.user.value = (reply.user as string) ?? '';
+      state.user.value = (reply.user as string | undefined) ?? '';
     } catch (why) {
       if (why instanceof Refusal && why.body.trouble === 'denied') localStorage.removeItem(TOKEN_KEY);
     }
   for (const call of onOpen) call();
 }
 
-export const streamAddress = (): string => `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/api/stream`;
+export const streamAddress = (): string =>
+  `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/api/stream`;
 
 function gone(which: WebSocket): void {
   if (which !== socket) return;
   socket = null;
   state.link.value = 'lost';
   for (const call of onLost) call();
-  const why = new Refusal({ trouble: 'io', message: 'The connection to the program was lost before it answered. Look at the machine\'s state before you try again.' });
+  const why = new Refusal({
+    trouble: 'io',
+    message:
+      "The connection to the program was lost before it answered. Look at the machine's state before you try again.",
+  });
   for (const one of waiting.values()) one.reject(why);
   waiting.clear();
   setTimeout(connect, retry);

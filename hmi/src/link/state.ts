@@ -21,8 +21,17 @@ export const STALE_MS = 500;
 const AGE_STEP_MS = 50;
 export const stale = computed(() => link.value !== 'open' || age.value >= STALE_MS);
 
+/** Tenths of a second once it matters; below that a bound that does not jump at every picture. */
+export function ageText(ms: number): string {
+  if (!Number.isFinite(ms)) return '';
+  return ms >= STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.ceil((ms + 1) / 100) * 100} ms`;
+}
+
 export function lookAtAge(): void {
-  age.value = received.peek() === 0 ? Infinity : Math.max(0, Math.floor((performance.now() - received.peek()) / AGE_STEP_MS) * AGE_STEP_MS);
+  age.value =
+    received.peek() === 0
+      ? Infinity
+      : Math.max(0, Math.floor((performance.now() - received.peek()) / AGE_STEP_MS) * AGE_STEP_MS);
 }
 setInterval(lookAtAge, 100);
 effect(() => {
@@ -37,7 +46,9 @@ export const machineState = computed<StateName>(() => stateName(status.value?.st
 export const axes = computed<AxisStatus[]>(() => status.value?.axes ?? []);
 /** Changes only when the axes themselves change, not their numbers. */
 export const axisLetters = computed(() => axes.value.map((axis) => axis.letter).join(''));
-export const openAlarms = computed(() => (status.value?.alarms ?? []).filter((alarm) => alarm.active || !alarm.acknowledged));
+export const openAlarms = computed(() =>
+  (status.value?.alarms ?? []).filter((alarm) => alarm.active || !alarm.acknowledged),
+);
 export const standsStill = computed(() => ['standstill', 'disabled', 'error stop'].includes(machineState.value));
 
 /** This tab holds control. */

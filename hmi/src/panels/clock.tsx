@@ -24,18 +24,38 @@ export function Clock(): JSX.Element {
   };
   const stepBy = (): void => {
     const seconds = typed(step.value);
-    if (seconds === null || seconds <= 0) notice('refused', `The clock cannot be stepped by "${step.value}"; a number of seconds above 0 is needed. Nothing was done.`);
+    if (seconds === null || seconds <= 0)
+      notice(
+        'refused',
+        `The clock cannot be stepped by "${step.value}"; a number of seconds above 0 is needed. Nothing was done.`,
+      );
     else void order('step_clock', { seconds });
   };
-  const now = clock === undefined || clock === null ? '' : clock.mode === 'real' ? String(clock.factor) : clock.mode;
+  const now = clock === undefined ? '' : clock.mode === 'real' ? String(clock.factor) : clock.mode;
   return (
-    <Panel title="Clock and E-stop input" class="clockpanel" tools={<span class="tabular">{fixed(status.value?.at, 3)} s</span>}>
-      <Choice label="Clock" value={now} onChange={set}
-        options={MODES.map((one) => ({ ...one, why }))} />
+    <Panel
+      title="Clock and E-stop input"
+      class="clockpanel"
+      tools={<span class="tabular">{fixed(status.value?.at, 3)} s</span>}>
+      <Choice label="Clock" value={now} onChange={set} options={MODES.map((one) => ({ ...one, why }))} />
       <div class="row">
-        <Field label="Step" value={step.value} unit="s" mode="decimal" onInput={(text) => (step.value = text)} onEnter={stepBy} />
-        <Button icon="step" why={why || (clock?.mode === 'paused' ? '' : 'The clock is stepped while it is paused.')} onClick={stepBy}>Step</Button>
-        <ActionButton action={actions.estop} icon="power" machine={false}>{status.value?.estop.pressed ? 'Release E-stop' : 'Press E-stop'}</ActionButton>
+        <Field
+          label="Step"
+          value={step.value}
+          unit="s"
+          mode="decimal"
+          onInput={(text) => (step.value = text)}
+          onEnter={stepBy}
+        />
+        <Button
+          icon="step"
+          why={why || (clock?.mode === 'paused' ? '' : 'The clock is stepped while it is paused.')}
+          onClick={stepBy}>
+          Step
+        </Button>
+        <ActionButton action={actions.estop} icon="power" machine={false}>
+          {status.value?.estop.pressed ? 'Release E-stop' : 'Press E-stop'}
+        </ActionButton>
       </div>
       {clock?.mode === 'real' && <p class="hint tabular">behind by {fixed(clock.late_ms, 1)} ms</p>}
     </Panel>

@@ -36,39 +36,88 @@ export function Lamps({ axis }: { axis: AxisStatus }): JSX.Element {
   );
 }
 
+/** Chooses the axis for touch off. */
+function Letter({ axis, chosen }: { axis: AxisStatus; chosen: boolean }): JSX.Element {
+  if (narrow.value) return <span class="letter">{axis.letter}</span>;
+  return (
+    <button
+      type="button"
+      class="letter"
+      aria-pressed={chosen}
+      title={`Choose axis ${axis.letter} for touch off`}
+      onClick={() => (chosenAxis.value = axis.letter)}>
+      {axis.letter}
+    </button>
+  );
+}
+
+function Homed({ axis }: { axis: AxisStatus }): JSX.Element {
+  const meaning = axis.trusted
+    ? 'The position is trusted: homed or declared'
+    : 'The position is not trusted: home the axis, or declare where it stands';
+  return (
+    <span class={`homed ${axis.trusted ? 'yes' : 'no'}`} title={meaning}>
+      <Icon name={axis.trusted ? 'check' : 'alarm'} size={14} />
+      {axis.trusted ? 'homed' : 'not homed'}
+    </span>
+  );
+}
+
+/** Enabled or not, and home, of one axis. */
+function Ways({ axis }: { axis: AxisStatus }): JSX.Element {
+  const noHome = axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`;
+  return (
+    <div class="ways">
+      <Button
+        machine
+        icon="power"
+        pressed={axis.enabled}
+        why={mayOperate()}
+        label={`Axis ${axis.letter} enabled`}
+        onClick={() => void order('enable', { on: !axis.enabled, axes: axis.letter })}>
+        {''}
+      </Button>
+      <Button
+        machine
+        icon="home"
+        why={mayOperate() || noHome}
+        label={`Home axis ${axis.letter}`}
+        onClick={() => void order('home', { axes: axis.letter })}>
+        {''}
+      </Button>
+    </div>
+  );
+}
+
 function Axis({ axis }: { axis: AxisStatus }): JSX.Element {
   const unit = unitName(axis.unit);
   const chosen = chosenAxis.value === axis.letter;
   return (
     <div class={`axis ${chosen ? 'chosen' : ''}`} role="group" aria-label={`Axis ${axis.letter}`}>
-      {narrow.value ? (
-        <span class="letter">{axis.letter}</span>
-      ) : (
-        <button type="button" class="letter" aria-pressed={chosen} title={`Choose axis ${axis.letter} for touch off`} onClick={() => (chosenAxis.value = axis.letter)}>
-          {axis.letter}
-        </button>
-      )}
+      <Letter axis={axis} chosen={chosen} />
       <div class="main">
-        <output class="commanded tabular" aria-label={`${axis.letter} commanded, ${axis.unit}`}>{position(axis.commanded, axis.unit)}</output>
+        <output class="commanded tabular" aria-label={`${axis.letter} commanded, ${axis.unit}`}>
+          {position(axis.commanded, axis.unit)}
+        </output>
         <span class="unit">{unit}</span>
       </div>
       <dl>
-        <div><dt>actual</dt><dd class="tabular">{position(axis.actual, axis.unit)}</dd></div>
-        <div><dt>error</dt><dd class="tabular">{position(axis.error, axis.unit)}</dd></div>
-        <div><dt>{unit}/s</dt><dd class="tabular">{fixed(axis.speed, 2)}</dd></div>
-      </dl>
-      <span class={`homed ${axis.trusted ? 'yes' : 'no'}`} title={axis.trusted ? 'The position is trusted: homed or declared' : 'The position is not trusted: home the axis, or declare where it stands'}>
-        <Icon name={axis.trusted ? 'check' : 'alarm'} size={14} />
-        {axis.trusted ? 'homed' : 'not homed'}
-      </span>
-      <Lamps axis={axis} />
-      {!narrow.value && (
-        <div class="ways">
-          <Button machine icon="power" pressed={axis.enabled} why={mayOperate()} label={`Axis ${axis.letter} enabled`} onClick={() => void order('enable', { on: !axis.enabled, axes: axis.letter })}>{''}</Button>
-          <Button machine icon="home" why={mayOperate() || (axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`)}
-            label={`Home axis ${axis.letter}`} onClick={() => void order('home', { axes: axis.letter })}>{''}</Button>
+        <div>
+          <dt>actual</dt>
+          <dd class="tabular">{position(axis.actual, axis.unit)}</dd>
         </div>
-      )}
+        <div>
+          <dt>error</dt>
+          <dd class="tabular">{position(axis.error, axis.unit)}</dd>
+        </div>
+        <div>
+          <dt>{unit}/s</dt>
+          <dd class="tabular">{fixed(axis.speed, 2)}</dd>
+        </div>
+      </dl>
+      <Homed axis={axis} />
+      <Lamps axis={axis} />
+      {!narrow.value && <Ways axis={axis} />}
     </div>
   );
 }
@@ -78,19 +127,37 @@ export function Dro(): JSX.Element {
   return (
     <Panel title="Axes" class={`dro ${largeNumbers.value ? 'large' : ''}`} tools={<Age />}>
       <div class="axes">
-        {state.axes.value.map((axis) => <Axis key={axis.letter} axis={axis} />)}
+        {state.axes.value.map((axis) => (
+          <Axis key={axis.letter} axis={axis} />
+        ))}
       </div>
       {!narrow.value && (
         <div class="row">
-          <ActionButton action={actions.enable} icon="power" kind={disabled ? 'main' : 'plain'}>{disabled ? 'Enable drives' : 'Disable drives'}</ActionButton>
+          <ActionButton action={actions.enable} icon="power" kind={disabled ? 'main' : 'plain'}>
+            {disabled ? 'Enable drives' : 'Disable drives'}
+          </ActionButton>
           <ActionButton action={actions.home} icon="home" />
         </div>
       )}
       {!narrow.value && (
         <div class="row">
-          <Field label={`${axisLetter()} stands at`} value={placeText.value} mode="decimal" unit={unitName(state.axisOf(axisLetter())?.unit ?? '')} onInput={(text) => (placeText.value = text)} />
-          <span title="In work coordinates (G10 L20)"><ActionButton action={actions.touchOff} icon="zero">Touch off {axisLetter()}</ActionButton></span>
-          <span title="In machine coordinates; the position is trusted then"><ActionButton action={actions.declare} icon="check">Declare {axisLetter()}</ActionButton></span>
+          <Field
+            label={`${axisLetter()} stands at`}
+            value={placeText.value}
+            mode="decimal"
+            unit={unitName(state.axisOf(axisLetter())?.unit ?? '')}
+            onInput={(text) => (placeText.value = text)}
+          />
+          <span title="In work coordinates (G10 L20)">
+            <ActionButton action={actions.touchOff} icon="zero">
+              Touch off {axisLetter()}
+            </ActionButton>
+          </span>
+          <span title="In machine coordinates; the position is trusted then">
+            <ActionButton action={actions.declare} icon="check">
+              Declare {axisLetter()}
+            </ActionButton>
+          </span>
         </div>
       )}
       <Homing />

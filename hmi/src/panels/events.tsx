@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { acknowledge, perform } from '../actions';
+import { alarmState } from '../link/alarms';
 import type { Alarm } from '../link/contract';
 import { whyNot } from '../link/orders';
 import * as state from '../link/state';
@@ -9,12 +10,6 @@ import { Icon } from '../parts/icons';
 import { seconds } from '../parts/numbers';
 import { Button, Choice, Empty, Panel } from '../parts/ui';
 import { narrow } from '../view';
-
-/** The four states of an alarm, in words. */
-function alarmState(alarm: Alarm): { word: string; tone: string } {
-  if (alarm.active) return alarm.acknowledged ? { word: 'active, acknowledged', tone: 'attention' } : { word: 'active, unacknowledged', tone: 'alarm' };
-  return alarm.acknowledged ? { word: 'over', tone: 'calm' } : { word: 'returned, unacknowledged', tone: 'attention' };
-}
 
 function Row({ alarm }: { alarm: Alarm }): JSX.Element {
   const { word, tone } = alarmState(alarm);
@@ -24,9 +19,17 @@ function Row({ alarm }: { alarm: Alarm }): JSX.Element {
       <Icon name={tone === 'calm' ? 'check' : 'alarm'} size={20} />
       <div>
         <p class="text">{alarm.text}</p>
-        <p class="about"><span class="tabular">{seconds(alarm.at)}</span><span>{alarm.source || 'machine'}</span><span>{word}</span></p>
+        <p class="about">
+          <span class="tabular">{seconds(alarm.at)}</span>
+          <span>{alarm.source || 'machine'}</span>
+          <span>{word}</span>
+        </p>
       </div>
-      {!alarm.acknowledged && !narrow.value && <Button why={action.why()} icon="check" onClick={() => perform(action)}>Acknowledge</Button>}
+      {!alarm.acknowledged && !narrow.value && (
+        <Button why={action.why()} icon="check" onClick={() => perform(action)}>
+          Acknowledge
+        </Button>
+      )}
     </li>
   );
 }
@@ -36,8 +39,25 @@ export function Alarms(): JSX.Element {
   const unseen = alarms.filter((one) => !one.acknowledged);
   const all = (): void => unseen.forEach((one) => perform(acknowledge(one.number)));
   return (
-    <Panel title="Alarms" class="alarms" tools={unseen.length > 1 && !narrow.value ? <Button why={whyNot('operate')} onClick={all}>Acknowledge all</Button> : undefined}>
-      {alarms.length === 0 ? <Empty>No alarms since the program started.</Empty> : <ul>{alarms.map((alarm) => <Row key={alarm.number} alarm={alarm} />)}</ul>}
+    <Panel
+      title="Alarms"
+      class="alarms"
+      tools={
+        unseen.length > 1 && !narrow.value ? (
+          <Button why={whyNot('operate')} onClick={all}>
+            Acknowledge all
+          </Button>
+        ) : undefined
+      }>
+      {alarms.length === 0 ? (
+        <Empty>No alarms since the program started.</Empty>
+      ) : (
+        <ul>
+          {alarms.map((alarm) => (
+            <Row key={alarm.number} alarm={alarm} />
+          ))}
+        </ul>
+      )}
     </Panel>
   );
 }
@@ -48,14 +68,38 @@ const kind = signal<(typeof KINDS)[number]>('all');
 export function Events(): JSX.Element {
   const shown = [...state.events.value].reverse().filter((one) => kind.value === 'all' || one.kind === kind.value);
   return (
-    <Panel title="Events" class="events" tools={<Choice label="Kind of event" value={kind.value} onChange={(to) => (kind.value = to)} options={KINDS.map((one) => ({ value: one, text: one }))} />}>
-      {shown.length === 0 ? <Empty>Nothing has happened yet.</Empty> : (
+    <Panel
+      title="Events"
+      class="events"
+      tools={
+        <Choice
+          label="Kind of event"
+          value={kind.value}
+          onChange={(to) => (kind.value = to)}
+          options={KINDS.map((one) => ({ value: one, text: one }))}
+        />
+      }>
+      {shown.length === 0 ? (
+        <Empty>Nothing has happened yet.</Empty>
+      ) : (
         <div class="scroll" tabIndex={0} role="region" aria-label="List of events">
           <table>
-            <thead><tr><th scope="col">No.</th><th scope="col">Time</th><th scope="col">Kind</th><th scope="col">What</th></tr></thead>
+            <thead>
+              <tr>
+                <th scope="col">No.</th>
+                <th scope="col">Time</th>
+                <th scope="col">Kind</th>
+                <th scope="col">What</th>
+              </tr>
+            </thead>
             <tbody>
               {shown.slice(0, 200).map((one) => (
-                <tr key={one.number} class={one.kind}><td class="tabular">{one.number}</td><td class="tabular">{seconds(one.at)}</td><td>{one.kind}</td><td>{one.text}</td></tr>
+                <tr key={one.number} class={one.kind}>
+                  <td class="tabular">{one.number}</td>
+                  <td class="tabular">{seconds(one.at)}</td>
+                  <td>{one.kind}</td>
+                  <td>{one.text}</td>
+                </tr>
               ))}
             </tbody>
           </table>

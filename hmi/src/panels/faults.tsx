@@ -37,8 +37,18 @@ function Injection(): JSX.Element {
   return (
     <>
       <div class="row">
-        <Select label="Of" value={chosen.target} onChange={(to) => (target.value = to)} options={all.map((one) => ({ value: one.target, text: one.target }))} />
-        <Field label="Value (1: on, 0: mended)" value={value.value} mode="decimal" onInput={(text) => (value.value = text)} />
+        <Select
+          label="Of"
+          value={chosen.target}
+          onChange={(to) => (target.value = to)}
+          options={all.map((one) => ({ value: one.target, text: one.target }))}
+        />
+        <Field
+          label="Value (1: on, 0: mended)"
+          value={value.value}
+          mode="decimal"
+          onInput={(text) => (value.value = text)}
+        />
       </div>
       <ul class="faultlist">
         {chosen.faults.map((fault) => {
@@ -48,7 +58,15 @@ function Injection(): JSX.Element {
               <Led on={on !== undefined} letter="F" kind="warn" text={`${chosen.target} ${fault}`} />
               <code>{fault}</code>
               <span class="tabular">{on === undefined ? '' : on.value}</span>
-              {on === undefined ? <Button why={why} onClick={() => give(fault)}>Break</Button> : <Button why={why} onClick={() => void inject(chosen.target, fault, '0')}>Mend</Button>}
+              {on === undefined ? (
+                <Button why={why} onClick={() => give(fault)}>
+                  Break
+                </Button>
+              ) : (
+                <Button why={why} onClick={() => void inject(chosen.target, fault, '0')}>
+                  Mend
+                </Button>
+              )}
             </li>
           );
         })}
@@ -60,7 +78,9 @@ function Injection(): JSX.Element {
 const filter = signal('');
 const driving = signal<Record<string, number>>({});
 const MOST = 40;
-const found = computed(() => (rack.value?.wires ?? []).filter((wire) => wire.name.toLowerCase().includes(filter.value.toLowerCase())));
+const found = computed(() =>
+  (rack.value?.wires ?? []).filter((wire) => wire.name.toLowerCase().includes(filter.value.toLowerCase())),
+);
 
 async function drive(name: string, level: number | null): Promise<void> {
   if ((await orderFor('set_wire', { name, value: level })) === null) return;
@@ -75,7 +95,13 @@ function Wires(): JSX.Element {
   const why = mayMaintain();
   return (
     <>
-      <Field label="Find" value={filter.value} wide placeholder="limit, estop, xinp …" onInput={(text) => (filter.value = text)} />
+      <Field
+        label="Find"
+        value={filter.value}
+        wide
+        placeholder="limit, estop, xinp …"
+        onInput={(text) => (filter.value = text)}
+      />
       <ul class="wirelist">
         {shown.map((wire) => {
           const level = channel(wire.name).value;
@@ -83,19 +109,34 @@ function Wires(): JSX.Element {
           const held = driving.value[wire.name];
           return (
             <li key={wire.name} class={held !== undefined ? 'held' : ''}>
-              {wire.volts ? <span class="volts tabular">{fixed(level, 3)} V</span> : <Led on={level === 1} letter={level === null ? '–' : String(level)} text={wire.name} />}
+              {wire.volts ? (
+                <span class="volts tabular">{fixed(level, 3)} V</span>
+              ) : (
+                <Led on={level === 1} letter={level === null ? '–' : String(level)} text={wire.name} />
+              )}
               <code>{wire.name}</code>
               {held !== undefined && <span class="by">by hand</span>}
               <span class="buttons">
-                <Button why={no} label={`${wire.name} to 0`} onClick={() => void drive(wire.name, 0)}>0</Button>
-                <Button why={no} label={`${wire.name} to 1`} onClick={() => void drive(wire.name, 1)}>1</Button>
-                <Button why={no || (held === undefined ? 'Nobody drives it by hand from here.' : '')} label={`Release ${wire.name}`} onClick={() => void drive(wire.name, null)}>Release</Button>
+                <Button why={no} label={`${wire.name} to 0`} onClick={() => void drive(wire.name, 0)}>
+                  0
+                </Button>
+                <Button why={no} label={`${wire.name} to 1`} onClick={() => void drive(wire.name, 1)}>
+                  1
+                </Button>
+                <Button
+                  why={no || (held === undefined ? 'Nobody drives it by hand from here.' : '')}
+                  label={`Release ${wire.name}`}
+                  onClick={() => void drive(wire.name, null)}>
+                  Release
+                </Button>
               </span>
             </li>
           );
         })}
       </ul>
-      {found.value.length > MOST && <p class="hint">{found.value.length - MOST} more; type a part of a name to find them.</p>}
+      {found.value.length > MOST && (
+        <p class="hint">{found.value.length - MOST} more; type a part of a name to find them.</p>
+      )}
     </>
   );
 }
@@ -103,8 +144,12 @@ function Wires(): JSX.Element {
 export function Faults(): JSX.Element {
   return (
     <div class="two">
-      <Panel title="Break something on purpose" class="faults"><Injection /></Panel>
-      <Panel title="Wires" class="wires"><Wires /></Panel>
+      <Panel title="Break something on purpose" class="faults">
+        <Injection />
+      </Panel>
+      <Panel title="Wires" class="wires">
+        <Wires />
+      </Panel>
     </div>
   );
 }

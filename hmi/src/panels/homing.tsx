@@ -24,7 +24,10 @@ const report = signal<Report | null>(null);
 
 function look(): void {
   if (state.machineState.value === 'homing' || state.link.value !== 'open') return;
-  query<{ homing: Report | null }>('homing').then((answer) => (report.value = answer.homing), () => undefined);
+  query<{ homing: Report | null }>('homing').then(
+    (answer) => (report.value = answer.homing),
+    () => undefined,
+  );
 }
 
 const plain = (name: string): string => name.replace(/_WAIT$/, '').toLowerCase();
@@ -32,7 +35,11 @@ const plain = (name: string): string => name.replace(/_WAIT$/, '').toLowerCase()
 function Phases(): JSX.Element {
   return (
     <ul class="phases" aria-label="Phases of homing">
-      {Object.entries(state.status.value?.homing?.phases ?? {}).map(([axis, phase]) => <li key={axis}><strong>{axis}</strong> {plain(phase)}</li>)}
+      {Object.entries(state.status.value?.homing?.phases ?? {}).map(([axis, phase]) => (
+        <li key={axis}>
+          <strong>{axis}</strong> {plain(phase)}
+        </li>
+      ))}
     </ul>
   );
 }
@@ -41,11 +48,29 @@ function Found({ axis }: { axis: HomedAxis }): JSX.Element {
   const unit = unitName(axis.unit);
   return (
     <section>
-      <p class={axis.homed ? 'found' : 'found bad'}><Icon name={axis.homed ? 'check' : 'alarm'} size={15} /><strong>{axis.axis}</strong> {axis.sentence} <span class="tabular">{fixed(axis.seconds, 3)} s</span></p>
+      <p class={axis.homed ? 'found' : 'found bad'}>
+        <Icon name={axis.homed ? 'check' : 'alarm'} size={15} />
+        <strong>{axis.axis}</strong> {axis.sentence} <span class="tabular">{fixed(axis.seconds, 3)} s</span>
+      </p>
       <table>
-        <thead><tr>{['Phase', 's', `from, ${unit}`, `to, ${unit}`].map((head) => <th key={head} scope="col">{head}</th>)}</tr></thead>
+        <thead>
+          <tr>
+            {['Phase', 's', `from, ${unit}`, `to, ${unit}`].map((head) => (
+              <th key={head} scope="col">
+                {head}
+              </th>
+            ))}
+          </tr>
+        </thead>
         <tbody>
-          {axis.states.map((one, i) => <tr key={i}><td>{plain(one.state)}</td><td class="tabular">{fixed(one.took_s, 3)}</td><td class="tabular">{fixed(one.from, 4)}</td><td class="tabular">{fixed(one.to, 4)}</td></tr>)}
+          {axis.states.map((one, i) => (
+            <tr key={i}>
+              <td>{plain(one.state)}</td>
+              <td class="tabular">{fixed(one.took_s, 3)}</td>
+              <td class="tabular">{fixed(one.from, 4)}</td>
+              <td class="tabular">{fixed(one.to, 4)}</td>
+            </tr>
+          ))}
         </tbody>
       </table>
     </section>
@@ -61,7 +86,9 @@ export function Homing(): JSX.Element | null {
     <details class="homing">
       <summary>{last.homed ? 'Homed; what was found' : 'The last homing failed'}</summary>
       {last.error !== null && <p class="why">{last.error}</p>}
-      {last.axes.map((axis) => <Found key={axis.axis} axis={axis} />)}
+      {last.axes.map((axis) => (
+        <Found key={axis.axis} axis={axis} />
+      ))}
     </details>
   );
 }

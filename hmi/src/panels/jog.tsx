@@ -1,7 +1,7 @@
 // The jog pad: arrows that move while they are held, or by a step a press.
 import type { JSX } from 'preact';
 import { armed, begin, end, jogging, setArmed, setSpeedPart, setStep, speedPart, stepIndex, STEPS } from '../jog/lease';
-import { JOG_KEYS } from '../keys/table';
+import { padOf } from '../keys/table';
 import { mayOperate, notice } from '../link/orders';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
@@ -15,27 +15,39 @@ function Arrow(props: { axis: string; direction: 1 | -1; icon: IconName; place: 
   const sign = props.direction < 0 ? '−' : '+';
   const held = jogging.value.includes((props.direction < 0 ? '-' : '+') + props.axis);
   const who = (kind: string): string => `${kind} ${sign}${props.axis}`;
-  const press = (kind: string): void => (why === '' ? begin(who(kind), props.axis, props.direction) : notice('refused', `Jog: ${why}`));
+  const press = (kind: string): void =>
+    why === '' ? begin(who(kind), props.axis, props.direction) : notice('refused', `Jog: ${why}`);
   const pointerDown = (event: PointerEvent): void => {
     if (event.button !== 0) return;
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     press('pointer');
   };
   return (
-    <button type="button" class={`jog ${props.place} ${held ? 'held' : ''}`} aria-label={`Jog ${props.axis} ${sign}`} aria-disabled={why !== '' ? 'true' : undefined} title={why || undefined}
-      onPointerDown={pointerDown} onPointerUp={() => end(who('pointer'))} onPointerCancel={() => end(who('pointer'))} onLostPointerCapture={() => end(who('pointer'))}
-      onContextMenu={(event) => event.preventDefault()} onBlur={() => end(who('enter'))}
-      onKeyDown={(event) => event.key === 'Enter' && !event.repeat && press('enter')} onKeyUp={(event) => event.key === 'Enter' && end(who('enter'))}>
+    <button
+      type="button"
+      class={`jog ${props.place} ${held ? 'held' : ''}`}
+      aria-label={`Jog ${props.axis} ${sign}`}
+      aria-disabled={why !== '' ? 'true' : undefined}
+      title={why || undefined}
+      onPointerDown={pointerDown}
+      onPointerUp={() => end(who('pointer'))}
+      onPointerCancel={() => end(who('pointer'))}
+      onLostPointerCapture={() => end(who('pointer'))}
+      onContextMenu={(event) => event.preventDefault()}
+      onBlur={() => end(who('enter'))}
+      onKeyDown={(event) => event.key === 'Enter' && !event.repeat && press('enter')}
+      onKeyUp={(event) => event.key === 'Enter' && end(who('enter'))}>
       <Icon name={props.icon} size={20} />
-      <span>{props.axis}{sign}</span>
+      <span>
+        {props.axis}
+        {sign}
+      </span>
     </button>
   );
 }
 
 function Pad(): JSX.Element {
-  const letters = state.axisLetters.value;
-  const [x, y, z, fourth] = JOG_KEYS.map((row) => row.axis([...letters]));
-  const others = [...letters].filter((one) => ![x, y, z, fourth].includes(one));
+  const { x, y, columns } = padOf([...state.axisLetters.value]);
   return (
     <div class="pad">
       <div class="cross">
@@ -44,7 +56,7 @@ function Pad(): JSX.Element {
         {x !== undefined && <Arrow axis={x} direction={1} icon="right" place="east" />}
         {y !== undefined && <Arrow axis={y} direction={-1} icon="down" place="south" />}
       </div>
-      {[z, fourth, ...others].filter((one): one is string => one !== undefined).map((one) => (
+      {columns.map((one) => (
         <div class="column" key={one}>
           <Arrow axis={one} direction={1} icon="up" place="plus" />
           <Arrow axis={one} direction={-1} icon="down" place="minus" />
@@ -54,21 +66,45 @@ function Pad(): JSX.Element {
   );
 }
 
-export function Jog(): JSX.Element {
+/** How fast the first axis jogs, as a hint; empty: the machine has no axis. */
+function speedHint(): string {
   const first = state.axes.value[0];
-  const speed = first === undefined ? '' : `${fixed(first.max_speed * speedPart.value, first.max_speed * speedPart.value < 10 ? 2 : 0)} ${unitName(first.unit)}/s on ${first.letter}`;
+  if (first === undefined) return '';
+  const speed = first.max_speed * speedPart.value;
+  return `${fixed(speed, speed < 10 ? 2 : 0)} ${unitName(first.unit)}/s on ${first.letter}`;
+}
+
+export function Jog(): JSX.Element {
+  const speed = speedHint();
   return (
-    <Panel title="Jog" class="jogpanel" tools={<Switch on={armed.value} label="Keyboard" onChange={setArmed} why={armed.value ? '' : mayOperate()} />}>
+    <Panel
+      title="Jog"
+      class="jogpanel"
+      tools={<Switch on={armed.value} label="Keyboard" onChange={setArmed} why={armed.value ? '' : mayOperate()} />}>
       <Pad />
       <div class="line">
-        <span class="name" title="i: next, c: continuous">Step</span>
-        <Choice label="Jog step" value={stepIndex.value} onChange={setStep} options={STEPS.map((step, i) => ({ value: i, text: step === null ? 'hold' : String(step) }))} />
+        <span class="name" title="i: next, c: continuous">
+          Step
+        </span>
+        <Choice
+          label="Jog step"
+          value={stepIndex.value}
+          onChange={setStep}
+          options={STEPS.map((step, i) => ({ value: i, text: step === null ? 'hold' : String(step) }))}
+        />
       </div>
       <div class="line">
         <span class="name">Speed</span>
-        <Choice label="Jog speed" value={speedPart.value} onChange={setSpeedPart} options={SPEEDS.map((part) => ({ value: part, text: percent(part) }))} />
+        <Choice
+          label="Jog speed"
+          value={speedPart.value}
+          onChange={setSpeedPart}
+          options={SPEEDS.map((part) => ({ value: part, text: percent(part) }))}
+        />
       </div>
-      <p class="hint">{STEPS[stepIndex.value] === null ? `Moves while held, ${speed}.` : `One step a press, ${speed}.`}</p>
+      <p class="hint">
+        {STEPS[stepIndex.value] === null ? `Moves while held, ${speed}.` : `One step a press, ${speed}.`}
+      </p>
     </Panel>
   );
 }

@@ -8,14 +8,26 @@ import { Button, Panel } from '../parts/ui';
 function Override(props: { name: 'feed' | 'rapid'; label: string; most: number }): JSX.Element {
   const value = status.value?.overrides[props.name] ?? 1;
   const why = mayOperate();
-  const set = (part: number): void => (why === '' ? void order('set_overrides', { [props.name]: part }) : notice('refused', why));
+  const set = (part: number): void =>
+    why === '' ? void order('set_overrides', { [props.name]: part }) : notice('refused', why);
   return (
     <div class="override">
       <span class="name">{props.label}</span>
-      <input type="range" min="0" max={props.most * 100} step="5" value={Math.round(value * 100)} disabled={why !== ''} aria-label={`${props.label} override, %`} title={why || undefined}
-        onInput={(event) => set(Number(event.currentTarget.value) / 100)} />
+      <input
+        type="range"
+        min="0"
+        max={props.most * 100}
+        step="5"
+        value={Math.round(value * 100)}
+        disabled={why !== ''}
+        aria-label={`${props.label} override, %`}
+        title={why || undefined}
+        onInput={(event) => set(Number(event.currentTarget.value) / 100)}
+      />
       <output class="tabular">{percent(value)}</output>
-      <Button why={why} onClick={() => set(1)} label={`${props.label} override 100 %`}>100 %</Button>
+      <Button why={why} onClick={() => set(1)} label={`${props.label} override 100 %`}>
+        100 %
+      </Button>
     </div>
   );
 }

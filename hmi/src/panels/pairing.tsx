@@ -24,14 +24,34 @@ const trySend = (): void => {
 };
 
 export function Pairing(): JSX.Element {
-  const why = codeText.value.trim() === '' ? 'Type the code first.' : nameText.value.trim() === '' ? 'Type your name first.' : '';
+  const why =
+    codeText.value.trim() === '' ? 'Type the code first.' : nameText.value.trim() === '' ? 'Type your name first.' : '';
   return (
     <Dialog title="Pair this browser" open={dialogOpen.value} onClose={close} class="pairing">
       <p>The program prints a pairing code when it starts. It works once.</p>
-      <Field label="Code" value={codeText.value} placeholder="ABCD-EFGH" wide onInput={(text) => (codeText.value = text)} onEnter={trySend} />
-      <Field label="Your name" value={nameText.value} wide onInput={(text) => (nameText.value = text)} onEnter={trySend} />
-      <p class="why" role="alert">{whyNotPaired.value}</p>
-      <div class="row end"><Button kind="main" why={why} onClick={trySend}>Pair</Button></div>
+      <Field
+        label="Code"
+        value={codeText.value}
+        placeholder="ABCD-EFGH"
+        wide
+        onInput={(text) => (codeText.value = text)}
+        onEnter={trySend}
+      />
+      <Field
+        label="Your name"
+        value={nameText.value}
+        wide
+        onInput={(text) => (nameText.value = text)}
+        onEnter={trySend}
+      />
+      <p class="why" role="alert">
+        {whyNotPaired.value}
+      </p>
+      <div class="row end">
+        <Button kind="main" why={why} onClick={trySend}>
+          Pair
+        </Button>
+      </div>
     </Dialog>
   );
 }
@@ -49,9 +69,20 @@ export function Inviting(): JSX.Element {
   return (
     <Dialog title="Let somebody in" open={inviteOpen.value} onClose={() => (inviteOpen.value = false)} class="pairing">
       <p>A code lets one browser in, once, with the role that you choose.</p>
-      <Choice label="Role" value={role.value} onChange={(to) => ((role.value = to), (made.value = ''))} options={ROLES.map((one) => ({ value: one, text: one }))} />
-      <p class="code tabular" role="status">{made.value}</p>
-      <div class="row end"><Button kind="main" why={whyNot('maintain')} onClick={() => void invite()}>Make a code</Button></div>
+      <Choice
+        label="Role"
+        value={role.value}
+        onChange={(to) => ((role.value = to), (made.value = ''))}
+        options={ROLES.map((one) => ({ value: one, text: one }))}
+      />
+      <p class="code tabular" role="status">
+        {made.value}
+      </p>
+      <div class="row end">
+        <Button kind="main" why={whyNot('maintain')} onClick={() => void invite()}>
+          Make a code
+        </Button>
+      </div>
     </Dialog>
   );
 }

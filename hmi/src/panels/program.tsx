@@ -1,5 +1,5 @@
 // The program: open or type it, check it dry, run, step, hold, stop; where it is.
-import { useSignal } from '@preact/signals';
+import { useSignal, type Signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { actions, perform } from '../actions';
@@ -38,16 +38,35 @@ function Findings({ result }: { result: Check }): JSX.Element {
     <div class="findings">
       {problems.length === 0 ? (
         <dl class="facts-list">
-          <div><dt>lines</dt><dd class="tabular">{result.lines}</dd></div>
-          <div><dt>takes</dt><dd class="tabular">{duration(result.seconds)}</dd></div>
-          <div><dt>path</dt><dd class="tabular">{fixed(result.length_mm, 1)} mm</dd></div>
+          <div>
+            <dt>lines</dt>
+            <dd class="tabular">{result.lines}</dd>
+          </div>
+          <div>
+            <dt>takes</dt>
+            <dd class="tabular">{duration(result.seconds)}</dd>
+          </div>
+          <div>
+            <dt>path</dt>
+            <dd class="tabular">{fixed(result.length_mm, 1)} mm</dd>
+          </div>
           {Object.entries(result.least ?? {}).map(([letter, least]) => (
-            <div key={letter}><dt>{letter}</dt><dd class="tabular">{fixed(least, 3)} … {fixed(result.greatest?.[letter], 3)}</dd></div>
+            <div key={letter}>
+              <dt>{letter}</dt>
+              <dd class="tabular">
+                {fixed(least, 3)} … {fixed(result.greatest?.[letter], 3)}
+              </dd>
+            </div>
           ))}
         </dl>
       ) : (
         <ul class="problems" tabIndex={0} aria-label="Problems of the program">
-          {problems.map((one, i) => <li key={i}>{one.line > 0 ? <strong>Line {one.line}: </strong> : null}{one.message}</li>)}
+          {problems.map((one, i) => (
+            <li key={i}>
+              {one.line > 0 ? <strong>Line {one.line}: </strong> : null}
+              {one.message}
+            </li>
+          ))}
           {(result.more_problems ?? 0) > 0 && <li>and {result.more_problems} more</li>}
         </ul>
       )}
@@ -55,7 +74,7 @@ function Findings({ result }: { result: Check }): JSX.Element {
   );
 }
 
-function Progress(): JSX.Element | null {
+export function Progress(): JSX.Element | null {
   const now = status.value?.program;
   if (now === undefined || now.name === '') return null;
   const part = now.lines > 0 ? Math.min(1, now.line / now.lines) : 0;
@@ -63,44 +82,101 @@ function Progress(): JSX.Element | null {
     <div class="progress">
       <div class="words">
         <strong>{now.name}</strong>
-        <span class="tabular">line {now.line} of {now.lines}</span>
-        <span class="tabular">{now.remaining_s === null || now.remaining_s === undefined ? (now.runs ? 'runs' : 'ended') : `${duration(now.remaining_s)} left`}</span>
+        <span class="tabular">
+          line {now.line} of {now.lines}
+        </span>
+        <span class="tabular">
+          {now.remaining_s === null ? (now.runs ? 'runs' : 'ended') : `${duration(now.remaining_s)} left`}
+        </span>
       </div>
       <progress max="1" value={part} aria-label="Lines of the program that were driven" />
     </div>
   );
 }
-export { Progress };
-
-export function Program(): JSX.Element {
-  const file = useRef<HTMLInputElement>(null);
-  const editing = useSignal(false);
+function Motion(): JSX.Element {
   const runs = status.value?.program.runs === true;
+  return (
+    <div class="row">
+      <ActionButton action={actions.run} icon="run" kind={runs ? 'plain' : 'main'} />
+      <ActionButton action={actions.step} icon="step">
+        Step
+      </ActionButton>
+      <ActionButton action={actions.hold} icon="hold">
+        Hold
+      </ActionButton>
+      <Button machine icon="stop" onClick={() => perform(actions.stop)}>
+        Stop
+      </Button>
+    </div>
+  );
+}
+
+function Editor(): JSX.Element {
+  const write = (text: string): void => {
+    program.value = text;
+    checked.value = null;
+  };
+  return (
+    <textarea
+      class="editor"
+      aria-label="Program text"
+      spellcheck={false}
+      value={program.value}
+      onInput={(event) => write(event.currentTarget.value)}
+    />
+  );
+}
+
+/** Another text, typing, the dry check, and whether it is driven line by line. */
+function Work({ editing }: { editing: Signal<boolean> }): JSX.Element {
+  const file = useRef<HTMLInputElement>(null);
   const single = status.value?.program.single_step === true;
   return (
-    <Panel title="Program" class="program" tools={<span class="file" title={programName.value}>{programName.value}</span>}>
-      <div class="row">
-        <ActionButton action={actions.run} icon="run" kind={runs ? 'plain' : 'main'} />
-        <ActionButton action={actions.step} icon="step">Step</ActionButton>
-        <ActionButton action={actions.hold} icon="hold">Hold</ActionButton>
-        <Button machine icon="stop" onClick={() => perform(actions.stop)}>Stop</Button>
-      </div>
+    <div class="row">
+      <input
+        ref={file}
+        class="hidden"
+        type="file"
+        accept=".ngc,.nc,.gcode,.tap,.txt"
+        tabIndex={-1}
+        aria-label="Program file"
+        onChange={(event) => void open(event.currentTarget.files?.[0])}
+      />
+      <Button icon="open" onClick={() => file.current?.click()}>
+        Open
+      </Button>
+      <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>
+        Edit
+      </Button>
+      <Button icon="check" why={mayCheck()} onClick={() => void check()}>
+        Check
+      </Button>
+      <Switch
+        on={single}
+        label="Single step"
+        why={mayOperate()}
+        onChange={(on) => void order('set_single_step', { on })}
+      />
+    </div>
+  );
+}
+
+export function Program(): JSX.Element {
+  const editing = useSignal(false);
+  return (
+    <Panel
+      title="Program"
+      class="program"
+      tools={
+        <span class="file" title={programName.value}>
+          {programName.value}
+        </span>
+      }>
+      <Motion />
       <Progress />
-      {editing.value ? (
-        <textarea class="editor" aria-label="Program text" spellcheck={false} value={program.value}
-          onInput={(event) => ((program.value = event.currentTarget.value), (checked.value = null))} />
-      ) : (
-        <Listing />
-      )}
+      {editing.value ? <Editor /> : <Listing />}
       {checked.value !== null && <Findings result={checked.value} />}
-      <div class="row">
-        <input ref={file} class="hidden" type="file" accept=".ngc,.nc,.gcode,.tap,.txt" tabIndex={-1} aria-label="Program file"
-          onChange={(event) => void open(event.currentTarget.files?.[0])} />
-        <Button icon="open" onClick={() => file.current?.click()}>Open</Button>
-        <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>Edit</Button>
-        <Button icon="check" why={mayCheck()} onClick={() => void check()}>Check</Button>
-        <Switch on={single} label="Single step" why={mayOperate()} onChange={(on) => void order('set_single_step', { on })} />
-      </div>
+      <Work editing={editing} />
     </Panel>
   );
 }

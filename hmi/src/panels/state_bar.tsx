@@ -13,7 +13,7 @@ interface Look {
   tone: 'calm' | 'moves' | 'attention' | 'alarm';
 }
 
-const LOOKS: Record<StateName, Look> = {
+const LOOKS = {
   disabled: { icon: 'disabled', word: 'Disabled', tone: 'calm' },
   standstill: { icon: 'standstill', word: 'Standstill', tone: 'calm' },
   homing: { icon: 'home', word: 'Homing', tone: 'moves' },
@@ -22,11 +22,18 @@ const LOOKS: Record<StateName, Look> = {
   hold: { icon: 'hold', word: 'Hold', tone: 'attention' },
   stopping: { icon: 'stopping', word: 'Stopping', tone: 'attention' },
   'error stop': { icon: 'alarm', word: 'Error stop', tone: 'alarm' },
-};
+} satisfies Record<StateName, Look>;
+/** A program that is newer than the page may know states that the page does not. */
+const lookOf = (name: string): Look =>
+  (LOOKS as Partial<Record<string, Look>>)[name] ?? { icon: 'alarm', word: name, tone: 'attention' };
 
 function Stop(): JSX.Element {
   return (
-    <button type="button" class="stop" onClick={() => perform(actions.stop)} title="STOP: controlled stop, the program is aborted (Esc). This is no emergency stop.">
+    <button
+      type="button"
+      class="stop"
+      onClick={() => perform(actions.stop)}
+      title="STOP: controlled stop, the program is aborted (Esc). This is no emergency stop.">
       <Icon name="stop" size={26} />
       <span>STOP</span>
     </button>
@@ -34,13 +41,17 @@ function Stop(): JSX.Element {
 }
 
 function StateChip(): JSX.Element {
-  const look = LOOKS[state.machineState.value] ?? { icon: 'alarm', word: state.machineState.value, tone: 'attention' };
+  const look = lookOf(state.machineState.value);
   const why = state.status.value?.why ?? '';
   return (
     <div class={`state ${look.tone}`} role="status" aria-live="polite">
       <Icon name={look.icon} size={22} />
       <span class="word">{look.word}</span>
-      {why !== '' && <span class="why" title={why}>{why}</span>}
+      {why !== '' && (
+        <span class="why" title={why}>
+          {why}
+        </span>
+      )}
     </div>
   );
 }
@@ -78,22 +89,24 @@ function Alarms(): JSX.Element {
 
 function LinkAge(): JSX.Element {
   const { value: link } = state.link;
-  const ms = state.age.value;
   const text = link === 'connecting' ? 'connecting' : link === 'lost' ? 'lost' : state.stale.value ? 'silent' : 'live';
-  const shown = Number.isFinite(ms) ? (ms >= state.STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.ceil((ms + 1) / 100) * 100} ms`) : '';
   return (
-    <div class={`fact ${text === 'live' ? 'calm' : 'attention'}`} title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
+    <div
+      class={`fact ${text === 'live' ? 'calm' : 'attention'}`}
+      title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
       <span class="name">Data</span>
       <span class="value tabular">
         <Icon name={text === 'live' ? 'link' : 'lost'} size={15} />
-        {text} {shown}
+        {text} {state.ageText(state.age.value)}
       </span>
     </div>
   );
 }
 
 export const Simulation = (): JSX.Element => (
-  <span class="simulation" title="Cards, motors and machine are simulated; nothing real moves.">SIMULATION</span>
+  <span class="simulation" title="Cards, motors and machine are simulated; nothing real moves.">
+    SIMULATION
+  </span>
 );
 
 export function StateBar(): JSX.Element {
@@ -127,7 +140,9 @@ export function AlarmBanner(): JSX.Element {
       {newest !== undefined && (
         <div class="banner">
           <Icon name="alarm" size={20} />
-          <p><strong>Alarm</strong> {newest.text}</p>
+          <p>
+            <strong>Alarm</strong> {newest.text}
+          </p>
           {unseen.length > 1 && <a href={address('events')}>and {unseen.length - 1} more</a>}
           {!narrow.value && <Acknowledge number={newest.number} />}
         </div>
@@ -138,5 +153,9 @@ export function AlarmBanner(): JSX.Element {
 
 function Acknowledge({ number }: { number: number }): JSX.Element {
   const action = acknowledge(number);
-  return <Button why={action.why()} icon="check" onClick={() => perform(action)}>Acknowledge</Button>;
+  return (
+    <Button why={action.why()} icon="check" onClick={() => perform(action)}>
+      Acknowledge
+    </Button>
+  );
 }

@@ -1,8 +1,8 @@
 // The second row: views, who holds control, the clock, who this browser is, its looks.
 import type { JSX } from 'preact';
-import { releaseControl, takeControl } from '../link/control';
+import { releaseControl, takeControl, whyNotControl } from '../link/control';
 import { dialogOpen, forget, inviteOpen } from '../link/pairing';
-import { hasRole, whyNot } from '../link/orders';
+import { hasRole } from '../link/orders';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { Button } from '../parts/ui';
@@ -19,9 +19,8 @@ const TABS: readonly { view: View; text: string; icon: IconName }[] = [
 
 function Control(): JSX.Element {
   const holder = state.holder.value;
-  const own = holder !== '' && holder === state.user.value;
   const mine = state.inControl.value;
-  const why = whyNot('operate') || (holder !== '' && !mine && !own && !state.standsStill.value ? `${holder} holds control and the machine moves. It can be taken over at standstill.` : '');
+  const why = whyNotControl();
   return (
     <div class="control" role="group" aria-label="Control">
       <span class={`holder ${mine ? 'mine' : ''}`}>
@@ -29,9 +28,11 @@ function Control(): JSX.Element {
         {mine ? 'You hold control' : holder !== '' ? `${holder} holds control` : 'Nobody holds control'}
       </span>
       {mine ? (
-        <Button kind="quiet" onClick={releaseControl}>Release</Button>
+        <Button kind="quiet" onClick={releaseControl}>
+          Release
+        </Button>
       ) : (
-        <Button kind={why === '' && holder === '' ? 'main' : 'plain'} why={why} onClick={() => takeControl(holder !== '' && !(own && !state.standsStill.value))}>
+        <Button kind={why === '' && holder === '' ? 'main' : 'plain'} why={why} onClick={takeControl}>
           {holder === '' ? 'Take control' : 'Take over'}
         </Button>
       )}
@@ -44,12 +45,23 @@ function User(): JSX.Element {
   const name = state.user.value;
   return (
     <div class="user" role="group" aria-label="This browser">
-      <span class="who"><Icon name="user" size={16} />{name !== '' ? `${name}, ${role}` : role}</span>
-      {hasRole('maintain') && <Button kind="quiet" onClick={() => (inviteOpen.value = true)}>Invite</Button>}
+      <span class="who">
+        <Icon name="user" size={16} />
+        {name !== '' ? `${name}, ${role}` : role}
+      </span>
+      {hasRole('maintain') && (
+        <Button kind="quiet" onClick={() => (inviteOpen.value = true)}>
+          Invite
+        </Button>
+      )}
       {name === '' ? (
-        <Button kind="quiet" onClick={() => (dialogOpen.value = true)}>Pair</Button>
+        <Button kind="quiet" onClick={() => (dialogOpen.value = true)}>
+          Pair
+        </Button>
       ) : (
-        <Button kind="quiet" onClick={forget} label="Forget this browser's pairing">Forget</Button>
+        <Button kind="quiet" onClick={forget} label="Forget this browser's pairing">
+          Forget
+        </Button>
       )}
     </div>
   );
@@ -60,16 +72,33 @@ export function ToolBar(): JSX.Element {
     <div class="toolbar">
       <nav aria-label="Views">
         {TABS.map((tab) => (
-          <a key={tab.view} href={address(tab.view)} aria-current={view.value === tab.view ? 'page' : undefined}>{tab.text}</a>
+          <a key={tab.view} href={address(tab.view)} aria-current={view.value === tab.view ? 'page' : undefined}>
+            {tab.text}
+          </a>
         ))}
       </nav>
       <div class="right">
         <Control />
         <User />
         <div class="looks">
-          <Button kind="quiet" icon="large" pressed={largeNumbers.value} label="Large numbers" onClick={() => (largeNumbers.value = !largeNumbers.value)}>{''}</Button>
-          <Button kind="quiet" icon={dark.value ? 'sun' : 'moon'} label={dark.value ? 'Light colours' : 'Dark colours'} onClick={() => setTheme(dark.value ? 'light' : 'dark')}>{''}</Button>
-          <Button kind="quiet" icon="keys" label="Keyboard (?)" onClick={() => (helpOpen.value = true)}>{''}</Button>
+          <Button
+            kind="quiet"
+            icon="large"
+            pressed={largeNumbers.value}
+            label="Large numbers"
+            onClick={() => (largeNumbers.value = !largeNumbers.value)}>
+            {''}
+          </Button>
+          <Button
+            kind="quiet"
+            icon={dark.value ? 'sun' : 'moon'}
+            label={dark.value ? 'Light colours' : 'Dark colours'}
+            onClick={() => setTheme(dark.value ? 'light' : 'dark')}>
+            {''}
+          </Button>
+          <Button kind="quiet" icon="keys" label="Keyboard (?)" onClick={() => (helpOpen.value = true)}>
+            {''}
+          </Button>
         </div>
       </div>
     </div>

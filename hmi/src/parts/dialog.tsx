@@ -3,7 +3,13 @@ import type { ComponentChildren, JSX } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 import { Icon } from './icons';
 
-export function Dialog(props: { title: string; open: boolean; onClose(): void; children: ComponentChildren; class?: string }): JSX.Element | null {
+export function Dialog(props: {
+  title: string;
+  open: boolean;
+  onClose: () => void;
+  children: ComponentChildren;
+  class?: string;
+}): JSX.Element | null {
   const element = useRef<HTMLDialogElement>(null);
   const id = useId();
   useEffect(() => {
@@ -18,7 +24,9 @@ export function Dialog(props: { title: string; open: boolean; onClose(): void; c
     <dialog ref={element} class={props.class} aria-labelledby={id} onClose={props.onClose}>
       <div class="head">
         <h2 id={id}>{props.title}</h2>
-        <button type="button" class="button quiet" aria-label="Close" onClick={props.onClose}><Icon name="close" /></button>
+        <button type="button" class="button quiet" aria-label="Close" onClick={props.onClose}>
+          <Icon name="close" />
+        </button>
       </div>
       {props.children}
     </dialog>

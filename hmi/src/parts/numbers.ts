@@ -14,7 +14,9 @@ export const position = (value: number | null | undefined, unit: string): string
 
 export function whole(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
-  const text = Math.abs(Math.round(value)).toString().replace(/\B(?=(\d{3})+$)/g, '\u2009');
+  const text = Math.abs(Math.round(value))
+    .toString()
+    .replace(/\B(?=(\d{3})+$)/g, '\u2009');
   return value < 0 ? MINUS + text : text;
 }
 
@@ -23,7 +25,7 @@ export function hex(value: number | null | undefined, bits: number): string {
   const digits = Math.max(1, Math.ceil(bits / 4));
   const span = 2 ** bits;
   const unsigned = ((value % span) + span) % span;
-  return unsigned.toString(16).toUpperCase().padStart(digits, '0') + 'h';
+  return `${unsigned.toString(16).toUpperCase().padStart(digits, '0')}h`;
 }
 
 export const percent = (part: number): string => `${Math.round(part * 100)} %`;

@@ -10,6 +10,30 @@ export interface Polled<T> {
   why: Signal<string>;
 }
 
+/** Asks until the returned function is called; not while the page is hidden, nor without a connection. */
+export function poll<T>(name: string, fields: Fields, every_ms: number, { data, why }: Polled<T>): () => void {
+  let live = true;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const look = async (): Promise<void> => {
+    if (link.peek() === 'open' && !document.hidden)
+      try {
+        const answer = await query<T>(name, fields);
+        if (live) {
+          data.value = answer;
+          why.value = '';
+        }
+      } catch (refused) {
+        if (live) why.value = sentence(refused);
+      }
+    if (live) timer = setTimeout(() => void look(), every_ms);
+  };
+  void look();
+  return () => {
+    live = false;
+    clearTimeout(timer);
+  };
+}
+
 /** `name` "" asks nothing. */
 export function usePoll<T>(name: string, fields: Fields, every_ms: number): Polled<T> {
   const data = useSignal<T | null>(null);
@@ -17,26 +41,7 @@ export function usePoll<T>(name: string, fields: Fields, every_ms: number): Poll
   const key = JSON.stringify(fields);
   useEffect(() => {
     if (name === '') return undefined;
-    let live = true;
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    const look = async (): Promise<void> => {
-      if (link.peek() === 'open' && !document.hidden)
-        try {
-          const answer = await query<T>(name, JSON.parse(key) as Fields);
-          if (live) {
-            data.value = answer;
-            why.value = '';
-          }
-        } catch (refused) {
-          if (live) why.value = sentence(refused);
-        }
-      if (live) timer = setTimeout(() => void look(), every_ms);
-    };
-    void look();
-    return () => {
-      live = false;
-      clearTimeout(timer);
-    };
-  }, [name, key, every_ms]);
+    return poll(name, JSON.parse(key) as Fields, every_ms, { data, why });
+  }, [name, key, every_ms, data, why]);
   return { data, why };
 }

@@ -1,7 +1,20 @@
-// The colours of errors: from blue over grey to amber and red, as light in the dark theme as needed; never green against red.
+// The colours of errors: from blue over grey to amber and red, as light in the dark theme as needed; never green
+// against red.
 
-const DARK: readonly (readonly [number, number, number])[] = [[72, 166, 236], [130, 196, 240], [226, 214, 170], [246, 176, 72], [240, 96, 66]];
-const LIGHT: readonly (readonly [number, number, number])[] = [[10, 96, 168], [60, 130, 180], [130, 120, 70], [176, 100, 0], [180, 30, 20]];
+const DARK: readonly (readonly [number, number, number])[] = [
+  [72, 166, 236],
+  [130, 196, 240],
+  [226, 214, 170],
+  [246, 176, 72],
+  [240, 96, 66],
+];
+const LIGHT: readonly (readonly [number, number, number])[] = [
+  [10, 96, 168],
+  [60, 130, 180],
+  [130, 120, 70],
+  [176, 100, 0],
+  [180, 30, 20],
+];
 
 /** `part` 0 .. 1. */
 export function errorColour(part: number, dark: boolean): [number, number, number] {

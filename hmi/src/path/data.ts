@@ -4,7 +4,10 @@ import { query } from '../link/orders';
 import * as state from '../link/state';
 import { checked, type Check } from './checked';
 
-/** `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one asked about. */
+/**
+ * `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one
+ * asked about.
+ */
 interface PathAnswer {
   number: number;
   axes: string;
@@ -59,8 +62,14 @@ async function look(): Promise<void> {
     if (answer.number !== have) show(answer.axes, answer.planned, 'running');
     have = answer.number;
     if (answer.driven.length === 0) return;
-    const places = inOrder(answer.axes, answer.driven.map(([, ...place]) => place));
-    driven.value = [...list, ...places.map((place, i) => ({ at: answer.driven[i]?.[0] ?? 0, place, error: answer.errors?.[i] ?? 0 }))].slice(-KEPT);
+    const places = inOrder(
+      answer.axes,
+      answer.driven.map(([, ...place]) => place),
+    );
+    driven.value = [
+      ...list,
+      ...places.map((place, i) => ({ at: answer.driven[i]?.[0] ?? 0, place, error: answer.errors?.[i] ?? 0 })),
+    ].slice(-KEPT);
   } catch {
     // Asked again soon.
   }
@@ -75,7 +84,9 @@ export function follow(): () => void {
     if (live) timer = setTimeout(() => void again(), EVERY_MS);
   };
   void again();
-  const stopShowing = checked.subscribe((result: Check | null) => result !== null && show(result.axes, result.path, 'checked'));
+  const stopShowing = checked.subscribe(
+    (result: Check | null) => result !== null && show(result.axes, result.path, 'checked'),
+  );
   return () => {
     live = false;
     clearTimeout(timer);

@@ -1,42 +1,19 @@
-// The path in two axes, on a canvas: travel as a box, the planned line, the driven one in the colours of its error, the tool.
+// The path in two axes, on a canvas: travel as a box, the planned line, the driven one in the colours of its error,
+// the tool.
 import { useSignalEffect } from '@preact/signals';
 import type { JSX } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useCallback, useEffect, useRef } from 'preact/hooks';
 import * as state from '../link/state';
 import { dark } from '../view';
 import { css, errorColour, STEPS_SHOWN } from './colours';
 import { driven, greatestError, planned } from './data';
-
-interface Sight {
-  scale: number;
-  left: number;
-  top: number;
-}
-
-const MARGIN = 34;
-
-function niceStep(least: number): number {
-  const power = 10 ** Math.floor(Math.log10(least));
-  for (const factor of [1, 2, 5]) if (power * factor >= least) return power * factor;
-  return power * 10;
-}
+import { boxAround, MARGIN, niceStep, sightOf, travelBox, type Box, type Sight } from './sight';
 
 /** The part of the machine that is shown: all of the travel, or around the path. */
-function bounds(a: number, b: number, fit: boolean): [number, number, number, number] {
-  const limits = [a, b].map((i) => state.axes.peek()[i]);
-  const whole: [number, number, number, number] = [limits[0]?.min ?? 0, limits[0]?.max ?? 1, limits[1]?.min ?? 0, limits[1]?.max ?? 1];
+function bounds(a: number, b: number, fit: boolean): Box {
+  const whole = travelBox(state.axes.peek()[a], state.axes.peek()[b]);
   if (!fit) return whole;
-  const points = [...planned.peek(), ...driven.peek().map((one) => one.place)];
-  if (points.length < 2) return whole;
-  const box: [number, number, number, number] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (const point of points) {
-    box[0] = Math.min(box[0], point[a] ?? 0);
-    box[1] = Math.max(box[1], point[a] ?? 0);
-    box[2] = Math.min(box[2], point[b] ?? 0);
-    box[3] = Math.max(box[3], point[b] ?? 0);
-  }
-  const pad = Math.max(1, (box[1] - box[0] + box[3] - box[2]) * 0.05);
-  return [box[0] - pad, box[1] + pad, box[2] - pad, box[3] + pad];
+  return boxAround([...planned.peek(), ...driven.peek().map((one) => one.place)], a, b) ?? whole;
 }
 
 interface Ink {
@@ -54,7 +31,13 @@ function inks(element: HTMLElement): Ink {
 }
 
 class Painter {
-  constructor(private readonly pen: CanvasRenderingContext2D, private readonly width: number, private readonly height: number, private readonly sight: Sight, private readonly ink: Ink) {}
+  constructor(
+    private readonly pen: CanvasRenderingContext2D,
+    private readonly width: number,
+    private readonly height: number,
+    private readonly sight: Sight,
+    private readonly ink: Ink,
+  ) {}
 
   x(value: number): number {
     return this.sight.left + value * this.sight.scale;
@@ -95,7 +78,12 @@ class Painter {
     pen.strokeStyle = this.ink.box;
     pen.lineWidth = 1.5;
     pen.setLineDash([7, 5]);
-    pen.strokeRect(this.x(a.min), this.y(b?.max ?? 1), (a.max - a.min) * this.sight.scale, ((b?.max ?? 1) - (b?.min ?? 0)) * this.sight.scale);
+    pen.strokeRect(
+      this.x(a.min),
+      this.y(b?.max ?? 1),
+      (a.max - a.min) * this.sight.scale,
+      ((b?.max ?? 1) - (b?.min ?? 0)) * this.sight.scale,
+    );
     pen.setLineDash([]);
   }
 
@@ -104,7 +92,11 @@ class Painter {
     pen.strokeStyle = this.ink.plan;
     pen.lineWidth = 1.2;
     pen.beginPath();
-    points.forEach((point, i) => (i === 0 ? pen.moveTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0)) : pen.lineTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0))));
+    points.forEach((point, i) =>
+      i === 0
+        ? pen.moveTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0))
+        : pen.lineTo(this.x(point[a] ?? 0), this.y(point[b] ?? 0)),
+    );
     pen.stroke();
   }
 
@@ -163,10 +155,7 @@ function paint(canvas: HTMLCanvasElement, a: number, b: number, fit: boolean): v
   }
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
-  const [x0, x1, y0, y1] = bounds(a, b, fit);
-  const scale = Math.min((width - 2 * MARGIN) / Math.max(1e-9, x1 - x0), (height - 2 * MARGIN) / Math.max(1e-9, y1 - y0));
-  const sight = { scale, left: width / 2 - ((x0 + x1) / 2) * scale, top: height / 2 + ((y0 + y1) / 2) * scale };
-  const painter = new Painter(pen, width, height, sight, inks(canvas));
+  const painter = new Painter(pen, width, height, sightOf(bounds(a, b, fit), width, height), inks(canvas));
   const axes = state.axes.peek();
   painter.grid(axes[a]?.unit ?? '');
   painter.limits(axes[a], axes[b]);
@@ -179,14 +168,14 @@ function paint(canvas: HTMLCanvasElement, a: number, b: number, fit: boolean): v
 export function Flat({ a, b, fit, label }: { a: number; b: number; fit: boolean; label: string }): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   const wanted = useRef(false);
-  const draw = (): void => {
+  const draw = useCallback((): void => {
     if (wanted.current) return;
     wanted.current = true;
     requestAnimationFrame(() => {
       wanted.current = false;
       if (canvas.current !== null) paint(canvas.current, a, b, fit);
     });
-  };
+  }, [a, b, fit]);
   useSignalEffect(() => {
     void [planned.value, driven.value, state.status.value, dark.value];
     draw();
@@ -196,6 +185,6 @@ export function Flat({ a, b, fit, label }: { a: number; b: number; fit: boolean;
     const watch = new ResizeObserver(draw);
     if (canvas.current !== null) watch.observe(canvas.current);
     return () => watch.disconnect();
-  }, [a, b, fit]);
+  }, [draw]);
   return <canvas ref={canvas} class="flat" role="img" aria-label={label} />;
 }

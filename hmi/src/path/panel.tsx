@@ -9,6 +9,7 @@ import { dark } from '../view';
 import { css, errorColour } from './colours';
 import { clearDriven, follow, greatestError, letters, plannedIs } from './data';
 import { Flat } from './flat';
+import { planesOf } from './sight';
 
 const plane = signal('XY');
 const fit = signal(false);
@@ -25,32 +26,54 @@ function Scale(): JSX.Element {
     <div class="errorscale" title="Colour of the driven path: its error">
       <span>error 0</span>
       <svg width="90" height="10" aria-hidden="true">
-        {steps.map((part, i) => <rect key={part} x={i * 18} width="18" height="10" fill={css(errorColour(part, dark.value))} />)}
+        {steps.map((part, i) => (
+          <rect key={part} x={i * 18} width="18" height="10" fill={css(errorColour(part, dark.value))} />
+        ))}
       </svg>
       <span class="tabular">{fixed(greatestError.value, 3)} mm</span>
     </div>
   );
 }
 
-const PLANNED = { none: 'no planned path', checked: 'planned: the checked program', running: 'planned: the running program' };
+const PLANNED = {
+  none: 'no planned path',
+  checked: 'planned: the checked program',
+  running: 'planned: the running program',
+};
 
 export function Path(): JSX.Element {
   useEffect(follow, []);
-  const has = letters.value;
-  const planes = ['XY', 'XZ', 'YZ'].filter((one) => [...one].every((letter) => has.includes(letter)));
-  const shown = plane.value === '3D' || planes.includes(plane.value) ? plane.value : (planes[0] ?? has.slice(0, 2));
-  const options = [...(planes.length > 0 ? planes : [has.slice(0, 2)]), ...(has.length >= 3 ? ['3D'] : [])];
+  const { options, shown } = planesOf(letters.value, plane.value);
   const of = (i: number): number => state.axes.value.findIndex((axis) => axis.letter === shown[i]);
   return (
-    <Panel title="Path" class="path" tools={
-      <>
-        <Choice label="Plane of the path" value={shown} onChange={(to) => void choose(to)} options={options.map((one) => ({ value: one, text: one }))} />
-        <Button pressed={fit.value} onClick={() => (fit.value = !fit.value)}>Fit</Button>
-        <Button onClick={clearDriven}>Clear</Button>
-      </>
-    }>
+    <Panel
+      title="Path"
+      class="path"
+      tools={
+        <>
+          <Choice
+            label="Plane of the path"
+            value={shown}
+            onChange={(to) => void choose(to)}
+            options={options.map((one) => ({ value: one, text: one }))}
+          />
+          <Button pressed={fit.value} onClick={() => (fit.value = !fit.value)}>
+            Fit
+          </Button>
+          <Button onClick={clearDriven}>Clear</Button>
+        </>
+      }>
       <div class="sight">
-        {shown === '3D' && Space.value !== null ? <Space.value /> : <Flat a={Math.max(0, of(0))} b={of(1)} fit={fit.value} label={`Path in ${shown}: travel, planned and driven line`} />}
+        {shown === '3D' && Space.value !== null ? (
+          <Space.value />
+        ) : (
+          <Flat
+            a={Math.max(0, of(0))}
+            b={of(1)}
+            fit={fit.value}
+            label={`Path in ${shown}: travel, planned and driven line`}
+          />
+        )}
       </div>
       <div class="legend">
         <span class="plan">{PLANNED[plannedIs.value]}</span>

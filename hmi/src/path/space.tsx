@@ -2,17 +2,28 @@
 import { effect } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
-import { BoxGeometry, BufferAttribute, BufferGeometry, EdgesGeometry, Line, LineBasicMaterial, LineDashedMaterial, LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer } from 'three';
+import {
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  EdgesGeometry,
+  Line,
+  LineBasicMaterial,
+  LineDashedMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Scene,
+  SphereGeometry,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
 import * as state from '../link/state';
 import { dark } from '../view';
 import { errorColour } from './colours';
 import { driven, greatestError, planned } from './data';
-
-interface Sphere {
-  turn: number;
-  tilt: number;
-  far: number;
-}
+import { KEY_TURNS, turned, type Eye, type Turn } from './eye';
 
 function geometry(points: readonly number[][]): BufferGeometry {
   const flat = new Float32Array(points.length * 3);
@@ -29,17 +40,23 @@ class View {
   private readonly real = new Line(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
   private readonly tool: Mesh<SphereGeometry, MeshBasicMaterial>;
   private readonly middle = new Vector3();
-  readonly eye: Sphere = { turn: -0.9, tilt: 0.6, far: 1 };
+  eye: Eye = { turn: -0.9, tilt: 0.6, far: 1 };
   private wanted = false;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     const size = new Vector3(1, 1, 1);
-    state.axes.peek().slice(0, 3).forEach((axis, i) => {
-      size.setComponent(i, axis.max - axis.min);
-      this.middle.setComponent(i, (axis.max + axis.min) / 2);
-    });
-    this.box = new LineSegments(new EdgesGeometry(new BoxGeometry(size.x, size.y, size.z)), new LineDashedMaterial({ dashSize: 4, gapSize: 3 }));
+    state.axes
+      .peek()
+      .slice(0, 3)
+      .forEach((axis, i) => {
+        size.setComponent(i, axis.max - axis.min);
+        this.middle.setComponent(i, (axis.max + axis.min) / 2);
+      });
+    this.box = new LineSegments(
+      new EdgesGeometry(new BoxGeometry(size.x, size.y, size.z)),
+      new LineDashedMaterial({ dashSize: 4, gapSize: 3 }),
+    );
     this.box.computeLineDistances();
     this.box.position.copy(this.middle);
     this.tool = new Mesh(new SphereGeometry(size.length() / 160), new MeshBasicMaterial());
@@ -59,7 +76,12 @@ class View {
     this.real.geometry = geometry(points.map((one) => one.place));
     const colours = new Float32Array(points.length * 3);
     const most = greatestError.value;
-    points.forEach((one, i) => colours.set(errorColour(one.error / most, dark.value).map((c) => (c / 255) ** 2.2), i * 3));
+    points.forEach((one, i) =>
+      colours.set(
+        errorColour(one.error / most, dark.value).map((c) => (c / 255) ** 2.2),
+        i * 3,
+      ),
+    );
     this.real.geometry.setAttribute('color', new BufferAttribute(colours, 3));
     this.draw();
   }
@@ -91,7 +113,10 @@ class View {
       this.camera.aspect = width / height;
       this.camera.up.set(0, 0, 1);
       const { turn, tilt, far } = this.eye;
-      this.camera.position.set(Math.cos(turn) * Math.cos(tilt), Math.sin(turn) * Math.cos(tilt), Math.sin(tilt)).multiplyScalar(far).add(this.middle);
+      this.camera.position
+        .set(Math.cos(turn) * Math.cos(tilt), Math.sin(turn) * Math.cos(tilt), Math.sin(tilt))
+        .multiplyScalar(far)
+        .add(this.middle);
       this.camera.lookAt(this.middle);
       this.camera.updateProjectionMatrix();
       this.renderer.render(this.scene, this.camera);
@@ -111,7 +136,12 @@ export function Space(): JSX.Element {
     if (canvas.current === null) return undefined;
     const one = new View(canvas.current);
     view.current = one;
-    const ends = [effect(() => one.showTheme()), effect(() => one.showPlan()), effect(() => one.showDriven()), effect(() => one.showTool())];
+    const ends = [
+      effect(() => one.showTheme()),
+      effect(() => one.showPlan()),
+      effect(() => one.showDriven()),
+      effect(() => one.showTool()),
+    ];
     const watch = new ResizeObserver(() => one.draw());
     watch.observe(canvas.current);
     return () => {
@@ -120,25 +150,34 @@ export function Space(): JSX.Element {
       one.dispose();
     };
   }, []);
-  const turn = (by: number, tilt: number, nearer = 1): void => {
-    const eye = view.current?.eye;
-    if (eye === undefined) return;
-    eye.turn += by;
-    eye.tilt = Math.min(1.5, Math.max(-1.5, eye.tilt + tilt));
-    eye.far = Math.min(1e4, Math.max(1, eye.far * nearer));
-    view.current?.draw();
+  const turn = (by: Turn): void => {
+    if (view.current === null) return;
+    view.current.eye = turned(view.current.eye, by);
+    view.current.draw();
   };
   const key = (event: KeyboardEvent): void => {
-    const moves: Record<string, [number, number, number?]> = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1], '+': [0, 0, 0.9], '-': [0, 0, 1.1] };
-    const move = moves[event.key];
-    if (move === undefined) return;
+    const by = KEY_TURNS[event.key];
+    if (by === undefined) return;
     event.preventDefault();
-    turn(...move);
+    turn(by);
+  };
+  const wheel = (event: WheelEvent): void => {
+    event.preventDefault();
+    turn({ far: event.deltaY > 0 ? 1.1 : 0.9 });
   };
   return (
-    <canvas ref={canvas} class="flat space" role="img" tabIndex={0} aria-label="Path in space: travel, planned and driven line. Arrow keys turn it, plus and minus go nearer and farther."
-      onKeyDown={key} onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
-      onPointerMove={(event) => event.buttons === 1 && turn(-event.movementX / 150, event.movementY / 150)}
-      onWheel={(event) => (event.preventDefault(), turn(0, 0, event.deltaY > 0 ? 1.1 : 0.9))} />
+    <canvas
+      ref={canvas}
+      class="flat space"
+      role="img"
+      tabIndex={0}
+      aria-label="Path in space: travel, planned and driven line. Arrow keys turn it, plus and minus go nearer and farther."
+      onKeyDown={key}
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerMove={(event) =>
+        event.buttons === 1 && turn({ turn: -event.movementX / 150, tilt: event.movementY / 150 })
+      }
+      onWheel={wheel}
+    />
   );
 }

@@ -27,20 +27,30 @@ export function Listing(): JSX.Element {
     const watch = new ResizeObserver(() => (height.value = element.clientHeight));
     watch.observe(element);
     return () => watch.disconnect();
-  }, []);
+  }, [height]);
+  const line = current.value;
   useEffect(() => {
     const element = box.current;
-    if (element !== null && current.value > 0) element.scrollTop = Math.max(0, (current.value - 1) * ROW - element.clientHeight / 2);
-  }, [current.value]);
+    if (element !== null && line > 0) element.scrollTop = Math.max(0, (line - 1) * ROW - element.clientHeight / 2);
+  }, [line]);
   if (shown.value === '') return <Empty>No program. Open a file, or press Edit and type one.</Empty>;
   const first = Math.max(0, Math.floor(top.value / ROW) - MORE);
   const last = Math.min(lines.value.length, Math.ceil((top.value + height.value) / ROW) + MORE);
   return (
-    <div class="listing" ref={box} tabIndex={0} role="region" aria-label="Program lines" onScroll={(event) => (top.value = event.currentTarget.scrollTop)}>
+    <div
+      class="listing"
+      ref={box}
+      tabIndex={0}
+      role="region"
+      aria-label="Program lines"
+      onScroll={(event) => (top.value = event.currentTarget.scrollTop)}>
       <div class="whole" style={{ height: `${lines.value.length * ROW}px` }}>
         <ol style={{ transform: `translateY(${first * ROW}px)` }}>
           {lines.value.slice(first, last).map((text, i) => (
-            <li key={first + i} class={first + i + 1 === current.value ? 'current' : ''} aria-current={first + i + 1 === current.value ? 'step' : undefined}>
+            <li
+              key={first + i}
+              class={first + i + 1 === line ? 'current' : ''}
+              aria-current={first + i + 1 === line ? 'step' : undefined}>
               <span class="number">{first + i + 1}</span>
               <code>{text}</code>
             </li>

@@ -11,10 +11,16 @@ export const program = signal(localStorage.getItem(KEY) ?? '');
 
 /** The program that runs, whoever began it. */
 export const running = signal<{ name: string; text: string } | null>(null);
-const runs = computed(() => (link.value === 'open' && status.value?.program.runs === true ? status.value.program.name : ''));
+const runs = computed(() =>
+  link.value === 'open' && status.value?.program.runs === true ? status.value.program.name : '',
+);
 effect(() => {
   if (runs.value === '') running.value = null;
-  else query<{ name: string; text: string }>('program').then((answer) => (running.value = answer), () => undefined);
+  else
+    query<{ name: string; text: string }>('program').then(
+      (answer) => (running.value = answer),
+      () => undefined,
+    );
 });
 
 effect(() => {

@@ -18,15 +18,16 @@ interface ChartProps {
   label: string;
   marks?: readonly Mark[];
   /** Whether a line holds its value until the next one. */
-  stepped?(name: string): boolean;
+  stepped?: (name: string) => boolean;
   height?: number;
-  onPick?(x: number): void;
+  onPick?: (x: number) => void;
 }
 
 /** Lines differ by dash, too, not by colour alone. */
 const DASHES: readonly number[][] = [[], [8, 4], [2, 3], [10, 3, 2, 3]];
 export const LINES = 8;
-export const lineColour = (style: CSSStyleDeclaration, i: number): string => style.getPropertyValue(`--line-${(i % LINES) + 1}`).trim();
+export const lineColour = (style: CSSStyleDeclaration, i: number): string =>
+  style.getPropertyValue(`--line-${(i % LINES) + 1}`).trim();
 export const dashOf = (i: number): readonly number[] => DASHES[Math.floor(i / 2) % DASHES.length] ?? [];
 
 function drawMarks(plot: uPlot, marks: readonly Mark[], colour: string): void {
@@ -50,7 +51,12 @@ function drawMarks(plot: uPlot, marks: readonly Mark[], colour: string): void {
 function options(box: HTMLElement, props: ChartProps, marks: () => readonly Mark[]): uPlot.Options {
   const style = getComputedStyle(box);
   const get = (name: string): string => style.getPropertyValue(name).trim();
-  const axis: uPlot.Axis = { stroke: get('--muted'), grid: { stroke: get('--line'), width: 1 }, ticks: { stroke: get('--line'), width: 1 }, font: '11px Inter Variable, sans-serif' };
+  const axis: uPlot.Axis = {
+    stroke: get('--muted'),
+    grid: { stroke: get('--line'), width: 1 },
+    ticks: { stroke: get('--line'), width: 1 },
+    font: '11px Inter Variable, sans-serif',
+  };
   const paths = uPlot.paths.stepped?.({ align: 1 });
   return {
     width: Math.max(100, box.clientWidth),
@@ -58,30 +64,52 @@ function options(box: HTMLElement, props: ChartProps, marks: () => readonly Mark
     legend: { show: false },
     cursor: { drag: { x: true, y: false } },
     scales: { x: { time: false } },
-    axes: [{ ...axis, size: 34 }, { ...axis, size: 62 }],
-    series: [{ label: props.xName }, ...props.names.map((name, i) => ({ label: name, stroke: lineColour(style, i), width: 1.8, dash: [...dashOf(i)], points: { show: false }, spanGaps: true, ...(props.stepped?.(name) === true && paths !== undefined ? { paths } : {}) }))],
+    axes: [
+      { ...axis, size: 34 },
+      { ...axis, size: 62 },
+    ],
+    series: [
+      { label: props.xName },
+      ...props.names.map((name, i) => ({
+        label: name,
+        stroke: lineColour(style, i),
+        width: 1.8,
+        dash: [...dashOf(i)],
+        points: { show: false },
+        spanGaps: true,
+        ...(props.stepped?.(name) === true && paths !== undefined ? { paths } : {}),
+      })),
+    ],
     hooks: { draw: [(plot) => drawMarks(plot, marks(), get('--amber'))] },
   };
 }
 
 /** uPlot draws its axes only where there are two places at least. */
-const drawable = (data: (number | null)[][]): uPlot.AlignedData => ((data[0]?.length ?? 0) < 2 ? [[0, 1], ...data.slice(1).map(() => [null, null])] : data) as uPlot.AlignedData;
+const drawable = (data: (number | null)[][]): uPlot.AlignedData =>
+  ((data[0]?.length ?? 0) < 2 ? [[0, 1], ...data.slice(1).map(() => [null, null])] : data) as uPlot.AlignedData;
 
 export function Chart(props: ChartProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  const marks = useRef(props.marks ?? []);
-  const pick = useRef(props.onPick);
-  marks.current = props.marks ?? [];
-  pick.current = props.onPick;
-  const made = `${props.names.join(' ')}|${dark.value}|${props.names.map((name) => props.stepped?.(name) === true)}`;
+  // The plot outlives the properties that it was made of: it reads the newest.
+  const now = useRef(props);
+  now.current = props;
+  const steps = props.names.map((name) => props.stepped?.(name) === true).join();
+  const made = `${props.names.join(' ')}|${dark.value}|${steps}`;
+  const marks = JSON.stringify(props.marks);
   useEffect(() => {
     const element = box.current;
     if (element === null) return undefined;
-    const one = new uPlot(options(element, props, () => marks.current), drawable(props.data), element);
+    const one = new uPlot(
+      options(element, now.current, () => now.current.marks ?? []),
+      drawable(now.current.data),
+      element,
+    );
     plot.current = one;
-    one.over.addEventListener('click', (event) => pick.current?.(one.posToVal(event.offsetX, 'x')));
-    const watch = new ResizeObserver(() => one.setSize({ width: Math.max(100, element.clientWidth), height: Math.max(80, element.clientHeight) }));
+    one.over.addEventListener('click', (event) => now.current.onPick?.(one.posToVal(event.offsetX, 'x')));
+    const watch = new ResizeObserver(() =>
+      one.setSize({ width: Math.max(100, element.clientWidth), height: Math.max(80, element.clientHeight) }),
+    );
     watch.observe(element);
     return () => {
       watch.disconnect();
@@ -90,17 +118,38 @@ export function Chart(props: ChartProps): JSX.Element {
     };
   }, [made]);
   useEffect(() => plot.current?.setData(drawable(props.data)), [props.data]);
-  useEffect(() => plot.current?.redraw(false, true), [JSON.stringify(props.marks)]);
-  return <div ref={box} class="chart" style={props.height === undefined ? undefined : { height: `${props.height}px` }} role="img" aria-label={props.label} />;
+  useEffect(() => plot.current?.redraw(false, true), [marks]);
+  return (
+    <div
+      ref={box}
+      class="chart"
+      style={props.height === undefined ? undefined : { height: `${props.height}px` }}
+      role="img"
+      aria-label={props.label}
+    />
+  );
 }
 
 /** What the lines are. */
-export function Legend({ names, values }: { names: readonly string[]; values?: readonly (string | null)[] }): JSX.Element {
+export function Legend({
+  names,
+  values,
+}: {
+  names: readonly string[];
+  values?: readonly (string | null)[];
+}): JSX.Element {
   return (
     <ul class="linelegend">
       {names.map((name, i) => (
         <li key={name}>
-          <svg width="26" height="8" aria-hidden="true"><path class={`line-${(i % LINES) + 1}`} d="M1 4h24" stroke-width="2.4" stroke-dasharray={dashOf(i).join(' ')} /></svg>
+          <svg width="26" height="8" aria-hidden="true">
+            <path
+              class={`line-${(i % LINES) + 1}`}
+              d="M1 4h24"
+              stroke-width="2.4"
+              stroke-dasharray={dashOf(i).join(' ')}
+            />
+          </svg>
           <code>{name}</code>
           {values?.[i] != null && <span class="tabular">{values[i]}</span>}
         </li>

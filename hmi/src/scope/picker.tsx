@@ -5,15 +5,20 @@ import { channelList } from '../link/rack';
 import { notice } from '../link/orders';
 import { Icon } from '../parts/icons';
 import { Field } from '../parts/ui';
+import { matching } from './matching';
 
 const SHOWN = 30;
 
-export function Picker(props: { chosen: readonly string[]; most: number; onChange(chosen: string[]): void }): JSX.Element {
+export function Picker(props: {
+  chosen: readonly string[];
+  most: number;
+  onChange(chosen: string[]): void;
+}): JSX.Element {
   const filter = useSignal('');
-  const part = filter.value.toLowerCase();
-  const fits = channelList.value.filter((one) => !props.chosen.includes(one.name) && (one.name.toLowerCase().includes(part) || (part.length > 3 && one.text.toLowerCase().includes(part))));
+  const fits = matching(channelList.value, props.chosen, filter.value);
   const add = (name: string): void => {
-    if (props.chosen.length >= props.most) notice('refused', `${props.most} channels are the most at once. Take one away first.`);
+    if (props.chosen.length >= props.most)
+      notice('refused', `${props.most} channels are the most at once. Take one away first.`);
     else props.onChange([...props.chosen, name]);
   };
   return (
@@ -22,15 +27,31 @@ export function Picker(props: { chosen: readonly string[]; most: number; onChang
         {props.chosen.map((name) => (
           <li key={name}>
             <code>{name}</code>
-            <button type="button" class="button quiet" aria-label={`Take ${name} away`} onClick={() => props.onChange(props.chosen.filter((one) => one !== name))}><Icon name="close" size={14} /></button>
+            <button
+              type="button"
+              class="button quiet"
+              aria-label={`Take ${name} away`}
+              onClick={() => props.onChange(props.chosen.filter((one) => one !== name))}>
+              <Icon name="close" size={14} />
+            </button>
           </li>
         ))}
       </ul>
-      <Field label="Add a channel" value={filter.value} wide placeholder="X.error, CV, limit …" onInput={(text) => (filter.value = text)} onEnter={() => fits[0] !== undefined && add(fits[0].name)} />
+      <Field
+        label="Add a channel"
+        value={filter.value}
+        wide
+        placeholder="X.error, CV, limit …"
+        onInput={(text) => (filter.value = text)}
+        onEnter={() => fits[0] !== undefined && add(fits[0].name)}
+      />
       <ul class="found" aria-label="Channels found" tabIndex={0}>
         {fits.slice(0, SHOWN).map((one) => (
           <li key={one.name}>
-            <button type="button" title={one.text} onClick={() => add(one.name)}><code>{one.name}</code><small>{one.unit}</small></button>
+            <button type="button" title={one.text} onClick={() => add(one.name)}>
+              <code>{one.name}</code>
+              <small>{one.unit}</small>
+            </button>
           </li>
         ))}
         {fits.length > SHOWN && <li class="hint">{fits.length - SHOWN} more</li>}

@@ -60,6 +60,8 @@ export function keep(answer: ScopeAnswer): void {
     number: capture.number,
     names: capture.traces.map((trace) => trace.name),
     stepped: capture.traces.filter((trace) => trace.edges).map((trace) => trace.name),
-    rows: (tables.length === 0 ? [] : uPlot.join(tables)).map((row) => [...(row as (number | null | undefined)[])].map((value) => value ?? null)),
+    rows: (tables.length === 0 ? [] : uPlot.join(tables)).map((row) =>
+      [...(row as (number | null | undefined)[])].map((value) => value ?? null),
+    ),
   };
 }

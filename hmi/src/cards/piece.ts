@@ -1,0 +1,35 @@
+// A work piece under a scan head: the program's answer, and its drawing.
+
+export type Place = [number, number];
+export interface PieceAnswer {
+  scanner: string;
+  marks: Place[][];
+  marking?: [Place, Place];
+  points: number;
+  lost_points: number;
+  marked_mm: number;
+  beam: Place;
+  laser: boolean;
+  /** A square, mm. */
+  field: { least: Place; greatest: Place };
+  part?: { name: string; unit: string; position: number; speed: number };
+}
+
+/** Left, top, width and height of the picture, y downwards: around the marks; without any, around the field. */
+export function sight(piece: PieceAnswer): [number, number, number, number] {
+  const marks = piece.marks.flat();
+  const points = marks.length > 0 ? marks : [piece.field.least, piece.field.greatest];
+  const xs = points.map(([x]) => x);
+  const ys = points.map(([, y]) => y);
+  const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+  const pad = Math.max(1, 0.04 * Math.max(x1 - x0, y1 - y0));
+  return [x0 - pad, -y1 - pad, x1 - x0 + 2 * pad, y1 - y0 + 2 * pad];
+}
+
+/** Marks and the one that is being made. */
+export const strokesOf = (piece: PieceAnswer): Place[][] =>
+  piece.marking === undefined ? piece.marks : [...piece.marks, piece.marking];
+
+/** As the d of a path, y downwards. */
+export const pathOf = (strokes: readonly (readonly Place[])[]): string =>
+  strokes.map((one) => one.map(([x, y], i) => `${i === 0 ? 'M' : 'L'}${x} ${-y}`).join('')).join('');

@@ -1,0 +1,42 @@
+// Lines by hand: the draft, the log with its answers, and the history that brings lines back.
+import { signal } from '@preact/signals';
+import { sentence } from '../link/orders';
+import { ask } from '../link/socket';
+
+interface Sent {
+  text: string;
+  answer: string;
+  good: boolean;
+}
+
+const KEY = 'motionrack.mdi';
+const KEPT = 100;
+export const log = signal<Sent[]>([]);
+/** Newest first. */
+const history = signal<string[]>(JSON.parse(localStorage.getItem(KEY) ?? '[]') as string[]);
+export const draft = signal('');
+/** Which line of the history is in the draft; -1: none. */
+const place = signal(-1);
+
+export async function send(): Promise<void> {
+  const text = draft.value.trim();
+  if (text === '') return;
+  draft.value = '';
+  place.value = -1;
+  history.value = [text, ...history.value.filter((one) => one !== text)].slice(0, KEPT);
+  localStorage.setItem(KEY, JSON.stringify(history.value));
+  const one: Sent = { text, answer: '…', good: true };
+  log.value = [...log.value, one].slice(-KEPT);
+  const answer = await ask({ order: 'line', text }).then(
+    () => ({ answer: 'ok', good: true }),
+    (why: unknown) => ({ answer: sentence(why), good: false }),
+  );
+  log.value = log.value.map((other) => (other === one ? { ...one, ...answer } : other));
+}
+
+/** Back to the lines that were sent before (1), or forth (-1), down to an empty line. */
+export function walk(by: number): void {
+  const next = Math.min(history.value.length - 1, Math.max(-1, place.value + by));
+  place.value = next;
+  draft.value = next < 0 ? '' : (history.value[next] ?? '');
+}

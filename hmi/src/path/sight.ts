@@ -1,0 +1,64 @@
+// The part of the machine that a flat picture of the path shows, and its scale.
+
+/** x0, x1, y0, y1 in the unit of the axes. */
+export type Box = readonly [number, number, number, number];
+
+/** A place is on the canvas at left + x scale, top - y scale. */
+export interface Sight {
+  scale: number;
+  left: number;
+  top: number;
+}
+
+interface Travel {
+  min: number;
+  max: number;
+}
+
+/** Room around the picture, px. */
+export const MARGIN = 34;
+
+/** 1, 2 or 5 times a power of ten: the least of them that is not below `least`. */
+export function niceStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least));
+  for (const factor of [1, 2, 5]) if (power * factor >= least) return power * factor;
+  return power * 10;
+}
+
+/** The planes that a machine of these axes can show, and the one of them that is shown when `wanted` was chosen. */
+export function planesOf(letters: string, wanted: string): { options: string[]; shown: string } {
+  const planes = ['XY', 'XZ', 'YZ'].filter((one) => [...one].every((letter) => letters.includes(letter)));
+  const flat = planes.length > 0 ? planes : [letters.slice(0, 2)];
+  const shown = wanted === '3D' || planes.includes(wanted) ? wanted : (flat[0] ?? '');
+  return { options: [...flat, ...(letters.length >= 3 ? ['3D'] : [])], shown };
+}
+
+/** All of the travel; an axis that the machine does not have goes from 0 to 1. */
+export const travelBox = (x: Travel | undefined, y: Travel | undefined): Box => [
+  x?.min ?? 0,
+  x?.max ?? 1,
+  y?.min ?? 0,
+  y?.max ?? 1,
+];
+
+/** Around points, by the places `a` and `b` of two axes in them; null: too few for a picture. */
+export function boxAround(points: readonly (readonly number[])[], a: number, b: number): Box | null {
+  if (points.length < 2) return null;
+  let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (const point of points) {
+    const [x, y] = [point[a] ?? 0, point[b] ?? 0];
+    [x0, x1] = [Math.min(x0, x), Math.max(x1, x)];
+    [y0, y1] = [Math.min(y0, y), Math.max(y1, y)];
+  }
+  const pad = Math.max(1, (x1 - x0 + y1 - y0) * 0.05);
+  return [x0 - pad, x1 + pad, y0 - pad, y1 + pad];
+}
+
+/** The box in the middle of a canvas of so many pixels, as large as fits. */
+export function sightOf([x0, x1, y0, y1]: Box, width: number, height: number): Sight {
+  const scale = Math.min(
+    (width - 2 * MARGIN) / Math.max(1e-9, x1 - x0),
+    (height - 2 * MARGIN) / Math.max(1e-9, y1 - y0),
+  );
+  return { scale, left: width / 2 - ((x0 + x1) / 2) * scale, top: height / 2 + ((y0 + y1) / 2) * scale };
+}

@@ -1,0 +1,177 @@
+// Drawings of paths and work pieces: colours, the part in sight, the eye.
+import { describe, expect, test } from 'vitest';
+import { pathOf, sight, strokesOf, type PieceAnswer } from '../../src/cards/piece';
+import { css, errorColour } from '../../src/path/colours';
+import { KEY_TURNS, turned } from '../../src/path/eye';
+import { boxAround, MARGIN, niceStep, planesOf, sightOf, travelBox } from '../../src/path/sight';
+
+describe('colours of errors', () => {
+  test.each([true, false])('go from blue to red (dark: %s)', (dark) => {
+    const [none, most] = [errorColour(0, dark), errorColour(1, dark)];
+    expect(none[2]).toBeGreaterThan(none[0]);
+    expect(most[0]).toBeGreaterThan(most[2]);
+  });
+
+  test('lie between their neighbours', () => {
+    const [low, middle, high] = [0, 0.125, 0.25].map((part) => errorColour(part, true));
+    expect(middle).toEqual([0, 1, 2].map((i) => Math.round(((low?.[i] ?? 0) + (high?.[i] ?? 0)) / 2)));
+  });
+
+  test('stay at their ends for an error outside of the scale', () => {
+    expect(errorColour(-3, true)).toEqual(errorColour(0, true));
+    expect(errorColour(7, false)).toEqual(errorColour(1, false));
+  });
+
+  test('are written for CSS', () => expect(css([1, 20, 255])).toBe('rgb(1,20,255)'));
+});
+
+describe('the grid', () => {
+  test.each([
+    [0.7, 1],
+    [1, 1],
+    [1.1, 2],
+    [3, 5],
+    [5.5, 10],
+    [12, 20],
+    [0.03, 0.05],
+  ])('has lines %d apart at least, at %d', (least, step) => expect(niceStep(least)).toBeCloseTo(step, 12));
+});
+
+describe('the flat sight', () => {
+  test('is all of the travel', () => {
+    expect(travelBox({ min: -10, max: 50 }, { min: 0, max: 20 })).toEqual([-10, 50, 0, 20]);
+  });
+
+  test('takes an axis that the machine does not have for one from 0 to 1', () => {
+    expect(travelBox({ min: -10, max: 50 }, undefined)).toEqual([-10, 50, 0, 1]);
+  });
+
+  test('around points has a twentieth of room, one unit at least', () => {
+    const points = [
+      [0, 5, 0],
+      [60, 5, 40],
+      [30, 5, 20],
+    ];
+    expect(boxAround(points, 0, 2)).toEqual([-5, 65, -5, 45]);
+    expect(boxAround([[3], [3]], 0, 0)).toEqual([2, 4, 2, 4]);
+  });
+
+  test('around fewer than two points there is none', () => expect(boxAround([[1, 2]], 0, 1)).toBeNull());
+
+  test('lies in the middle, as large as fits, not distorted', () => {
+    const [width, height] = [400, 300];
+    const { scale, left, top } = sightOf([10, 110, -20, 30], width, height);
+    expect(scale).toBeCloseTo((width - 2 * MARGIN) / 100, 12);
+    expect(left + 60 * scale).toBeCloseTo(width / 2, 9);
+    expect(top - 5 * scale).toBeCloseTo(height / 2, 9);
+  });
+
+  test('of a tall box is bound by the height', () => {
+    expect(sightOf([0, 1, 0, 100], 400, 300).scale).toBeCloseTo((300 - 2 * MARGIN) / 100, 12);
+  });
+
+  test('of a single place is finite', () => expect(Number.isFinite(sightOf([5, 5, 5, 5], 400, 300).left)).toBe(true));
+});
+
+describe('the planes', () => {
+  test('are those whose axes the machine has', () => {
+    expect(planesOf('XYZA', 'XZ')).toEqual({ options: ['XY', 'XZ', 'YZ', '3D'], shown: 'XZ' });
+    expect(planesOf('XZ', 'XZ')).toEqual({ options: ['XZ'], shown: 'XZ' });
+  });
+
+  test('show another one where the wanted one is not there', () => {
+    expect(planesOf('YZA', 'XY')).toEqual({ options: ['YZ', '3D'], shown: 'YZ' });
+  });
+
+  test('are the first two axes where the machine has no two of X, Y and Z', () => {
+    expect(planesOf('AB', 'XY')).toEqual({ options: ['AB'], shown: 'AB' });
+    expect(planesOf('', 'XY').shown).toBe('');
+  });
+
+  test('keep space where it was wanted', () => expect(planesOf('XYZ', '3D').shown).toBe('3D'));
+});
+
+describe('the eye', () => {
+  const eye = { turn: 0.5, tilt: 0, far: 100 };
+
+  test('turns, tilts and goes nearer by so much', () => {
+    expect(turned(eye, { turn: 0.25, tilt: -0.5 })).toEqual({ turn: 0.75, tilt: -0.5, far: 100 });
+    expect(turned(eye, { far: 0.5 }).far).toBe(50);
+  });
+
+  test('does not go over the poles', () => {
+    expect(turned(eye, { tilt: 9 }).tilt).toBe(1.5);
+    expect(turned(eye, { tilt: -9 }).tilt).toBe(-1.5);
+  });
+
+  test('goes no nearer than 1 and no farther than 10000', () => {
+    expect(turned(eye, { far: 1e-6 }).far).toBe(1);
+    expect(turned(eye, { far: 1e6 }).far).toBe(1e4);
+  });
+
+  test('comes back by the opposite arrow', () => {
+    const there = turned(eye, KEY_TURNS.ArrowLeft ?? {});
+    expect(there.turn).not.toBe(eye.turn);
+    expect(turned(there, KEY_TURNS.ArrowRight ?? {}).turn).toBeCloseTo(eye.turn, 12);
+  });
+
+  test('goes nearer by plus and farther by minus', () => {
+    expect(turned(eye, KEY_TURNS['+'] ?? {}).far).toBeLessThan(eye.far);
+    expect(turned(eye, KEY_TURNS['-'] ?? {}).far).toBeGreaterThan(eye.far);
+  });
+});
+
+describe('a work piece', () => {
+  const piece: PieceAnswer = {
+    scanner: 'head',
+    marks: [],
+    points: 0,
+    lost_points: 0,
+    marked_mm: 0,
+    beam: [0, 0],
+    laser: false,
+    field: { least: [-50, -40], greatest: [50, 40] },
+  };
+  const marked: PieceAnswer = {
+    ...piece,
+    marks: [
+      [
+        [0, 0],
+        [10, 5],
+      ],
+    ],
+  };
+
+  test('without marks shows the field', () => expect(sight(piece)).toEqual([-54, -44, 108, 88]));
+
+  test('with marks shows them, upside up', () => expect(sight(marked)).toEqual([-1, -6, 12, 7]));
+
+  test('has the stroke that is being marked, too', () => {
+    expect(strokesOf(piece)).toEqual([]);
+    expect(
+      strokesOf({
+        ...marked,
+        marking: [
+          [10, 5],
+          [12, 5],
+        ],
+      }),
+    ).toHaveLength(2);
+  });
+
+  test('is drawn stroke by stroke', () => {
+    expect(
+      pathOf([
+        [
+          [0, 1],
+          [10, 5],
+        ],
+        [
+          [2, 2],
+          [3, -3],
+        ],
+      ]),
+    ).toBe('M0 -1L10 -5M2 -2L3 3');
+    expect(pathOf([])).toBe('');
+  });
+});

@@ -1,0 +1,202 @@
+// The lease of a jog: begun, renewed while it is held, and ended by everything that could mean that it is not held.
+import { describe, expect, test } from 'vitest';
+import { after, settled, type Browser, type Settings } from './browser';
+import { axis, connected, type Program } from './program';
+
+type Lease = typeof import('../../src/jog/lease');
+const HOLD = { 'motionrack.jog.step': '5' };
+const AXES = [axis('X', { max_speed: 50 }), axis('Y', { max_speed: 20 }), axis('Z', { max_speed: 10 })];
+
+async function opened(settings: Settings = {}): Promise<{ browser: Browser; program: Program; lease: Lease }> {
+  const { browser, program } = await connected({ stored: HOLD, ...settings, machine: { axes: AXES } });
+  program.answers.jog = {};
+  program.answers.jog_by = {};
+  return { browser, program, lease: await import('../../src/jog/lease') };
+}
+
+const stops = (program: Program): number => program.asked('jog_stop').length;
+const jogs = (program: Program): unknown[] => program.asked('jog').map(({ axis: letter, speed }) => [letter, speed]);
+
+/** No jog comes any more. */
+async function ended(program: Program): Promise<void> {
+  const count = jogs(program).length;
+  await after(500);
+  expect(jogs(program)).toHaveLength(count);
+}
+
+describe('a held jog', () => {
+  test('moves at once, and is renewed every 80 ms', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    expect(jogs(program)).toEqual([['X', 10]]);
+    await after(79);
+    expect(jogs(program)).toHaveLength(1);
+    await after(1);
+    expect(jogs(program)).toHaveLength(2);
+    await after(800);
+    expect(jogs(program)).toHaveLength(12);
+  });
+
+  test('goes at the chosen part of the axis’ greatest speed, backwards as fast as forwards', async () => {
+    const { lease, program } = await opened();
+    lease.setSpeedPart(0.5);
+    lease.begin('key', 'Y', -1);
+    expect(jogs(program)).toEqual([['Y', -10]]);
+  });
+
+  test('goes at the greatest speed as a rapid one, until it is slowed down', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1, true);
+    await after(80);
+    lease.slowDown();
+    await after(80);
+    expect(jogs(program)).toEqual([
+      ['X', 50],
+      ['X', 50],
+      ['X', 10],
+    ]);
+  });
+
+  test('stops when it is let go, once', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    lease.end('key');
+    lease.end('key');
+    expect(stops(program)).toBe(1);
+    await ended(program);
+  });
+});
+
+describe('a jog', () => {
+  test('is shown while it is held', async () => {
+    const { lease } = await opened();
+    lease.begin('a', 'X', 1);
+    lease.begin('b', 'Y', -1);
+    expect(lease.jogging.value).toBe('+X-Y');
+    lease.endAll();
+    expect(lease.jogging.value).toBe('');
+  });
+
+  test('that is begun again is renewed no more often than before', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    lease.end('key');
+    lease.begin('key', 'X', 1);
+    await after(800);
+    expect(jogs(program)).toHaveLength(12);
+  });
+
+  test('is not begun twice by the same key', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    lease.begin('key', 'Y', 1);
+    expect(jogs(program)).toEqual([['X', 10]]);
+  });
+
+  test('of an axis that the machine does not have is not sent', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'B', 1);
+    await after(200);
+    expect([jogs(program), lease.jogging.value]).toEqual([[], '']);
+  });
+
+  test('that the program refuses is not asked for again', async () => {
+    const { lease, program } = await opened();
+    program.answers.jog = 'X stands at its limit.';
+    lease.begin('key', 'X', 1);
+    await settled();
+    expect(lease.jogging.value).toBe('');
+    expect(stops(program)).toBe(1);
+    await ended(program);
+  });
+});
+
+describe('two held jogs', () => {
+  test('of two axes: letting one go stops that one alone', async () => {
+    const { lease, program } = await opened();
+    lease.begin('a', 'X', 1);
+    lease.begin('b', 'Y', 1);
+    lease.end('a');
+    expect(jogs(program).at(-1)).toEqual(['X', 0]);
+    expect(stops(program)).toBe(0);
+    await after(80);
+    expect(jogs(program).at(-1)).toEqual(['Y', 4]);
+    lease.end('b');
+    expect(stops(program)).toBe(1);
+  });
+
+  test('of one axis: the later one counts, and letting the earlier one go changes nothing', async () => {
+    const { lease, program } = await opened();
+    lease.begin('a', 'X', 1);
+    lease.begin('b', 'X', -1);
+    lease.end('a');
+    await after(80);
+    expect(jogs(program)).toEqual([
+      ['X', 10],
+      ['X', -10],
+      ['X', -10],
+    ]);
+    expect(stops(program)).toBe(0);
+  });
+});
+
+describe('a jog ends', () => {
+  const ends: [string, (browser: Browser, lease: Lease) => void][] = [
+    ['the window loses the focus', (browser) => browser.window.dispatchEvent(new Event('blur'))],
+    ['the page is left', (browser) => browser.window.dispatchEvent(new Event('pagehide'))],
+    ['the page is hidden', (browser) => browser.hide(true)],
+    ['the keyboard is disarmed', (_, lease) => lease.setArmed(false)],
+    ['another step is chosen', (_, lease) => lease.setStep(0)],
+    ['the connection is lost', (browser) => browser.socket.close()],
+  ];
+  test.each(ends)('when %s', async (_, happens) => {
+    const { browser, lease, program } = await opened();
+    lease.setArmed(true);
+    lease.begin('key', 'X', 1);
+    happens(browser, lease);
+    expect(lease.jogging.value).toBe('');
+    await ended(program);
+  });
+
+  test('with a stop for the program, where there is a connection', async () => {
+    const { browser, lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    browser.hide(true);
+    expect(stops(program)).toBe(1);
+  });
+
+  test('not when the page is shown, and nothing is sent where nothing jogs', async () => {
+    const { browser, lease, program } = await opened();
+    browser.window.dispatchEvent(new Event('blur'));
+    lease.begin('key', 'X', 1);
+    browser.hide(false);
+    await after(80);
+    expect([jogs(program).length, stops(program)]).toEqual([2, 0]);
+  });
+});
+
+describe('a step', () => {
+  test('is one move a press, however long it is held', async () => {
+    const { lease, program } = await opened({ stored: { 'motionrack.jog.step': '2' } });
+    lease.begin('key', 'X', -1);
+    await after(1000);
+    lease.end('key');
+    expect(program.asked('jog_by')).toEqual([{ order: 'jog_by', axis: 'X', distance: -0.1, speed: 10 }]);
+    expect([jogs(program), stops(program)]).toEqual([[], 0]);
+  });
+});
+
+describe('the settings of jogging', () => {
+  test('are kept', async () => {
+    const { browser, lease } = await opened();
+    lease.setStep(1);
+    lease.setSpeedPart(0.05);
+    const again = await opened({ stored: Object.fromEntries(browser.store) });
+    expect([again.lease.stepIndex.value, again.lease.speedPart.value]).toEqual([1, 0.05]);
+  });
+
+  test.each(['9', '-1', 'x'])('are a step of 1 and a fifth of the speed where "%s" was kept', async (kept) => {
+    const { lease } = await opened({ stored: { 'motionrack.jog.step': kept, 'motionrack.jog.speed': 'x' } });
+    expect([lease.STEPS[lease.stepIndex.value], lease.speedPart.value]).toEqual([1, 0.2]);
+  });
+});

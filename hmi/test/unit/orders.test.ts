@@ -1,0 +1,172 @@
+// Orders: a refusal is shown, each has its reason why not, and STOP goes both ways.
+import { describe, expect, test } from 'vitest';
+import type { Role } from '../../src/link/contract';
+import { after, openBrowser, settled } from './browser';
+import { connected } from './program';
+
+const orders = async (): Promise<typeof import('../../src/link/orders')> => import('../../src/link/orders');
+const texts = async (): Promise<string[]> => (await orders()).notices.value.map((one) => one.text);
+
+describe('an order', () => {
+  test('is sent with its fields, and is true when it was taken', async () => {
+    const { program } = await connected();
+    program.answers.home = { done: true };
+    expect(await (await orders()).order('home', { axes: 'X' })).toBe(true);
+    expect(program.asked('home')).toEqual([{ order: 'home', axes: 'X' }]);
+  });
+
+  test('cannot be turned into another one by its fields', async () => {
+    const { program } = await connected();
+    program.answers.home = {};
+    await (await orders()).order('home', { order: 'stop' });
+    expect(program.heard.at(-1)?.order).toBe('home');
+  });
+
+  test('that is refused is false, and its sentence is on the screen', async () => {
+    const { program } = await connected();
+    program.answers.home = 'X has no home switch.';
+    expect(await (await orders()).order('home')).toBe(false);
+    expect(await texts()).toEqual(['X has no home switch.']);
+  });
+
+  test('with an answer gives it; null: it was refused', async () => {
+    const { program } = await connected();
+    program.answers.invite = { code: 'ABCD' };
+    program.answers.mark = 'no';
+    expect(await (await orders()).orderFor('invite')).toMatchObject({ code: 'ABCD' });
+    expect(await (await orders()).orderFor('mark')).toBeNull();
+  });
+});
+
+describe('a sentence', () => {
+  test('names line and column where the program did', async () => {
+    openBrowser();
+    const { Refusal } = await import('../../src/link/contract');
+    const { sentence } = await orders();
+    const said = (place: object): string =>
+      sentence(new Refusal({ trouble: 'refused', message: 'G99 is unknown.', ...place }));
+    expect(said({ line: 3, column: 7 })).toBe('Line 3, column 7: G99 is unknown.');
+    expect(said({ line: 3 })).toBe('Line 3: G99 is unknown.');
+    expect(said({ line: 3, column: 0 })).toBe('Line 3: G99 is unknown.');
+    expect(said({ line: 0, column: 7 })).toBe('G99 is unknown.');
+    expect(said({})).toBe('G99 is unknown.');
+  });
+
+  test('is the text of whatever else went wrong', async () => {
+    openBrowser();
+    const { sentence } = await orders();
+    expect(sentence(new Error('broken'))).toBe('broken');
+    expect(sentence('odd')).toBe('odd');
+  });
+});
+
+describe('notices', () => {
+  test('go away by themselves: what was done after 4 s, what was refused after 12 s', async () => {
+    openBrowser();
+    const { notice } = await orders();
+    notice('done', 'paired');
+    notice('refused', 'no');
+    await after(3999);
+    expect(await texts()).toEqual(['paired', 'no']);
+    await after(1);
+    expect(await texts()).toEqual(['no']);
+    await after(8000);
+    expect(await texts()).toEqual([]);
+  });
+
+  test('are four at most, the newest last', async () => {
+    openBrowser();
+    const { notice } = await orders();
+    for (const text of ['1', '2', '3', '4', '5']) notice('refused', text);
+    expect(await texts()).toEqual(['2', '3', '4', '5']);
+  });
+
+  test('of the same text are one', async () => {
+    openBrowser();
+    const { notice } = await orders();
+    for (const text of ['a', 'b', 'a']) notice('refused', text);
+    expect(await texts()).toEqual(['b', 'a']);
+  });
+
+  test('are closed by hand', async () => {
+    openBrowser();
+    const { dismiss, notice, notices } = await orders();
+    notice('refused', 'a');
+    notice('refused', 'b');
+    dismiss(notices.value[0]?.key ?? 0);
+    expect(await texts()).toEqual(['b']);
+  });
+});
+
+describe('STOP', () => {
+  test('goes by the stream and by HTTP', async () => {
+    const { browser, program } = await connected();
+    (await orders()).stop();
+    await settled();
+    expect(program.asked('stop')).toHaveLength(1);
+    expect(browser.posts.map((one) => one.path)).toEqual(['api/stop']);
+    expect(await texts()).toEqual([]);
+  });
+
+  test('goes by HTTP where there is no stream, and says nothing if it arrived', async () => {
+    const browser = openBrowser();
+    (await orders()).stop();
+    await settled();
+    expect(browser.posts).toHaveLength(1);
+    expect(await texts()).toEqual([]);
+  });
+
+  test.each([
+    ['the program did not take it', { ok: false, status: 500, body: {} }],
+    ['there is no connection', new Error('offline')],
+  ])('says to use the real emergency stop when %s', async (_, http) => {
+    const browser = openBrowser();
+    browser.http = http;
+    (await orders()).stop();
+    await settled();
+    expect((await texts()).join()).toMatch(/^STOP did not reach the program.*use its emergency stop\.$/);
+  });
+});
+
+describe('what is not allowed', () => {
+  test('says first that there is no connection', async () => {
+    openBrowser();
+    expect((await orders()).whyNot('observe')).toBe('There is no connection to the program.');
+  });
+
+  test.each([
+    ['nobody', [false, false, false]],
+    ['observe', [true, false, false]],
+    ['operate', [true, true, false]],
+    ['maintain', [true, true, true]],
+  ] as [Role, boolean[]][])('the role %s has what is below it, too', async (role, expected) => {
+    await connected({ role });
+    const { hasRole } = await orders();
+    expect((['observe', 'operate', 'maintain'] as const).map(hasRole)).toEqual(expected);
+  });
+
+  test('names the role that is needed, and the one that is there', async () => {
+    await connected({ role: 'observe' });
+    expect((await orders()).whyNot('operate')).toMatch(/needs the role operate; you have the role observe\./);
+  });
+
+  test('asks a browser that is not paired to pair', async () => {
+    await connected({ role: 'nobody' });
+    expect((await orders()).whyNot('observe')).toMatch(/you are not paired\. Pair this browser/);
+  });
+
+  test('names who holds control, where control is needed', async () => {
+    const { program } = await connected({ machine: { control: { holder: 'bert', holder_session: 'another' } } });
+    const { mayOperate, whyNot } = await orders();
+    expect(whyNot('operate')).toBe('');
+    expect(mayOperate()).toBe('bert holds control.');
+    program.show({ state: 'hold', control: { holder: null } });
+    expect(mayOperate()).toBe('Take control first.');
+  });
+
+  test('is nothing for the tab that holds control', async () => {
+    await connected();
+    const { mayMaintain, mayOperate } = await orders();
+    expect([mayOperate(), mayMaintain()]).toEqual(['', '']);
+  });
+});

@@ -1,0 +1,131 @@
+// Queries that panels ask again and again, and the last seconds of channels.
+import { signal } from '@preact/signals';
+import { describe, expect, test } from 'vitest';
+import { after, settled, type Browser } from './browser';
+import { connected, type Program } from './program';
+
+interface Answer {
+  word: number;
+}
+type Polled = import('../../src/parts/poll').Polled<Answer>;
+
+async function polling(): Promise<{ browser: Browser; program: Program; polled: Polled; stop: () => void }> {
+  const { browser, program } = await connected();
+  const polled: Polled = { data: signal(null), why: signal('') };
+  const { poll } = await import('../../src/parts/poll');
+  return { browser, program, polled, stop: poll('card', { name: 'mcx' }, 250, polled) };
+}
+
+describe('a query of a panel', () => {
+  test('is asked at once, and so long after each answer again', async () => {
+    const { polled, program } = await polling();
+    expect(program.asked('card')).toEqual([{ query: 'card', name: 'mcx' }]);
+    program.answers.card = { word: 7 };
+    program.say({ id: program.heard.at(-1)?.id, word: 6 });
+    await settled();
+    expect(polled.data.value).toMatchObject({ word: 6 });
+    await after(249);
+    expect(program.asked('card')).toHaveLength(1);
+    await after(1);
+    expect(polled.data.value).toMatchObject({ word: 7 });
+  });
+
+  test('is not asked a second time before it was answered', async () => {
+    const { program } = await polling();
+    for (let i = 0; i < 8; ++i) {
+      program.show();
+      await after(250);
+    }
+    expect(program.asked('card')).toHaveLength(1);
+  });
+
+  test('that is refused says why, keeps what was known, and is asked again', async () => {
+    const { polled, program } = await polling();
+    program.say({ id: program.heard.at(-1)?.id, word: 6 });
+    program.answers.card = 'There is no card mcx.';
+    await after(250);
+    expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 6 }, 'There is no card mcx.']);
+    program.answers.card = { word: 8 };
+    await after(250);
+    expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 8 }, '']);
+  });
+
+  test('is not asked while the page is hidden', async () => {
+    const { browser, program } = await polling();
+    program.answers.card = { word: 7 };
+    program.say({ id: program.heard.at(-1)?.id, word: 6 });
+    browser.hide(true);
+    await after(1000);
+    expect(program.asked('card')).toHaveLength(1);
+    browser.hide(false);
+    await after(250);
+    expect(program.asked('card')).toHaveLength(2);
+  });
+
+  test('ends with its panel: an answer that comes later is not shown, and nothing is asked again', async () => {
+    const { polled, program, stop } = await polling();
+    stop();
+    program.say({ id: program.heard.at(-1)?.id, word: 6 });
+    await after(1000);
+    expect([polled.data.value, program.asked('card').length]).toEqual([null, 1]);
+  });
+});
+
+describe('the last seconds of channels', () => {
+  const recording = async (): Promise<{ data: { value: (number | null)[][] }; program: Program; stop: () => void }> => {
+    const { program } = await connected();
+    const data = signal<(number | null)[][]>([[], [], []]);
+    const { record } = await import('../../src/cards/history');
+    const stop = record(['mcx.CV', 'mcx.LP'], 100, 10, data);
+    await settled();
+    return { data, program, stop };
+  };
+  /** A picture of that time of the machine, so much later that a chart is drawn. */
+  const next = async (program: Program, at: number, values: (number | null)[]): Promise<void> => {
+    await after(60);
+    program.show({ at }, values);
+  };
+
+  test('are asked for at their rate', async () => {
+    const { program } = await recording();
+    expect(program.asked('subscribe').at(-1)).toEqual({
+      subscribe: { channels: ['mcx.CV', 'mcx.LP'], rate_hz: 100 },
+    });
+  });
+
+  test('stand in seconds before now, a row a channel', async () => {
+    const { data, program } = await recording();
+    await next(program, 5, [1, 10]);
+    await next(program, 6, [2, null]);
+    expect(data.value).toEqual([
+      [-1, 0],
+      [1, 2],
+      [10, null],
+    ]);
+  });
+
+  test('end where they are too long ago', async () => {
+    const { data, program } = await recording();
+    for (const at of [1, 5, 11, 13, 14]) await next(program, at, [at, 0]);
+    expect(data.value[0]).toEqual([-9, -3, -1, 0]);
+  });
+
+  test('are drawn 20 times a second at most, with every sample', async () => {
+    const { data, program } = await recording();
+    await next(program, 1, [1, 0]);
+    program.show({ at: 2 }, [2, 0]);
+    expect(data.value[1]).toEqual([1]);
+    await next(program, 3, [3, 0]);
+    expect(data.value[1]).toEqual([1, 2, 3]);
+  });
+
+  test('end with their chart', async () => {
+    const { data, program, stop } = await recording();
+    await next(program, 1, [1, 0]);
+    stop();
+    await next(program, 2, [2, 0]);
+    expect(data.value[1]).toEqual([1]);
+    await settled();
+    expect(program.asked('subscribe').at(-1)).toEqual({ subscribe: { channels: [], rate_hz: 20 } });
+  });
+});

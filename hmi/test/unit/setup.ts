@@ -1,0 +1,6 @@
+// After each test: the real clock.
+import { afterEach, vi } from 'vitest';
+
+afterEach(() => {
+  vi.useRealTimers();
+});
