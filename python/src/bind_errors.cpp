@@ -30,6 +30,7 @@ py::object exception_of(const py::module_& errors, const char* name, const Error
 }  // namespace
 
 void bind_errors(py::module_&) {
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 takes no other function
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);

@@ -12,8 +12,9 @@ namespace {
 
 /// What Python raised while worlds ran without its lock; touched with the lock only.
 std::vector<std::pair<const World*, py::error_already_set>>& raised_meanwhile() {
-    static auto* const all =
-        new std::vector<std::pair<const World*, py::error_already_set>>();  // outlives the interpreter
+    // It outlives the interpreter.
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): what is raised is put there
+    static auto* const all = new std::vector<std::pair<const World*, py::error_already_set>>();
     return *all;
 }
 

@@ -81,9 +81,10 @@ auto alone(World& world, Call call, Duration timeout) {
         }();
         raise_what_python_raised(world);
         if constexpr (detail::is_result<Value>::value) {
-            if (!result)
-                raise(std::move(result).error(),
-                      result.error().trouble == Trouble::machine && timeout != never && world.now() - began >= timeout);
+            if (!result) {
+                const bool machine = result.error().trouble == Trouble::machine;
+                raise(std::move(result).error(), machine && timeout != never && world.now() - began >= timeout);
+            }
             if constexpr (!std::is_void_v<typename Value::value_type>) return *std::move(result);
         } else {
             return result;

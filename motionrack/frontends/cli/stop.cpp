@@ -4,6 +4,7 @@
 
 namespace motionrack::cli {
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal finds nothing else
 std::atomic<bool> stop_asked{false};
 
 void stop_on_signals() {

@@ -7,6 +7,7 @@
 namespace motionrack::cli {
 
 /// Set by the first signal after stop_on_signals().
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal finds nothing else
 extern std::atomic<bool> stop_asked;
 
 /// From now on Ctrl-C and SIGTERM set stop_asked.

@@ -8,6 +8,7 @@ namespace motionrack::mcx314lib {
 
 namespace {
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string last_error;
 
 /// Functions of the C++ library that its sentences name, and what they are called here.

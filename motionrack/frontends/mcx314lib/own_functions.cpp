@@ -18,6 +18,7 @@ using motionrack::mcx314::channels_of;
 using motionrack::mcx314::FourAxes;
 using motionrack::mcx314::StopKind;
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string report_text;
 
 Result<Duration> time_of(int milliseconds) {

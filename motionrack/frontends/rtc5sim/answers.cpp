@@ -256,6 +256,7 @@ void n_set_mcbsp_out(UINT CardNo, UINT Signal1, UINT Signal2) {
 void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_range("Number", Number, 0, rtc5::sent_signals));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number
         const auto* const signals = reinterpret_cast<const std::uint32_t*>(SignalPtr);
         if (Number > 0) MOTIONRACK_CHECK(check_pointer(signals, "SignalPtr"));
         return card.engine.set_mcbsp_out({signals, Number});
@@ -278,6 +279,7 @@ void n_get_waveform(UINT CardNo, UINT Channel, UINT Number, ULONG_PTR Ptr) {
         if (r.count == 0) return fail(Trouble::refused, "nothing was recorded (set_trigger); nothing was given");
         MOTIONRACK_CHECK(check_range("Channel", Channel, 1, static_cast<UINT>(r.channels)));
         MOTIONRACK_CHECK(check_range("Number", Number, 1, static_cast<UINT>(r.count)));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number
         auto* const to = reinterpret_cast<std::int32_t*>(Ptr);
         MOTIONRACK_CHECK(check_pointer(to, "Ptr"));
         for (UINT i = 0; i < Number; ++i) to[i] = card.engine.recorded(Channel - 1, i);

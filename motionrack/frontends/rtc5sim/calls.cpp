@@ -11,10 +11,12 @@
 
 namespace motionrack::rtc5sim {
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local bool inside_handler = false;
 
 namespace {
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string last_sentence;
 constexpr UINT most_cards = 16;
 constexpr std::uint64_t ns_per_tick = 10'000;

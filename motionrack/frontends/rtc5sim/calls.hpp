@@ -87,6 +87,7 @@ class Bench {
 calls::Process<Bench>& process();
 
 /// This thread is in a samples handler: functions of the library are refused there.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 extern thread_local bool inside_handler;
 
 /// Keeps the sentence for this thread, with the function's name in front, and calls the handler. The lock must be free.

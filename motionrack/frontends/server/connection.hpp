@@ -163,7 +163,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     void answer(HttpAnswer one, bool keep_alive) {
         busy_ = true;
         response_ = response_of(one, head_.method == "HEAD", keep_alive && !peer_.spare);
-        body_ = one.body;
+        body_ = std::move(one.body);
         expire(limits().body);
         http::async_write(stream_, *response_, [self = this->shared_from_this()](error_code error, std::size_t) {
             self->busy_ = false;

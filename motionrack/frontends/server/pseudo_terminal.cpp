@@ -95,7 +95,7 @@ void PseudoTerminal::forget_unread() {
 PseudoTerminal::Look PseudoTerminal::look() {
     Look out;
     alignas(inotify_event) std::array<char, 4096> events{};
-    for (ssize_t got; (got = ::read(watch_.number(), events.data(), events.size())) > 0;) {
+    for (ssize_t got = 0; (got = ::read(watch_.number(), events.data(), events.size())) > 0;) {
         for (ssize_t at = 0; at < got;) {
             inotify_event event{};
             std::memcpy(&event, events.data() + at, sizeof event);
