@@ -14,6 +14,7 @@
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/rack/config.hpp>
+#include <mutex>
 #include <thread>
 
 namespace motionrack::server {
@@ -92,6 +93,7 @@ class SenderPorts : public testing::Test {
         settings_.port = 0;
         settings_.link = (folder_ / "grbl").string();
         settings_.on_setting = [this](const std::string& sender, const std::string& text) {
+            const std::lock_guard lock(told_mutex_);
             told_ = sender + ": " + text;
         };
         std::filesystem::create_directories(folder_);
@@ -109,6 +111,11 @@ class SenderPorts : public testing::Test {
         ports_ = std::move(*opened);
         thread_ = std::thread([this] { machine_->run(); });
     }
+    /// The last setting that a sender changed; the ports say so on a thread of their own.
+    std::string told() {
+        const std::lock_guard lock(told_mutex_);
+        return told_;
+    }
     Client tcp() { return Client::tcp(ports_->port()); }
     Client terminal() { return Client::terminal(settings_.link); }
 
@@ -119,6 +126,7 @@ class SenderPorts : public testing::Test {
     std::unique_ptr<operate::Machine> machine_;
     std::unique_ptr<GrblPorts> ports_;
     std::thread thread_;
+    std::mutex told_mutex_;
     std::string told_;
 };
 
@@ -226,7 +234,7 @@ TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
     client.hear(banner);
     EXPECT_EQ(client.ask("$32=1\n"), "ok\r\n");
     client.ask("$G\n");
-    EXPECT_THAT(told_, AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
+    EXPECT_THAT(told(), AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
 }
 
 TEST_F(SenderPorts, TakeALineOfAMegabyteWithoutHarm) {
