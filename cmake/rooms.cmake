@@ -71,16 +71,17 @@ function(motionrack_room name)
   endif()
 endfunction()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [ALONE]): the test program
-# test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take
-# minutes: ./test leaves them out, ./test --all has them. FAULTS: those that rows of the catalogue of faults name, a
-# filter of GoogleTest; they run as NAME.faults with the label fault. ALONE: each test is a process of its own, where a
-# library has one state for the whole process. tests/programs runs single tests by their names.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]): the test
+# program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take
+# long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are filters of GoogleTest: those that rows of the
+# catalogue of faults name run as NAME.faults with the label fault, those that take long as NAME.deep with the label
+# deep. ALONE: each test is a process of its own, where a library has one state for the whole process. tests/programs
+# runs single tests by their names.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "ALONE" "FAULTS;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "ALONE" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
@@ -100,10 +101,20 @@ function(motionrack_test name)
     return()
   endif()
   set(others --gtest_brief=1)
+  set(elsewhere)
   if(T_FAULTS)
     add_test(NAME ${name}.faults COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${T_FAULTS}")
     set_tests_properties(${name}.faults PROPERTIES TIMEOUT 1200 LABELS "fault;${T_LABELS}")
-    list(APPEND others "--gtest_filter=-${T_FAULTS}")
+    list(APPEND elsewhere ${T_FAULTS})
+  endif()
+  if(T_DEEP)
+    add_test(NAME ${name}.deep COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${T_DEEP}")
+    set_tests_properties(${name}.deep PROPERTIES TIMEOUT 1200 LABELS "deep;${T_LABELS}")
+    list(APPEND elsewhere ${T_DEEP})
+  endif()
+  if(elsewhere)
+    list(JOIN elsewhere ":" elsewhere)
+    list(APPEND others "--gtest_filter=-${elsewhere}")
   endif()
   if(NOT T_SHARDS)
     add_test(NAME ${name} COMMAND test_${name} ${others})

@@ -207,9 +207,10 @@ TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {
 }
 
 TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
-    write("long.toml",
-          "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 2\n[belt]\nspeed_mm_s = 0.1\n[fly]\nmode "
-          "= 'encoder'\n[galvo]\nideal = false\n");
+    write(
+        "long.toml",
+        "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 0.4\n[belt]\nspeed_mm_s = 0.02\n[fly]\nmode "
+        "= 'encoder'\n[galvo]\nideal = false\n");
     // A terminal of its own, so that there is somebody to show progress to.
     EXPECT_THAT(
         shell("script -qec 'timeout --foreground -s INT 2 " MOTIONRACK_PROGRAM " mark long.toml' /dev/null").out,

@@ -53,13 +53,13 @@ void compare(std::uint64_t first, std::uint64_t count, const ChipOptions& option
 }
 
 TEST(Mcx314Oracle, RandomProgramsLookTheSameOnTheChipAndOnItsTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), {}, [](const Program& p) {
+    compare(0, trials("MOTIONRACK_PROGRAMS", 1'500, 10'000), {}, [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
 
 TEST(Mcx314Oracle, RandomProgramsOfTheAsLookTheSameOnTheChipAndOnItsTwin) {
-    compare(10'000'000, from_environment("MOTIONRACK_PROGRAMS", 6'000), as, [](const Program& p) {
+    compare(10'000'000, trials("MOTIONRACK_PROGRAMS", 1'000, 6'000), as, [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
@@ -69,33 +69,37 @@ TEST(Mcx314Oracle, SoTheyDoWithTheOtherReadingsOfTheSources) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, 0, 0};
     };
     std::uint64_t first = 20'000'000;
+    const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 80, 500);
     for (const Variant variant : {Variant::mcx314, Variant::mcx314as}) {
-        compare(first += 1000, 500, {variant, SlowDrive::at_sv, SoftwareLimit::beyond, 0}, way);
-        compare(first += 1000, 500, {variant, SlowDrive::at_v, SoftwareLimit::at, 300}, way);
-        compare(first += 1000, 500, {variant, SlowDrive::at_sv, SoftwareLimit::at, 8}, way);
+        compare(first += 1000, count, {variant, SlowDrive::at_sv, SoftwareLimit::beyond, 0}, way);
+        compare(first += 1000, count, {variant, SlowDrive::at_v, SoftwareLimit::at, 300}, way);
+        compare(first += 1000, count, {variant, SlowDrive::at_sv, SoftwareLimit::at, 8}, way);
     }
 }
 
 TEST(Mcx314Oracle, FollowedOutputPinsChangeAtTheSameInstants) {
     const auto followed = [](const Program& p) { return Way{p.number % 2 == 0, false, true, 0, 0}; };
-    compare(3'000'000, 600, {}, followed);
-    compare(13'000'000, 600, as, followed);
+    const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 100, 600);
+    compare(3'000'000, count, {}, followed);
+    compare(13'000'000, count, as, followed);
 }
 
 TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
     const auto in_slices = [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, p.number, 0};
     };
-    compare(1'000'000, 400, {}, in_slices);
-    compare(11'000'000, 400, as, in_slices);
+    const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 80, 400);
+    compare(1'000'000, count, {}, in_slices);
+    compare(11'000'000, count, as, in_slices);
 }
 
 TEST(Mcx314Oracle, ARestoredSnapshotGivesTheSameRest) {
     const auto restored = [](const Program& p) {
         return Way{p.number % 2 == 0, false, p.number % 3 == 0, 0, 1 + p.number % (p.ops.size() - 1)};
     };
-    compare(2'000'000, 400, {}, restored);
-    compare(12'000'000, 400, as, restored);
+    const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 80, 400);
+    compare(2'000'000, count, {}, restored);
+    compare(12'000'000, count, as, restored);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <motionrack/control/ride/accel_bound.hpp>
 #include <motionrack/control/ride/test/oracle.hpp>
 #include <motionrack/control/ride/test/ride_support.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::control {
 namespace {
@@ -144,7 +145,8 @@ TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
                 const Seconds found = seconds_of(shape, with_jerk(jerk));
                 EXPECT_GE(found.ride, found.referee * (1 - 1e-3)) << jerk << " " << chord;
             }
-    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 6, 40);
+    for (std::uint64_t seed = 1; seed <= count; ++seed)
         for (const ride_test::KeptStretch& kept : ride_test::kept_ride(ProgramMaker(seed).program(4), machine()))
             EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, machine(), 60) * (1 - 1e-3))
                 << seed;

@@ -1,5 +1,5 @@
 // LinuxCNC's own interpreter as the referee of the corpus.
-#include "gcode_rs274.hpp"
+#include <motionrack/control/test/gcode_rs274.hpp>
 
 namespace motionrack::control::gcode {
 
