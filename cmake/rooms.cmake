@@ -8,14 +8,18 @@ target_include_directories(motionrack_flags INTERFACE $<BUILD_INTERFACE:${PROJEC
 # No function is replaced at load time, so position-independent code may inline it: the chip is a tenth to a third
 # faster.
 # Strangers need only the flag that decides bits.
-# In a test a local name may be that of a constant in the source beside it.
+# In a test a local name may be that of a constant in the source beside it; clang++ takes any two for one that way.
+set(room_shadow -Wshadow)
 set(local_shadow -Wshadow=local)
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(local_shadow -Wno-shadow)
+  if(MOTIONRACK_UNITY)
+    set(room_shadow -Wno-shadow)
+  endif()
 endif()
 set(shadow $<TARGET_PROPERTY:MOTIONRACK_SHADOW>)
 set(own_flags -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
-    $<IF:$<BOOL:${shadow}>,${shadow},-Wshadow>)
+    $<IF:$<BOOL:${shadow}>,${shadow},${room_shadow}>)
 if(MOTIONRACK_WERROR)
   list(APPEND own_flags -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

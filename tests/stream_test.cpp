@@ -65,7 +65,8 @@ struct Watched {
             const int i = axis.config.index();
             const control::AxisLimits limits = rack.config().limits()[static_cast<std::size_t>(i)];
             const AxisStatistics& top = monitor.statistics(i);
-            EXPECT_LE(top.top_speed, limits.max_speed * 1.001) << i;
+            // A steered segment begins with the speed of the one before it, of which an axis may have a little more.
+            EXPECT_LE(top.top_speed, limits.max_speed * 1.005) << i;
             EXPECT_LE(top.top_accel, limits.max_accel * 1.02) << i;
             EXPECT_LE(top.top_jump, limits.start_speed * jump) << i;
             EXPECT_EQ(axis.turned_by().count(rack.kernel().now()), axis.machine->rotor().count(rack.kernel().now()))

@@ -7,27 +7,12 @@
 #include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/profile/travel.hpp>
-#include <new>
-
-namespace {
-std::uint64_t allocations = 0;
-}  // namespace
-
-// not inlined: otherwise the compiler sees a new that is freed, and warns
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include <motionrack/sim/test/allocation_count.hpp>
 
 namespace motionrack::control {
 namespace {
+
+using sim::allocations;
 
 TEST(Planner, TakesNoMemoryForAMove) {
     MachineLimits limits;
@@ -40,7 +25,7 @@ TEST(Planner, TakesNoMemoryForAMove) {
     move.path = PathControl::continuous;
     move.tolerance_mm = 0.01;
     double seconds = 0;
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = allocations();
     for (int i = 0; i < 5000; ++i) {
         move.kind = i % 700 == 699 ? MoveKind::dwell : MoveKind::feed;
         move.end[0] += 0.1;
@@ -50,7 +35,7 @@ TEST(Planner, TakesNoMemoryForAMove) {
     }
     planner.flush();
     while (planner.pull(planned)) seconds += seconds_of(planned);
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(allocations(), before);
     EXPECT_GT(seconds, 5);
 }
 
@@ -67,7 +52,7 @@ TEST(Curve, TakesNoMemoryForAMove) {
     const auto pull = [&] {
         while (builder.pull(item)) length += item.rest ? 0 : item.piece.length;
     };
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = allocations();
     for (int i = 0; i < 5000; ++i) {
         move.kind = i % 700 == 699 ? MoveKind::dwell : i % 50 == 25 ? MoveKind::arc : MoveKind::feed;
         move.turns = 1;
@@ -81,21 +66,21 @@ TEST(Curve, TakesNoMemoryForAMove) {
     if (!builder.has_room()) pull();
     builder.flush();
     pull();
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(allocations(), before);
     EXPECT_GT(length, 500);
 }
 
 TEST(Travel, TakesNoMemory) {
     const TravelLimits limits = {100, 1000, 20'000};
     double seconds = 0;
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = allocations();
     for (int i = 0; i < 5000; ++i) {
         const TravelState from = {0, 30.0 - i % 61, 0.1 * (i % 997)};
         if (const auto out = travel(from, {0.01 * (i - 2500), 0.02 * (i % 1000), 0}, limits))
             seconds += out->duration();
         if (const auto out = stop(from, limits)) seconds += out->sample(0.01).position;
     }
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(allocations(), before);
     EXPECT_GT(seconds, 5);
 }
 
