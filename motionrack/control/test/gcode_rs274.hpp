@@ -45,10 +45,11 @@ inline std::string table_in_inches() {
     return out;
 }
 
-/// What rs274 prints for a file in the folder.
+/// What rs274 prints for a file in the folder. It keeps tools in a file of the home folder, which two at once would
+/// share.
 inline std::string of_rs274(const Folder& at, const std::string& name, bool tools) {
     std::filesystem::remove(at.file("x.var"));
-    const std::string command = fmt::format("cd '{}' && timeout 120 rs274 -g {} -v x.var {}.ngc 2>&1",
+    const std::string command = fmt::format("cd '{}' && HOME=. timeout 120 rs274 -g {} -v x.var {}.ngc 2>&1",
                                             at.path().string(), tools ? "-t tools.tbl" : "", name);
     std::FILE* pipe = ::popen(command.c_str(), "r");
     std::string out;
