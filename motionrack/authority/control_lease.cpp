@@ -13,7 +13,7 @@ Result<void> ControlLease::take(std::string_view user, std::string_view session,
     }
     const bool comes_back = held() && held_->left && !user.empty() && held_->user == user;
     if (held() && !comes_back) {
-        if (!machine_stands)
+        if (!machine_stands && !held_->left)
             return fail(
                 Trouble::refused,
                 fmt::format(
@@ -35,6 +35,13 @@ Result<void> ControlLease::release(std::string_view session) {
     MOTIONRACK_CHECK(holds(session));
     held_.reset();
     return {};
+}
+
+bool ControlLease::revoke(std::string_view user, std::string_view session) {
+    const std::lock_guard<std::mutex> alone(lock_);
+    if (!held() || (session.empty() ? held_->user == user : held_->session == session)) return false;
+    held_.reset();
+    return true;
 }
 
 Result<void> ControlLease::holds(std::string_view session) const {
@@ -60,7 +67,8 @@ void ControlLease::left(std::string_view session) {
 std::optional<ControlLease::Holder> ControlLease::holder() const {
     const std::lock_guard<std::mutex> alone(lock_);
     if (!held()) return std::nullopt;
-    return Holder{held_->user, held_->session, std::chrono::duration<double>(held_->since - made_).count()};
+    return Holder{held_->user, held_->session, std::chrono::duration<double>(held_->since - made_).count(),
+                  held_->left};
 }
 
 }  // namespace motionrack::authority

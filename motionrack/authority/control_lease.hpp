@@ -1,8 +1,9 @@
 // One session at a time controls the machine.
 //
 //   nobody ──take──► held ──release, or 10 s without a sign of life──► nobody
-//                     │ another's take with force, while the machine stands still
-//                     └► held by the other
+//                     │ another's take with force, while the machine stands still or the holder's connection has ended
+//                     ├► held by the other
+//                     └──another's STOP──► nobody
 //
 // Any thread; every call takes a short lock. A session is a connection or a token: two pages of one user are two
 // sessions.
@@ -27,20 +28,24 @@ class ControlLease {
 
     struct Holder {
         std::string user, session;
-        double since = 0;  ///< s since the lease was made
+        double since = 0;   ///< s since the lease was made
+        bool left = false;  ///< his connection has ended
     };
 
     explicit ControlLease(std::function<Moment()> clock = std::chrono::steady_clock::now)
         : clock_(std::move(clock)), made_(clock_()) {}
 
     /// Gives control to `session`; one that holds it already keeps it. Refused, with the holder's name: another holds
-    /// it, and `force` is not set or the machine does not stand still. A user whose connection has ended gets it back
-    /// without force, even while the machine moves.
+    /// it, and `force` is not set, or the machine does not stand still and the holder is still connected. A user whose
+    /// connection has ended gets it back without force.
     Result<void> take(std::string_view user, std::string_view session, bool force, bool machine_stands);
     /// Refused: the session does not hold it.
     Result<void> release(std::string_view session);
     /// A sign of life. Refused: the session does not hold it.
     Result<void> keep(std::string_view session) { return check(session); }
+    /// STOP by this user, in this session where it has one: control of anybody else ends, so that what he goes on
+    /// ordering is refused until he takes it again. True: it has ended.
+    bool revoke(std::string_view user, std::string_view session);
     /// Whether the session holds it; refused with the holder's name. It is a sign of life.
     Result<void> check(std::string_view session);
     /// The session's connection has ended; the lease runs out by itself.

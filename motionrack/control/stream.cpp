@@ -143,7 +143,11 @@ void Stream::resume() {
 }
 
 void Stream::stop() {
-    if (!path_begun_ && !has_work()) return;
+    if (!path_begun_ && !has_work()) {
+        // A pause behind which nothing waits would make the next line wait.
+        if (state_ == StreamState::held || state_ == StreamState::paused) state_ = StreamState::rest;
+        return;
+    }
     wish_ = Wish::stop;
     stop_flag_ = !ride_ || probing_;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <motionrack/control/gcode/number.hpp>
+#include <motionrack/grbl/line_rules.hpp>
 #include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
@@ -164,9 +165,8 @@ int Session::check_mode() {
 int Session::unlock() {
     if (state() != State::alarm) return error_none;
     if (!control()) return error_locked;
-    (void)machine_.enable(true);
-    declare_positions();
-    alarm_ = false;
+    if (machine_.state() == MachineState::error_stop) machine_.reset();  // of a STOP; all else needs the sender's reset
+    alarm_ = stopped_ = false;
     doing_ = Doing{Doing::What::unlocking};
     return answer_later;
 }
@@ -185,6 +185,7 @@ int Session::home() {
         say(begun.error().message);
         return error_locked;
     }
+    stopped_ = false;
     doing_ = Doing{Doing::What::homing};
     return answer_later;
 }
@@ -198,8 +199,8 @@ bool Session::finish_homing() {
             declare_positions();
             return false;
         }
-        startup();
-        finish_answer(error_none);
+        if (!stopped_) startup();
+        finish_answer(stopped_ ? error_locked : error_none);
         return true;
     }
     if (ended.error().trouble == Trouble::refused) {
@@ -223,30 +224,14 @@ int Session::number_of_homing() const {
 
 // ---- jog
 
-/// $J=G91 G21 X10 F600. What it means is read by a copy of the reader, so that it leaves no traces.
 int Session::jog(const std::string& text) {
-    using namespace control::gcode;
     const State now = state();
     if (now != State::idle && now != State::jog) return error_not_idle;
-    if (text.size() < 3 || text[2] != '=') return error_unknown;
-    const std::string_view words = std::string_view(text).substr(3);
-    Block block;
-    Problem problem;
-    if (!scan_line(words, {}, block, problem)) return static_cast<int>(problem.status);
-    constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;
-    if (block.percent || block.m_groups != 0 || (block.g_groups & ~groups) != 0 ||
-        (block.has_g(g_nonmodal) && block.g[g_nonmodal] != 530))
-        return error_jog;
-    if (!grbl_has(block)) return error_unsupported;
-    if ((block.words & ~(axis_words | letter_bit('F') | letter_bit('N'))) != 0) return error_unused_words;
-    if (!block.has('F')) return error_no_feed;
-    if ((block.words & axis_words) == 0) return error_no_axis_words;
-    Interpreter trial = interpreter();
-    const std::string line = fmt::format("G1G94{}", words);
-    if (const auto read = trial.line(line, 0); !read) return static_cast<int>(read.error().status);
-    const Step* step = trial.pull();
-    if (step == nullptr || !control()) return error_locked;
-    if (const Result<void> begun = machine_.jog_to(step->move.end, step->move.feed); !begun) {
+    const JogLine line = read_jog(text, interpreter(), settings_.axes);
+    if (line.error != error_none) return line.error;
+    if (!control()) return error_locked;
+    energise();
+    if (const Result<void> begun = machine_.jog_to(line.target, line.feed); !begun) {
         say(begun.error().message);
         return error_locked;
     }

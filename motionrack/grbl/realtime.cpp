@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/grbl/machine_view.hpp>
 #include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
@@ -131,22 +132,19 @@ void Session::open_door() {
 
 void Session::resume() {
     const State now = state();
-    if ((now != State::hold && now != State::door) || brakes() || !control()) return;
+    if ((now != State::hold && now != State::door) || is_moving(machine_) || !control()) return;
     held_ = door_ = hold_seen_ = spindle_stopped_ = false;
     until_overrides_ = 0;
     if (machine_.state() == MachineState::hold) (void)machine_.resume();
 }
 
-/// On its way into a hold.
-bool Session::brakes() const {
-    const MachineState state = machine_.state();
-    return state == MachineState::moving || state == MachineState::stopping || state == MachineState::jogging;
-}
-
+/// What another drives goes on, but where the settings say otherwise.
 void Session::reset() {
     const MachineState state = machine_.state();
-    const int number = state == MachineState::homing ? homing_alarm_ : brakes() ? alarm_reset : alarm_none;
-    if (number != alarm_none) alarm(number, false);
+    const bool stands = operate::idle(state);
+    const Result<void> may = stands || !settings_.may_stop ? Result<void>() : settings_.may_stop();
+    const int number = state == MachineState::homing ? homing_alarm_ : is_moving(machine_) ? alarm_reset : alarm_none;
+    if (may && number != alarm_none) alarm(number, false);
     homing_alarm_ = alarm_homing_reset;
     alarm_ = alarm_ || asleep_;
     if (doing_) finish_answer(error_none);
@@ -154,12 +152,19 @@ void Session::reset() {
     line_.reset();
     n_words_.clear();
     check_.reset();
-    held_ = door_ = asleep_ = critical_ = was_g80_ = spindle_stopped_ = false;
+    held_ = door_ = asleep_ = critical_ = stopped_ = was_g80_ = spindle_stopped_ = false;
     spindle_override_ = 100;
     line_number_ = 0;
-    machine_.set_overrides(1, 1);
-    machine_.reset();
+    if (may) {
+        machine_.set_overrides(1, 1);
+        resets_ = true;
+        machine_.reset(stands             ? operate::StopSource{}
+                       : settings_.source ? settings_.source()
+                                          : operate::StopSource{"a sender", "", "^X"});
+        resets_ = false;
+    }
     begin_again(true);
+    if (!may) say(may.error().message);
 }
 
 void Session::begin_again(bool after_reset) {
@@ -172,6 +177,7 @@ void Session::begin_again(bool after_reset) {
 
 void Session::watch_machine() {
     const MachineState state = machine_.state();
+    never_enabled_ = never_enabled_ && state == MachineState::disabled;
     jogging_ = state == MachineState::jogging || (jogging_ && state == MachineState::stopping);
     if (state == MachineState::hold) {
         hold_seen_ = held_ || door_;
@@ -184,32 +190,24 @@ void Session::watch_machine() {
     if (probed && probe.begun) put(probe_text());
     if (state != MachineState::error_stop) {
         stop_told_ = false;
-    } else if (!std::exchange(stop_told_, true) && !(doing_ && doing_->what == Doing::What::homing)) {
+    } else if (!std::exchange(stop_told_, true) && !(stopped_ && !has_alarm(machine_)) &&
+               !(doing_ && doing_->what == Doing::What::homing)) {
         held_ = door_ = hold_seen_ = false;
-        alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial) : number_of_stop(),
+        alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
+                                       : alarm_of_stop(machine_),
               true);
         say(machine_.status().why);
     }
 }
 
-int Session::number_of_stop() const {
-    for (const rack::RackAxis& axis : machine_.rack().config().axes)
-        if (limit_active(axis.letter)) return alarm_hard_limit;
-    return alarm_reset;
-}
-
-/// Contacts open when they act; an end that is not there does not.
-bool Session::contact_open(const std::string& wire) const {
-    const Result<double> level = machine_.wires().get(wire);
-    return level && *level == 0;
-}
-
-bool Session::limit_active(char letter) const {
-    return contact_open(fmt::format("{}.limit_minus", letter)) || contact_open(fmt::format("{}.limit_plus", letter));
+/// Drives are switched on by who wants to move them, not by who connects.
+void Session::energise() {
+    if (never_enabled_) (void)machine_.enable(true);
 }
 
 bool Session::locked() const {
-    if (alarm_ || machine_.state() == MachineState::error_stop || machine_.state() == MachineState::disabled)
+    const MachineState state = machine_.state();
+    if (alarm_ || stopped_ || state == MachineState::error_stop || (state == MachineState::disabled && !never_enabled_))
         return true;
     const auto& axes = machine_.rack().config().axes;
     return std::any_of(axes.begin(), axes.end(), [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
@@ -223,7 +221,7 @@ State Session::state() const {
     if (state == MachineState::jogging || (jogging_ && state == MachineState::stopping)) return State::jog;
     if (door_) return State::door;
     if (held_ || state == MachineState::hold) return State::hold;
-    if (brakes()) return State::run;
+    if (is_moving(machine_)) return State::run;
     return check_ ? State::check : State::idle;
 }
 

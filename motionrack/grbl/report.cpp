@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <motionrack/grbl/machine_view.hpp>
 #include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
@@ -32,13 +33,13 @@ std::string Session::state_text(State now) const {
         case State::run:
             return "Run";
         case State::hold:
-            return brakes() ? "Hold:1" : "Hold:0";
+            return is_moving(machine_) ? "Hold:1" : "Hold:0";
         case State::jog:
             return "Jog";
         case State::alarm:
             return "Alarm";
         case State::door:
-            return brakes() ? "Door:2" : "Door:0";
+            return is_moving(machine_) ? "Door:2" : "Door:0";
         case State::check:
             return "Check";
         case State::home:
@@ -79,7 +80,7 @@ void Session::report() {
                         intake_.room()));
     if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().line_driven())
         put(fmt::format("|Ln:{}", n_words_.front().second));
-    const double feed = own_.inches != 0 ? feed_now() / mm_per_inch : feed_now();
+    const double feed = own_.inches != 0 ? feed_now(machine_) / mm_per_inch : feed_now(machine_);
     put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
     put(pins());
     put(counted_reports(now));
@@ -117,8 +118,8 @@ std::string Session::pins() const {
     std::string out;
     if (const Result<double> probe = machine_.wires().get("probe"); probe && *probe != 0) out += 'P';
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
-        if (limit_active(control::axis_letters[axis])) out += control::axis_letters[axis];
-    if (contact_open("estop")) out += 'R';
+        if (limit_active(machine_, control::axis_letters[axis])) out += control::axis_letters[axis];
+    if (contact_open(machine_, "estop")) out += 'R';
     return out.empty() ? out : "|Pn:" + out;
 }
 
@@ -141,14 +142,6 @@ double Session::spindle_rpm() const {
     const operate::Status& status = machine_.status();
     if (status.spindle == control::gcode::Spindle::off || spindle_stopped_ || status.spindle_rpm == 0) return 0;
     return std::max(own_.least_rpm, std::min(own_.most_rpm, status.spindle_rpm * spindle_override_ / 100));
-}
-
-/// Along the path, mm/min; degrees/min where only rotary axes move.
-double Session::feed_now() const {
-    double linear = 0, rotary = 0;
-    for (const operate::AxisStatus& axis : machine_.status().axes)
-        (axis.rotary ? rotary : linear) += axis.speed * axis.speed;
-    return std::sqrt(linear > 0 ? linear : rotary) * 60;
 }
 
 std::string Session::modes_text() const {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/grbl/line_rules.hpp>
 #include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
@@ -13,17 +14,6 @@ using operate::MachineState;
 
 namespace {
 
-/// G codes that act once, and for which Grbl lets all motion before them come to its end.
-bool stands_first(int tenths) {
-    constexpr std::array<int, 8> codes = {40, 100, 281, 301, 920, 921, 922, 923};
-    return std::find(codes.begin(), codes.end(), tenths) != codes.end();
-}
-
-control::gcode::Spindle spindle_of(int code) {
-    using control::gcode::Spindle;
-    return code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
-}
-
 /// Those that the machine has for reasons of its own are a lock.
 int decimal_of(const Problem& problem) {
     return problem.status == GrblStatus::none ? int{error_locked} : static_cast<int>(problem.status);
@@ -34,7 +24,7 @@ int decimal_of(const Problem& problem) {
 Session::Session(operate::Machine& machine, SessionSettings settings)
     : machine_(machine), settings_(std::move(settings)) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
-    if (machine_.state() == MachineState::disabled) (void)machine_.enable(true);
+    never_enabled_ = machine_.state() == MachineState::disabled;
     watch_machine();
     out_.clear();
 }
@@ -58,8 +48,10 @@ void Session::receive(std::string_view bytes) {
 void Session::observe(std::string_view bytes) {
     for (const char c : bytes) {
         const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
-        if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
-            what == Realtime::door || what == Realtime::jog_cancel)
+        if (what == Realtime::reset && !settings_.onlookers_reset)
+            say("The reset of one who looks on was not carried out. ! holds the machine");
+        else if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
+                 what == Realtime::door || what == Realtime::jog_cancel)
             act(*what);
     }
     if (status_wanted_) report();
@@ -119,22 +111,8 @@ bool Session::must_wait(const Line& line) {
     if (!has_room()) return true;
     Block block;
     Problem problem;
-    return control::gcode::scan_line(text, {}, block, problem) && must_stand_first(block);
-}
-
-/// What Grbl does only when all motion before it is done.
-bool Session::must_stand_first(const Block& block) const {
-    using namespace control::gcode;
-    const Modes& modes = interpreter().modes();
-    if (block.has_m(m_stop)) return true;
-    if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
-    if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
-    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool[2] != 0))
-        return true;
-    if (block.has_m(m_spindle) && spindle_of(block.m[m_spindle]) != modes.spindle) return own_.laser == 0;
-    if (block.has('S') && block['S'] != modes.speed_rpm) return own_.laser == 0;
-    return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) ||
-           (block.has_m(m_coolant_off) && (modes.mist || modes.flood));
+    return control::gcode::scan_line(text, {}, block, problem) &&
+           must_stand_first(block, interpreter(), own_.laser != 0);
 }
 
 void Session::carry_out(const std::string& text) {
@@ -146,14 +124,6 @@ void Session::carry_out(const std::string& text) {
     if (error != answer_later) answer(error);
 }
 
-/// Grbl's words are fewer than those of the machine's reader.
-bool Session::grbl_has(const Block& block) const {
-    using namespace control::gcode;
-    const std::uint32_t others = settings_.axes > 3 ? letter_bit('B') | letter_bit('C') : rotary_words;
-    const bool cutter = block.has_g(g_cutter) && block.g[g_cutter] != 400;
-    return (block.words & others) == 0 && !block.has_m(m_tool) && !cutter;
-}
-
 int Session::gcode(const std::string& text) {
     using namespace control::gcode;
     const State now = state();
@@ -162,7 +132,7 @@ int Session::gcode(const std::string& text) {
     Block block;
     Problem problem;
     const bool good = scan_line(text, {}, block, problem);
-    if (good && !grbl_has(block)) return error_unsupported;
+    if (good && !grbl_has(block, settings_.axes)) return error_unsupported;
     const Outcome<void> read =
         check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
     if (!read) return refused(read.error());
@@ -186,6 +156,7 @@ control::gcode::Outcome<void> Session::give(const std::string& text, std::int32_
         problem.trouble = Trouble::refused;
         return tl::unexpected<Problem>(std::move(problem));
     }
+    energise();
     if (interpreter().modes().motion == control::gcode::no_motion && !was_g80_) (void)machine_.line("G0", line_number_);
     const auto read = machine_.line(text, line_number_ + 1);
     if (!read) return read;
@@ -211,6 +182,36 @@ bool Session::control() {
     return taken.has_value();
 }
 
+// ---- what others do
+
+/// A reset of a machine that stands has forgotten the modes in which waiting lines were meant.
+void Session::stopped(const operate::StopReport& report) {
+    if (resets_) return;
+    const bool waits = held_ || door_ || line_ || doing_;
+    if (report.releases && std::exchange(stopped_, false)) return say(report.text + " The sender may go on");
+    if (report.releases && !waits) return;
+    never_enabled_ = false;
+    lock(report.text);
+}
+
+void Session::lose_control(const std::string& to) {
+    if (operate::idle(machine_.state()) && !line_ && !doing_) return;
+    lock(fmt::format("{} has taken control", to.empty() ? "Somebody" : to));
+}
+
+/// Lines that wait are answered as all later ones: a line of which only the end is forgotten would be another line. A
+/// homing is alarmed when it has ended, a line past the travel as well.
+void Session::lock(std::string_view why) {
+    const bool locked_before = std::exchange(stopped_, true) || critical_;
+    held_ = door_ = hold_seen_ = false;
+    n_words_.clear();
+    const bool alarms_later =
+        doing_ && (doing_->what == Doing::What::homing || doing_->what == Doing::What::leaving_travel);
+    if (!locked_before && !alarms_later) put(fmt::format("ALARM:{}\r\n", int{alarm_reset}));
+    say(why);
+    if (doing_ && !alarms_later) finish_answer(error_locked);
+}
+
 // ---- answers that had to wait
 
 /// Whether the line before is done with.
@@ -229,6 +230,11 @@ bool Session::finish() {
         case Doing::What::homing:
             return finish_homing();
         case Doing::What::unlocking:
+            if (!std::exchange(doing_->declared, true)) {
+                (void)machine_.enable(true);
+                declare_positions();
+                return false;
+            }
             if (!doing_->silent) say("Caution: Unlocked");
             break;
     }

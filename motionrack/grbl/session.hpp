@@ -28,6 +28,11 @@ struct SessionSettings {
     int axes = 3;  ///< 3: X Y Z; 4: A too, as grblHAL reports it
     /// Good: this sender may move the machine at present. Empty: always.
     std::function<Result<void>()> take_control = {};
+    /// Good: a reset of this sender may stop what the machine does at present. Empty: always.
+    std::function<Result<void>()> may_stop = {};
+    /// Who this sender is, for those who hear of its reset.
+    std::function<operate::StopSource()> source = {};
+    bool onlookers_reset = false;  ///< resets of those who look on are this sender's
     /// A setting was changed, as a sentence.
     std::function<void(const std::string&)> on_setting = {};
 };
@@ -39,14 +44,21 @@ class Session {
   public:
     static constexpr std::size_t planner_blocks = 15;  ///< that a sender can fill
 
-    /// Enables a machine that is disabled: a Grbl has no such state. The machine must outlive this.
+    /// A machine that nobody has enabled is enabled by the first line that moves it: a Grbl has no such state. The
+    /// machine must outlive this.
     Session(operate::Machine& machine, SessionSettings settings);
 
     /// Somebody has connected: what was left of the one before is forgotten, the machine goes on. Sends the banner.
     void greet();
     void receive(std::string_view bytes);
-    /// From one who may only look on: reports and stops are served, all else is thrown away.
+    /// From one who may only look on: reports, holds and ends of jogs are served, resets where the settings say so; all
+    /// else is thrown away.
     void observe(std::string_view bytes);
+    /// Somebody has stopped or reset the machine: lines of the sender are refused until it unlocks or resets, for they
+    /// were meant to be driven behind what was dropped. At once, within the order.
+    void stopped(const operate::StopReport& report);
+    /// Another has taken control: the same, if the sender was at work.
+    void lose_control(const std::string& to);
     /// Every slice: lines that had to wait, answers that are due, alarms.
     void tick();
     /// What is to be sent, whole lines; empties it.
@@ -68,7 +80,7 @@ class Session {
         enum class What : std::uint8_t { moving, leaving_travel, homing, unlocking } what = What::moving;
         bool silent = false;  ///< the one who asked has gone
         bool program_ends = false;
-        bool declared = false;  ///< homing: the axes without a switch
+        bool declared = false;  ///< unlocking: the positions; homing: those of the axes without a switch
     };
     /// Which part of the banner is due.
     enum class Boot : std::uint8_t { done, greeting, reset };
@@ -78,13 +90,12 @@ class Session {
     bool settled() const;
     bool has_room() const;
     bool must_wait(const Line& line);
-    bool must_stand_first(const control::gcode::Block& block) const;
-    bool grbl_has(const control::gcode::Block& block) const;
     void carry_out(const std::string& text);
     int gcode(const std::string& text);
     control::gcode::Outcome<void> give(const std::string& text, std::int32_t n_word);
     int refused(const control::gcode::Problem& problem);
     bool control();
+    void lock(std::string_view why);
     bool finish();
     void finish_answer(int error);
     void end_program();
@@ -115,14 +126,11 @@ class Session {
     void hold();
     void open_door();
     void resume();
-    bool brakes() const;
     void reset();
     void begin_again(bool after_reset);
     void watch_machine();
-    int number_of_stop() const;
-    bool contact_open(const std::string& wire) const;
-    bool limit_active(char letter) const;
     bool locked() const;
+    void energise();
     // report.cpp
     void report();
     std::string state_text(State now) const;
@@ -134,7 +142,6 @@ class Session {
     std::string parameters_text() const;
     std::string probe_text() const;
     double spindle_rpm() const;
-    double feed_now() const;
     const control::gcode::Interpreter& interpreter() const {
         return check_ ? *check_ : machine_.stream().interpreter();
     }
@@ -154,6 +161,9 @@ class Session {
     int homing_alarm_ = alarm_homing_reset;  ///< of a homing that is broken off
     bool alarm_ = false;                     ///< until it is unlocked or homed
     bool critical_ = false;                  ///< until a reset
+    bool stopped_ = false;                   ///< by somebody else, until it is unlocked or reset
+    bool resets_ = false;                    ///< the stop that is told is its own
+    bool never_enabled_ = false;             ///< the machine, by anybody
     bool held_ = false, door_ = false, asleep_ = false;
     bool hold_seen_ = false;        ///< the machine has come to its hold
     bool jogging_ = false;          ///< the machine jogs, or brakes after it

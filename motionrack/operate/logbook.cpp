@@ -56,6 +56,16 @@ void Logbook::see(const Status& status) {
     if (!stands(status.state) && status.at - kept_ >= keep_every) keep(status);
 }
 
+void Logbook::stopped(const StopReport& report) {
+    if (report.releases) return;  // an order like any other
+    write(report.at, "stop", report.text,
+          json{{"who", report.source.who},
+               {"address", report.source.address},
+               {"kind", report.source.kind},
+               {"state", name_of(report.state)}}
+              .dump());
+}
+
 void Logbook::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {
     if (journal_ != nullptr) journal_->write(at, kind, text, data);
     if (told_) told_(at, kind, text, data);

@@ -27,6 +27,8 @@ class Logbook {
     Logbook(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
     /// Of every picture; writes what is another than in the one before.
     void see(const Status& status);
+    /// Of every stop that somebody ordered: who, from where, how.
+    void stopped(const StopReport& report);
 
   private:
     void see_state(const Status& status);

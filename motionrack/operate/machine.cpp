@@ -32,6 +32,21 @@ std::string_view name_of(MachineState state) {
 
 namespace {
 
+StopReport stop_report(Instant at, const StopSource& by, MachineState state, const std::string& at_work) {
+    const std::string who = by.who.empty() ? "" : " by " + by.who;
+    const std::string from = by.address.empty() ? "" : fmt::format(" ({})", by.address);
+    const std::string what =
+        idle(state) ? fmt::format("the machine was in state '{}'", name_of(state)) : at_work + " was stopped";
+    return {at, by, state, fmt::format("{}{}{}: {}.", by.kind, who, from, what), false};
+}
+
+/// The first of several says why it stands: a page sends its STOP on two ways.
+void tell_stop(const StopReport& report, std::string& why,
+               const std::vector<std::function<void(const StopReport&)>>& listeners) {
+    if (!idle(report.state) && (report.state != MachineState::stopping || why.empty())) why = report.text;
+    for (const auto& call : listeners) call(report);
+}
+
 rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& standing) {
     for (const Standing& one : standing)
         for (rack::RackAxis& axis : config.axes)
@@ -66,7 +81,10 @@ void Machine::post(std::function<void()> work) {
 
 void Machine::quit() {
     post([this] {
-        stop();
+        if (idle(state_))
+            stop();
+        else
+            stop({"", "", "Shutdown"});
         quit_ = true;
     });
 }
@@ -118,7 +136,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
 Result<void> Machine::enable(bool on, std::string_view axes) {
     for (const char letter : axes)
         MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
-    if (!on) stop();
+    if (!on) stop({"", "", "Disabling"});
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
         const auto i = static_cast<std::size_t>(axis.index());
@@ -181,7 +199,8 @@ Result<void> Machine::resume() {
     return {};
 }
 
-void Machine::stop() {
+void Machine::stop(const StopSource& by) {
+    const StopReport report = stop_report(now(), by, state_, at_work());
     walk_.reset();
     over_ = false;
     program_runs_ = false;
@@ -193,11 +212,15 @@ void Machine::stop() {
     if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging ||
         state_ == MachineState::hold)
         enter(MachineState::stopping);
+    if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
 }
 
-void Machine::reset() {
+void Machine::reset(const StopSource& by) {
+    StopReport report = stop_report(now(), by, state_, at_work());
+    report.releases = idle(state_);
     stop();
     reset_wanted_ = true;
+    if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
 }
 
 Result<void> Machine::jog(char axis, double speed) {

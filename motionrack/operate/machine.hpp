@@ -61,8 +61,12 @@ class Machine {
     // ---- the motion thread
     /// Works until quit().
     void run();
-    /// Somebody else who is to see every slice's status, on the motion thread. Before run().
-    void listen(std::function<void(const Status&)> call) { listeners_.push_back(std::move(call)); }
+    /// Somebody else who is to see every slice's status, and to hear of every stop and reset of a kind within the
+    /// order; on the motion thread. Before run().
+    void listen(std::function<void(const Status&)> call, std::function<void(const StopReport&)> on_stop = {}) {
+        listeners_.push_back(std::move(call));
+        if (on_stop) stop_listeners_.push_back(std::move(on_stop));
+    }
 
     // ---- orders, posted; refused ones (Trouble::refused) change nothing
     /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody.
@@ -75,10 +79,11 @@ class Machine {
     bool has_room() const { return stream_->has_room() && !program_runs_; }
     Result<void> hold();
     Result<void> resume();
-    /// Decelerates whatever moves, and forgets programs and lines. Never refused.
-    void stop();
+    /// Decelerates whatever moves, and forgets programs and lines. Never refused. An operator's has a source: all who
+    /// listen to stops hear of it at once, and the status says who it was.
+    void stop(const StopSource& by = {});
     /// Ends an error stop and forgets programs and modes; work offsets and positions stay. Stops if something moves.
-    void reset();
+    void reset(const StopSource& by = {});
     /// Jogs at `speed` a second (sign: direction) for as long as it is called again within 250 ms.
     Result<void> jog(char axis, double speed);
     /// Jogs by a distance.
@@ -203,6 +208,7 @@ class Machine {
     // told
     Status status_;
     std::vector<std::function<void(const Status&)>> listeners_;
+    std::vector<std::function<void(const StopReport&)>> stop_listeners_;
     std::int64_t next_alarm_ = 1;
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;

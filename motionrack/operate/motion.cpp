@@ -128,7 +128,7 @@ void Machine::come_to_rest() {
         for (Alarm& alarm : status_.alarms) alarm.active = false;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
-    if (state_ == MachineState::stopping) enter(MachineState::standstill);
+    if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.why);
     for (std::size_t i = 0; i < enabled_.size(); ++i)
         enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
     const bool any = std::find(enabled_.begin(), enabled_.end(), true) != enabled_.end();

@@ -13,7 +13,8 @@ namespace motionrack::panel {
 struct Caller {
     std::string user;
     authority::Role role = authority::Role::nobody;
-    std::string session;  ///< one connection or token: what holds the control lease
+    std::string session;       ///< one connection or token: what holds the control lease
+    std::string address = {};  ///< where it came from, for the journal
 };
 
 /// `status` as in HTTP: 200, 400 bad_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine, 503
@@ -33,7 +34,7 @@ Answer error_answer(const Error& error);
 struct Event {
     std::int64_t number = 0;  ///< from 1
     Instant at{};
-    std::string kind;  ///< alarm, state, job, order, setting
+    std::string kind;  ///< alarm, state, job, order, setting, stop
     std::string text;
     nlohmann::json data;
 };

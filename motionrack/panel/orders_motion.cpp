@@ -14,15 +14,16 @@ constexpr std::array control = {
     Doer{"take_control",
          [](Desk& desk, const Caller& caller, const json& fields) {
              return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false),
-                                          operate::idle(desk.machine.state())));
+                                          operate::stands(desk.machine.state())));
          }},
     Doer{"release_control",
          [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
     Doer{"keep_control",
          [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
     Doer{"stop",
-         [](Desk& desk, const Caller&, const json&) -> Result<json> {
-             desk.machine.stop();
+         [](Desk& desk, const Caller& caller, const json&) -> Result<json> {
+             desk.machine.stop({caller.user, caller.address, "STOP"});
+             desk.lease.revoke(caller.user, caller.session);
              return json::object();
          }},
 };

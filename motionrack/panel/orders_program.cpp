@@ -63,8 +63,8 @@ constexpr std::array program = {
     Doer{"hold", [](Desk& desk, const Caller&, const json&) { return taken(desk.machine.hold()); }},
     Doer{"resume", [](Desk& desk, const Caller&, const json&) { return taken(desk.machine.resume()); }},
     Doer{"reset",
-         [](Desk& desk, const Caller&, const json&) -> Result<json> {
-             desk.machine.reset();
+         [](Desk& desk, const Caller& caller, const json&) -> Result<json> {
+             desk.machine.reset({caller.user, caller.address, "Reset"});
              return json::object();
          }},
     Doer{"set_overrides",

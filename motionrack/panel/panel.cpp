@@ -38,7 +38,8 @@ class Panel::Inside {
             for (const Doer& doer : table) doers_[doer.name] = &doer;
         for (const std::span<const AskRow> table : {orders(), queries()})
             for (const AskRow& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
-        machine.listen([this](const operate::Status& status) { look(status); });
+        machine.listen([this](const operate::Status& status) { look(status); },
+                       [this](const operate::StopReport& report) { logbook_.stopped(report); });
         show(machine.status());
     }
 

@@ -107,7 +107,7 @@ constexpr std::array event_fields = {integer("since", 0, 9e15, "number of the la
                                      integer("limit", 1, 1000, "the newest ones; 200", false)};
 constexpr std::array journal_fields = {
     integer("since", 0, 9e15, "number of the last entry that is known", false),
-    text("kind", 32, "only these: run, job, order, state, alarm, position, setting", false),
+    text("kind", 32, "only these: run, job, order, stop, state, alarm, position, setting", false),
     integer("limit", 1, 10'000, "the newest ones; 100", false)};
 constexpr std::array invite_fields = {choice("role", "observe|operate|maintain", "what the code lets in to")};
 constexpr std::array unpair_fields = {text("user", 64, "whose tokens are void from now on")};
@@ -118,7 +118,12 @@ constexpr std::array order_rows = {
     AskRow{"release_control", Role::operate, false, {}, "Gives the control lease back."},
     AskRow{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
     AskRow{
-        "stop", Role::nobody, false, {}, "Decelerates whatever moves, and forgets programs and lines. Never refused."},
+        "stop",
+        Role::nobody,
+        false,
+        {},
+        "Decelerates whatever moves, and forgets programs and lines; senders go on only after $X, ^X or a reset, and "
+        "another's control ends. Never refused."},
     AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
     AskRow{"home", Role::operate, true, home_fields, "Searches home."},
     AskRow{"jog", Role::operate, true, jog_fields, "Jogs for as long as it is asked again within 250 ms."},

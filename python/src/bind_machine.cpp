@@ -91,7 +91,7 @@ void bind_orders(Class& c) {
     };
     plain("hold", [](Machine& machine) { return machine.hold(); });
     plain("resume", [](Machine& machine) { return machine.resume(); });
-    plain("stop", [](Machine& machine) { return machine.stop(), Done(); });
+    plain("stop", [](Machine& machine) { return machine.stop({"a program in Python", "", "STOP"}), Done(); });
     plain("reset", [](Machine& machine) { return machine.reset(), Done(); });
     c.def(
         "enable",

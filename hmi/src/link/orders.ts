@@ -1,7 +1,7 @@
 // Orders and queries by name; what is refused is shown as the sentence that the program gave.
 import { signal } from '@preact/signals';
 import { Refusal, ROLES, type Fields, type Reply, type Role } from './contract';
-import { ask } from './socket';
+import { ask, TOKEN_KEY } from './socket';
 import * as state from './state';
 
 export interface Notice {
@@ -50,10 +50,12 @@ export async function orderFor(name: string, fields: Fields = {}): Promise<Reply
 export const query = async <T>(name: string, fields: Fields = {}): Promise<T> =>
   (await ask({ ...fields, query: name })) as T;
 
-/** STOP goes both ways, by the stream and by HTTP, and needs neither token nor lease. */
+/** STOP goes both ways, by the stream and by HTTP, and needs neither token nor lease; a token says who it was. */
 export function stop(): void {
   ask({ order: 'stop' }).catch(() => undefined);
-  fetch('api/stop', { method: 'POST', keepalive: true }).then(
+  const token = localStorage.getItem(TOKEN_KEY);
+  const headers: Record<string, string> = token === null ? {} : { authorization: `Bearer ${token}` };
+  fetch('api/stop', { method: 'POST', keepalive: true, headers }).then(
     (answer) => {
       if (!answer.ok)
         notice('refused', 'STOP did not reach the program by HTTP. If the machine moves, use its emergency stop.');

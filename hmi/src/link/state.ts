@@ -50,6 +50,8 @@ export const openAlarms = computed(() =>
   (status.value?.alarms ?? []).filter((alarm) => alarm.active || !alarm.acknowledged),
 );
 export const standsStill = computed(() => ['standstill', 'disabled', 'error stop'].includes(machineState.value));
+/** Whether control may be taken from its holder. */
+export const mayBeTakenOver = computed(() => standsStill.value || machineState.value === 'hold');
 
 /** This tab holds control. */
 export const inControl = computed(() => {

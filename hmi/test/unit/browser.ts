@@ -56,6 +56,7 @@ export class FakeSelect extends FakeElement {}
 interface Post {
   path: string;
   body: unknown;
+  authorization: string | undefined;
 }
 
 export class Browser {
@@ -86,8 +87,9 @@ export class Browser {
     };
   }
 
-  fetch(path: string, request: { body?: string }): Promise<unknown> {
-    this.posts.push({ path, body: request.body === undefined ? undefined : JSON.parse(request.body) });
+  fetch(path: string, request: { body?: string; headers?: Record<string, string> }): Promise<unknown> {
+    const body: unknown = request.body === undefined ? undefined : JSON.parse(request.body);
+    this.posts.push({ path, body, authorization: request.headers?.authorization });
     const answer = this.http;
     if (answer instanceof Error) return Promise.reject(answer);
     return Promise.resolve({ ...answer, json: () => Promise.resolve(answer.body) });

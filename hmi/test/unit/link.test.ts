@@ -109,6 +109,16 @@ describe('control', () => {
     expect(program.asked('take_control')).toEqual([{ order: 'take_control', force: true }]);
   });
 
+  test('is taken from another user by force in a hold', async () => {
+    const { program } = await connected({
+      machine: { state: 'hold', control: { holder: 'bert', holder_session: 's' } },
+    });
+    const { takeControl, whyNotControl } = await control();
+    expect(whyNotControl()).toBe('');
+    takeControl();
+    expect(program.asked('take_control')).toEqual([{ order: 'take_control', force: true }]);
+  });
+
   test('is not taken from another user while the machine moves', async () => {
     await connected({ machine: { state: 'moving', control: { holder: 'bert', holder_session: 's' } } });
     expect((await control()).whyNotControl()).toMatch(/^bert holds control and the machine moves/);

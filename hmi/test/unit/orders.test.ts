@@ -108,6 +108,13 @@ describe('STOP', () => {
     expect(await texts()).toEqual([]);
   });
 
+  test('says by HTTP, too, who it was', async () => {
+    const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
+    (await orders()).stop();
+    await settled();
+    expect(browser.posts.map((one) => one.authorization)).toEqual(['Bearer T1']);
+  });
+
   test('goes by HTTP where there is no stream, and says nothing if it arrived', async () => {
     const browser = openBrowser();
     (await orders()).stop();

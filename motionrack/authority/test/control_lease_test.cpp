@@ -40,6 +40,27 @@ TEST_F(AControlLease, IsTakenOverByForceAtAStandstillOnly) {
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("Control is with bert"));
 }
 
+TEST_F(AControlLease, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
+    ASSERT_TRUE(take("anna", "a"));
+    lease.left("a");
+    EXPECT_TRUE(lease.holder()->left);
+    EXPECT_THAT(take("bert", "b", false, false).error().message, HasSubstr("anna has it"));
+    EXPECT_TRUE(take("bert", "b", true, false));
+    EXPECT_FALSE(lease.holder()->left);
+}
+
+TEST_F(AControlLease, EndsWithTheStopOfAnotherButNotWithItsHolders) {
+    ASSERT_TRUE(take("anna", "a"));
+    EXPECT_FALSE(lease.revoke("anna", "a"));
+    EXPECT_FALSE(lease.revoke("anna", "")) << "the same user, by HTTP";
+    EXPECT_TRUE(lease.revoke("anna", "a2")) << "two pages of one user are two masters";
+    EXPECT_FALSE(lease.holder());
+    EXPECT_FALSE(lease.revoke("bert", "b")) << "there is nothing to end";
+    ASSERT_TRUE(take("anna", "a"));
+    EXPECT_TRUE(lease.revoke("", "")) << "of nobody who is known";
+    EXPECT_THAT(lease.check("a").error().message, HasSubstr("Take control first"));
+}
+
 TEST_F(AControlLease, EndsTenSecondsAfterTheLastSignOfLife) {
     ASSERT_TRUE(take("anna", "a"));
     now += 9s;

@@ -29,6 +29,7 @@ struct ServeOptions {
     std::optional<std::uint16_t> grbl_port;
     std::string grbl_terminal;
     int grbl_axes = 3;
+    bool grbl_resets_stop_all = false;
     std::vector<std::string> hosts, origins;
     double speed = 1;
     bool free = false, paused = false, no_pairing = false;
@@ -137,6 +138,7 @@ class Serving {
         settings.port = options_.grbl_port;
         settings.link = options_.grbl_terminal;
         settings.axes = options_.grbl_axes;
+        settings.resets_stop_all = options_.grbl_resets_stop_all;
         return settings;
     }
 
@@ -231,6 +233,8 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_option("--grbl-axes", options->grbl_axes, "axes that senders see: 3 (X Y Z), or 4 with A, as grblHAL")
         ->check(CLI::Range(3, 4))
         ->capture_default_str();
+    command->add_flag("--grbl-resets-stop-all", options->grbl_resets_stop_all,
+                      "a reset (^X) of any sender stops the machine, also where another drives it");
     command->footer(
         "Example: motionrack serve router.toml --journal router.journal\nThe address that is printed carries a code "
         "that lets its first user in; see docs/howto/serve.md.\n"

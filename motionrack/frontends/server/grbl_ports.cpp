@@ -2,17 +2,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
+#include <motionrack/authority/rate_limit.hpp>
 #include <motionrack/frontends/server/grbl_line.hpp>
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
-#include <motionrack/grbl/session.hpp>
+#include <motionrack/frontends/server/sender_port.hpp>
+#include <motionrack/grbl/introduction.hpp>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -25,82 +26,17 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-/// A page in a browser can send a request to any port of this computer, but not choose how it begins. No line of a
-/// sender begins so.
-bool is_http(std::string_view bytes) {
-    constexpr std::array<std::string_view, 8> methods = {"GET ",     "POST ",   "PUT ",   "HEAD ",
-                                                         "OPTIONS ", "DELETE ", "PATCH ", "CONNECT "};
-    return std::any_of(methods.begin(), methods.end(),
-                       [&](std::string_view method) { return bytes.substr(0, method.size()) == method; });
-}
-
-/// One of the two ports: its Grbl, which lives on the motion thread, and who writes to it.
-class Port : public std::enable_shared_from_this<Port> {
-  public:
-    Port(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings)
-        : machine_(machine), lease_(lease) {
-        grbl::SessionSettings session;
-        session.axes = settings.axes;
-        session.take_control = [this] { return take_control(); };
-        if (settings.on_setting)
-            session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };
-        session_ = std::make_unique<grbl::Session>(machine, std::move(session));
-    }
-
-    /// Where output goes; on the motion thread. Set before Machine::run.
-    std::function<void(Said)> send;
-
-    // ---- from the network thread
-    void came(const std::string& user, const std::string& id) {
-        machine_.post([self = shared_from_this(), user, id] {
-            self->user_ = user;
-            self->id_ = id;
-            self->flush();
-            self->session_->greet();
-            self->flush(true);
-        });
-    }
-    void left() {
-        machine_.post([self = shared_from_this()] { self->lease_.left(self->id_); });
-    }
-    /// `then`: on the motion thread, when these bytes were heard.
-    void hear(std::string bytes, bool writer, std::function<void()> then) {
-        machine_.post([self = shared_from_this(), bytes = std::move(bytes), writer, then = std::move(then)] {
-            if (writer) {
-                (void)self->lease_.keep(self->id_);
-                self->session_->receive(bytes);
-            } else {
-                self->session_->observe(bytes);
-            }
-            self->flush();
-            then();
-        });
-    }
-
-    // ---- the motion thread
-    void tick() {
-        session_->tick();
-        flush();
-    }
-
-  private:
-    void flush(bool greets = false) {
-        if (std::string out = session_->take_output(); !out.empty())
-            send({std::make_shared<const std::string>(std::move(out)), greets});
-    }
-    Result<void> take_control() {
-        if (lease_.check(id_)) return {};
-        return lease_.take(user_, id_, true, operate::idle(machine_.state()));
-    }
-
-    operate::Machine& machine_;
-    authority::ControlLease& lease_;
-    std::unique_ptr<grbl::Session> session_;
-    std::string user_ = "a sender", id_ = "grbl";  ///< of who writes
-};
-
 using TcpLine = SenderLine<tcp::socket>;
 using TerminalLine = SenderLine<asio::posix::stream_descriptor>;
+
+/// Who has connected by TCP.
+struct Visitor {
+    std::shared_ptr<TcpLine> line;
+    std::string address;
+    std::chrono::steady_clock::time_point since;
+    grbl::Introduction introduction;
+    bool is_sender = false;  ///< it has spoken as one
+};
 
 }  // namespace
 
@@ -130,12 +66,13 @@ class GrblPorts::Inside {
 
   private:
     /// Output comes from the motion thread, which may outlive the network.
-    std::shared_ptr<Port> make_port(std::function<void(const Said&)> send) {
-        auto port = std::make_shared<Port>(machine_, lease_, settings_);
+    std::shared_ptr<SenderPort> make_port(std::function<void(const Said&)> send) {
+        auto port = std::make_shared<SenderPort>(machine_, lease_, settings_);
         port->send = [io = io_, send = std::move(send)](Said said) {
             asio::post(*io, [send, said = std::move(said)] { send(said); });
         };
-        machine_.listen([port](const operate::Status&) { port->tick(); });
+        machine_.listen([port](const operate::Status&) { port->tick(); },
+                        [port](const operate::StopReport& report) { port->stopped(report); });
         return port;
     }
     /// Reads on when the motion thread has heard what came.
@@ -184,39 +121,79 @@ class GrblPorts::Inside {
     void accept(tcp::socket socket) {
         error_code trouble;
         const tcp::endpoint from = socket.remote_endpoint(trouble);
-        if (trouble || lines_.size() > settings_.observers) return;
+        if (trouble || !make_room()) return;
         socket.set_option(tcp::no_delay(true), trouble);
-        auto line = std::make_shared<TcpLine>(std::move(socket), settings_.waiting);
-        lines_.push_back(line);
-        line->on_end = [this, raw = line.get()] { gone(raw); };
-        line->on_bytes = [this, raw = line.get(), first = true](std::string bytes) mutable {
-            if (std::exchange(first, false) && is_http(bytes)) return raw->end();
-            tcp_port_->hear(std::move(bytes), raw == writer_, reading_on(raw->shared_from_this()));
-        };
-        if (writer_ == nullptr) {
-            writer_ = line.get();
-            line->awaits_greeting = true;
-            name_tcp_sender(fmt::format("tcp {}:{}", from.address().to_string(), from.port()));
-            tcp_port_->came(fmt::format("sender {}:{}", from.address().to_string(), from.port()),
-                            fmt::format("grbl-tcp-{}", ++connections_));
-        } else {
-            line->write({std::make_shared<const std::string>(
-                "[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n")});
-        }
-        line->read_on();
+        auto visitor = std::make_shared<Visitor>();
+        visitor->line = std::make_shared<TcpLine>(std::move(socket), settings_.waiting);
+        visitor->address = fmt::format("{}:{}", from.address().to_string(), from.port());
+        visitor->since = std::chrono::steady_clock::now();
+        visitors_.push_back(visitor);
+        visitor->line->on_end = [this, raw = visitor.get()] { gone(raw); };
+        visitor->line->on_bytes = [this, raw = visitor.get()](std::string bytes) { heard(*raw, std::move(bytes)); };
+        if (writer_ == nullptr)
+            let_write(*visitor);
+        else
+            let_look_on(*visitor);
+        visitor->line->read_on();
     }
-    void gone(TcpLine* line) {
-        if (line == writer_) {
+    /// Who has not spoken as a sender goes, the oldest first, when there are too many.
+    bool make_room() {
+        if (visitors_.size() <= settings_.observers) return true;
+        const auto oldest =
+            std::find_if(visitors_.begin(), visitors_.end(), [](const auto& visitor) { return !visitor->is_sender; });
+        if (oldest == visitors_.end()) return false;
+        const auto line = (*oldest)->line;
+        line->end();
+        return true;
+    }
+    /// Nothing acts before it is known that a sender speaks.
+    void heard(Visitor& visitor, std::string bytes) {
+        using Verdict = grbl::Introduction::Verdict;
+        if (!visitor.is_sender) {
+            const Verdict verdict = visitor.introduction.hear(bytes);
+            if (verdict == Verdict::stranger) return turn_away(visitor);
+            if (verdict == Verdict::open) return visitor.line->read_on();
+            visitor.is_sender = true;
+            bytes = visitor.introduction.take_bytes();
+            if (writer_ != &visitor && is_seat_free()) let_write(visitor);
+        }
+        tcp_port_->hear(std::move(bytes), &visitor == writer_, reading_on(visitor.line));
+    }
+    bool is_seat_free() const {
+        return writer_ == nullptr ||
+               (!writer_->is_sender && std::chrono::steady_clock::now() - writer_->since >= settings_.silence);
+    }
+    void turn_away(Visitor& visitor) {
+        if (settings_.on_stranger && strangers_.take("", std::chrono::steady_clock::now()))
+            settings_.on_stranger(visitor.address);
+        const auto line = visitor.line;  // it ends with its visitor
+        line->end();
+    }
+    void let_write(Visitor& visitor) {
+        if (writer_ != nullptr) let_look_on(*writer_);
+        writer_ = &visitor;
+        visitor.line->awaits_greeting = true;
+        name_tcp_sender("tcp " + visitor.address);
+        tcp_port_->came("sender " + visitor.address, visitor.address, fmt::format("grbl-tcp-{}", ++connections_));
+    }
+    void let_look_on(Visitor& visitor) {
+        visitor.line->awaits_greeting = false;
+        visitor.line->write({std::make_shared<const std::string>(
+            settings_.resets_stop_all
+                ? "[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n"
+                : "[MSG:Another sender writes here. This one looks on; of it only ? and ! are heard]\r\n")});
+    }
+    void gone(Visitor* visitor) {
+        if (visitor == writer_) {
             writer_ = nullptr;
             name_tcp_sender("");
             tcp_port_->left();
         }
-        lines_.erase(std::remove_if(lines_.begin(), lines_.end(), [&](const auto& one) { return one.get() == line; }),
-                     lines_.end());
+        std::erase_if(visitors_, [&](const auto& one) { return one.get() == visitor; });
     }
     void broadcast(const Said& said) {
-        for (const auto& line : std::vector<std::shared_ptr<TcpLine>>(lines_))
-            if (!line->write(said)) line->end();
+        for (const auto& visitor : std::vector<std::shared_ptr<Visitor>>(visitors_))
+            if (!visitor->line->write(said)) visitor->line->end();
     }
     void name_tcp_sender(std::string name) {
         const std::lock_guard<std::mutex> alone(lock_);
@@ -272,7 +249,7 @@ class GrblPorts::Inside {
         terminal_line_->forget_waiting();
         terminal_->forget_unread();
         name_terminal_sender(true);
-        terminal_port_->came("sender on " + settings_.link, fmt::format("grbl-pty-{}", ++connections_));
+        terminal_port_->came("sender on " + settings_.link, settings_.link, fmt::format("grbl-pty-{}", ++connections_));
     }
     void name_terminal_sender(bool there) {
         const std::lock_guard<std::mutex> alone(lock_);
@@ -286,9 +263,10 @@ class GrblPorts::Inside {
     tcp::acceptor acceptor_{*io_};
     asio::steady_timer pause_{*io_};
     asio::posix::stream_descriptor watch_{*io_};
-    std::shared_ptr<Port> tcp_port_, terminal_port_;
-    std::vector<std::shared_ptr<TcpLine>> lines_;
-    TcpLine* writer_ = nullptr;
+    std::shared_ptr<SenderPort> tcp_port_, terminal_port_;
+    std::vector<std::shared_ptr<Visitor>> visitors_;  ///< in the order in which they came
+    Visitor* writer_ = nullptr;
+    authority::RateLimit strangers_{1, 1};
     /// What a client wrote may come a little after it has gone. Nobody is heard or greeted so soon after another,
     /// who may still write into the void.
     static constexpr std::chrono::milliseconds settling{50};

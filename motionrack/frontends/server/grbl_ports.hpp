@@ -1,13 +1,16 @@
 // Where G-code senders connect: a TCP port of this computer, and a pseudo-terminal that looks like a controller on a
 // serial line.
 //
-//   sender ──TCP──► 127.0.0.1:PORT ─┐                          one sender writes, others look on:
-//   sender ──serial──► LINK ─► pts ─┴─► grbl::Session ─► operate::Machine     their ? ! and resets are heard
+//   sender ──TCP──► 127.0.0.1:PORT ──grbl::Introduction─┐
+//   sender ──serial──► LINK ─► pts ─────────────────────┴─► grbl::Session ─► operate::Machine
 //
-// Each of the two is a Grbl of its own on the same machine; which of them may move it is the control lease's matter.
-// The port has neither pairing nor encryption, so it is there for programs of this computer only.
+// One sender writes to the TCP port, others look on; their ? and ! are heard. Each of the two is a Grbl of its own on
+// the same machine; which of them may move it is the control lease's matter. The port has neither pairing nor
+// encryption, so it is there for programs of this computer only; of what connects to it nothing is heard that does not
+// begin as a sender does. The pseudo-terminal is its owner's alone.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,8 +28,13 @@ struct GrblPortSettings {
     int axes = 3;               ///< 3 or 4 that are reported, see grbl::SessionSettings
     std::size_t observers = 8;  ///< beside the one who writes
     std::size_t waiting = std::size_t{1} << 20;  ///< bytes for a client that does not read; with more it is let go
+    bool resets_stop_all = false;  ///< also what others than the sender drive, and the resets of those who look on
+    /// Who has the port, and says nothing for so long, loses it to the next who speaks.
+    std::chrono::milliseconds silence{10'000};
     /// A sender changed a setting: a sentence. On the motion thread; must not wait.
     std::function<void(const std::string& sender, const std::string& text)> on_setting = {};
+    /// A connection was closed, for it is no sender's: its address. Once a second at most; on the network thread.
+    std::function<void(const std::string& address)> on_stranger = {};
 };
 
 class GrblPorts {

@@ -70,6 +70,7 @@ Result<PseudoTerminal> PseudoTerminal::open(const std::string& link) {
     out.name_ = name.data();
     out.slave_ = OpenFile(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
     if (out.slave_.number() < 0) return failed(out.name_);
+    if (::fchmod(out.slave_.number(), S_IRUSR | S_IWUSR) != 0) return failed(out.name_);
     termios line{};
     if (::tcgetattr(out.slave_.number(), &line) != 0) return failed(out.name_);
     ::cfmakeraw(&line);

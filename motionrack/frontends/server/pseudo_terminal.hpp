@@ -21,7 +21,7 @@ class OpenFile {
 };
 
 /// The master's end is ours; the other is held open too, or who comes after the first client would find the line hung
-/// up. It is raw: no echo, no line ends changed; a baud rate that is set means nothing.
+/// up. It is raw: no echo, no line ends changed; a baud rate that is set means nothing. Only its owner may open it.
 class PseudoTerminal {
   public:
     /// `link`: a symbolic link to the other end, replaced if there is one. Errors: io, also where something else is in

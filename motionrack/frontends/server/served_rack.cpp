@@ -23,10 +23,18 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
     MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings.machine)));
     MOTIONRACK_TRY(door_, authority::Doorkeeper::open(std::move(settings.door)));
     if (settings.grbl) {
-        if (journal_ != nullptr)
+        if (journal_ != nullptr) {
             settings.grbl->on_setting = [this](const std::string& sender, const std::string& text) {
                 journal_->write(machine_->now(), "setting", fmt::format("{}: {}", sender, text));
             };
+            settings.grbl->on_stranger = [this](const std::string& address) {
+                machine_->post([this, address] {
+                    journal_->write(
+                        machine_->now(), "audit",
+                        fmt::format("{} at the port for senders: closed, for no sender begins so", address));
+                });
+            };
+        }
         MOTIONRACK_TRY(grbl_, GrblPorts::open(*settings.grbl, *machine_, lease_));
     }
     settings.panel.version = settings.server.version = settings.version;

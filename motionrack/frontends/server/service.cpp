@@ -17,6 +17,11 @@ HttpAnswer with(HttpAnswer answer, std::string field, std::string value) {
     return answer;
 }
 
+/// Empty: the head shows none.
+std::string token_of(const Head& head) {
+    return head.authorization.substr(0, 7) == "Bearer " ? head.authorization.substr(7) : "";
+}
+
 }  // namespace
 
 bool is_query(const panel::AskRow& row) {
@@ -67,7 +72,10 @@ Admission Service::admit(const Head& head) {
     if (target->path == "/api/stop") {
         if (head.method != "POST")
             return answer(with(http_error(405, "bad_input", "STOP is asked for with POST."), "Allow", "POST"));
-        stop({}, head.peer.address);
+        panel::Caller caller;
+        if (const std::string token = token_of(head); !token.empty())
+            if (const auto known = door_.who(token, now().wall)) caller.user = known->user;
+        stop(std::move(caller), head.peer.address);
         return answer(http_answer(panel::done()));
     }
     if (auto refused = refuse(head)) return answer(std::move(*refused));
@@ -106,8 +114,7 @@ Admission Service::admit_api(const Head& head, const Target& target) {
     out.caller.role = role_without_token(head.peer);
     out.caller.session = std::string("h");
     if (!head.authorization.empty()) {
-        const std::string bearer = head.authorization.substr(0, 7);
-        const auto who = this->who(bearer == "Bearer " ? head.authorization.substr(7) : "", head.peer);
+        const auto who = this->who(token_of(head), head.peer);
         if (!who) return answer(http_error(401, "denied", who.error().sentence));
         out.caller = {who->user, who->role, fmt::format("t{}", who->id)};
     }
@@ -199,7 +206,7 @@ authority::Admitted<authority::Identity> Service::who(const std::string& token, 
 
 // ---- orders and queries
 
-void Service::ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row, const json& fields,
+void Service::ask(panel::Caller caller, const std::string& address, const panel::AskRow& row, const json& fields,
                   std::function<void(panel::Answer)> reply) {
     // The motion thread answers queries: many connections together must not keep it from its work.
     if (is_query(row) && !requests_.take(fmt::format("queries of {}", address), now().steady))
@@ -208,6 +215,7 @@ void Service::ask(const panel::Caller& caller, const std::string& address, const
             fmt::format(
                 "More than {:g} queries a second came from this address. Nothing was looked up; ask less often.",
                 settings_.limits.requests_per_second)));
+    caller.address = address;
     panel_.ask(caller, row.name, fields,
                [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address,
                 passing = row.passing, what = std::string(row.name)](panel::Answer answer) {
@@ -218,7 +226,8 @@ void Service::ask(const panel::Caller& caller, const std::string& address, const
                });
 }
 
-void Service::stop(const panel::Caller& caller, const std::string& address) {
+void Service::stop(panel::Caller caller, const std::string& address) {
+    caller.address = address;
     panel_.stop(caller);
     audit(caller.user, address, "stop", panel::done());
 }

@@ -67,10 +67,10 @@ class Service {
 
     // ---- WebSocket
     /// Asks the panel; `reply` is called once, on the network thread. Written into the audit unless it is a query.
-    void ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row,
-             const nlohmann::json& fields, std::function<void(panel::Answer)> reply);
+    void ask(panel::Caller caller, const std::string& address, const panel::AskRow& row, const nlohmann::json& fields,
+             std::function<void(panel::Answer)> reply);
     /// STOP. Never refused, never counted.
-    void stop(const panel::Caller& caller, const std::string& address);
+    void stop(panel::Caller caller, const std::string& address);
     /// The role of who comes without a token.
     authority::Role role_without_token(const Peer& peer) const {
         return peer.loopback ? settings_.loopback_role : authority::Role::nobody;

@@ -55,6 +55,8 @@ class Bench {
         auto made = operate::Machine::make(config, std::move(machine_settings));
         EXPECT_TRUE(made) << made.error().message;
         machine = std::move(*made);
+        machine->listen([](const operate::Status&) {},
+                        [this](const operate::StopReport& report) { session->stopped(report); });
         session = std::make_unique<Session>(*machine, std::move(settings));
         thread_ = std::thread([this] { machine->run(); });
         pass(0.01);

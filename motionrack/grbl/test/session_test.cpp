@@ -152,6 +152,30 @@ TEST(AGrblPort, JogsInMachineCoordinatesWithG53) {
     EXPECT_NEAR(b.axis(0), 3, 1e-3);
 }
 
+TEST(AGrblPort, EnablesNoDriveBeforeALineMovesIt) {
+    Bench b(three_axes());
+    b.session->greet();
+    EXPECT_EQ(b.ask("\x18\n$$\n$G\n?").find("Alarm"), std::string::npos);
+    EXPECT_EQ(b.machine->state(), operate::MachineState::disabled);
+    EXPECT_EQ(b.ask("$J=X1 F600\n"), "ok\r\n");
+    EXPECT_EQ(b.machine->state(), operate::MachineState::jogging);
+}
+
+TEST(AGrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
+    SessionSettings settings;
+    settings.may_stop = []() -> Result<void> { return fail(Trouble::refused, "Anna drives."); };
+    Bench b(three_axes(), settings);
+    EXPECT_EQ(b.ask("G1 X100 F3000\nG4 P1\n", 0.1), "ok\r\n");
+    EXPECT_EQ(b.ask("\x18", 0.1), banner + "[MSG:Anna drives.]\r\n");
+    EXPECT_EQ(b.machine->state(), operate::MachineState::moving);
+    b.session->observe("\x18");
+    EXPECT_THAT(b.ask("", 0.1), StartsWith("[MSG:The reset of one who looks on"));
+    EXPECT_EQ(b.machine->state(), operate::MachineState::moving);
+    b.until_idle();
+    EXPECT_NEAR(b.axis(0), 100, 1e-3);
+    EXPECT_EQ(b.ask("\x18", 0.1), banner) << "of a machine that stands it is its own";
+}
+
 class AJogThatIsCancelled : public testing::TestWithParam<const char*> {};
 TEST_P(AJogThatIsCancelled, StopsAndGoesOnFromThere) {
     Bench b(three_axes());
@@ -310,6 +334,7 @@ TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     EXPECT_EQ(b.ask("$10=3\n"), said + "error:9\r\n");
     EXPECT_EQ(b.ask("\x91"), said);
     EXPECT_EQ(b.ask("$G\n"), "[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\nok\r\n");
+    ASSERT_TRUE(b.machine->enable(true));
     ASSERT_TRUE(b.machine->line("G1 X100 F3000", 1));
     b.pass(0.5);
     EXPECT_THAT(b.report(), StartsWith("<Run|"));
@@ -323,6 +348,7 @@ TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
 
 TEST(AGrblPort, FollowsWhatOthersDoWithTheMachine) {
     Bench b(three_axes());
+    ASSERT_TRUE(b.machine->enable(true));
     ASSERT_TRUE(b.machine->begin_program("G1 X50 F3000\nG1 X0\nM2\n", "panel.ngc"));
     b.pass(0.2);
     EXPECT_THAT(b.report(), StartsWith("<Run|"));
@@ -335,7 +361,7 @@ TEST(AGrblPort, FollowsWhatOthersDoWithTheMachine) {
     b.pass(0.5);
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
     ASSERT_TRUE(b.machine->enable(false));
-    b.pass(0.1);
+    EXPECT_THAT(b.ask("", 0.1), AllOf(StartsWith("ALARM:3\r\n[MSG:Disabling"), EndsWith("]\r\n")));
     EXPECT_THAT(b.report(), StartsWith("<Alarm|"));
     EXPECT_EQ(b.ask("$X\n", 0.1), "[MSG:Caution: Unlocked]\r\nok\r\n");
 }

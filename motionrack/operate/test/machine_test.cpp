@@ -100,6 +100,24 @@ TEST(AMachine, HoldsAProgramOnItsPathAndResumesIt) {
     EXPECT_NEAR(o.y(), 20, 0.5 / 640);
 }
 
+TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.line("G1 X11 F600", 1));
+        EXPECT_TRUE(m.line("M0", 2));
+    });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        m.stop({"anna", "", "STOP"});
+    });
+    o.at(0.7, [](Machine& m) {
+        EXPECT_EQ(m.status().why, "STOP by anna: line 1 was stopped.");
+        EXPECT_TRUE(m.line("G1 X12 F600", 3));
+    });
+    o.run(1.2);
+    EXPECT_NEAR(o.x(), 12, 1e-3);
+}
+
 TEST(AMachine, StoppedStandsAndTheNextLineBeginsThere) {
     Operated o(two_axes());
     double stopped_x = 0;

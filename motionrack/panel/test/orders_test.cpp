@@ -128,6 +128,45 @@ TEST(AnOperator, SeesAnAlarmAcknowledgesItAndResets) {
     EXPECT_THAT(kinds, testing::IsSupersetOf({"alarm", "state", "order"}));
 }
 
+/// What streams lines without looking would go on behind those that were dropped.
+TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
+    Asked a(two_axes());
+    std::vector<std::string> stops;
+    a.panel->on_event([&](const Event& event) {
+        if (event.kind == "stop") stops.push_back(event.data["who"].get<std::string>() + ": " + event.text);
+    });
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    a.good(0.3, "line", {{"text", "G1 X60 F1200"}});
+    a.at(0.6, bert, "stop");
+    a.at(0.6, anna, "line", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
+    a.at(0.8, eve, "status", json::object(), [](const Answer& answer) {
+        EXPECT_EQ(answer.body["status"]["why"], "STOP by bert: line 1 was stopped.") << answer.body.dump();
+    });
+    a.at(1, anna, "line", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
+    a.good(1.2, "take_control");
+    a.good(1.3, "stop");
+    a.good(1.4, "line", {{"text", "G1 X60 F1200"}});
+    a.run(2);
+    EXPECT_THAT(stops, testing::ElementsAre("bert: STOP by bert: line 1 was stopped.",
+                                            "anna: STOP by anna: the machine was in state 'standstill'.",
+                                            testing::HasSubstr(": Shutdown")));
+}
+
+TEST(Control, IsTakenOverInAHold) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    a.good(0.3, "line", {{"text", "G1 X60 F1200"}});
+    a.good(0.6, "hold");
+    a.at(1, bert, "take_control", json::object(), refused(409, "anna"));
+    a.at(1.1, bert, "take_control", {{"force", true}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200); });
+    a.at(1.2, anna, "resume", json::object(), refused(409, "bert"));
+    a.at(1.3, bert, "resume", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.status, 200); });
+    a.run(6);
+    EXPECT_NEAR(a.x(), 60, 1e-3);
+}
+
 TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
     Asked a(two_axes());
     a.good(0.1, "take_control");

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/rack/config.hpp>
@@ -20,6 +21,7 @@
 namespace motionrack::server {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -116,6 +118,11 @@ class SenderPorts : public testing::Test {
         const std::lock_guard lock(told_mutex_);
         return told_;
     }
+    operate::MachineState state() {
+        std::promise<operate::MachineState> out;
+        machine_->post([&] { out.set_value(machine_->state()); });
+        return out.get_future().get();
+    }
     Client tcp() { return Client::tcp(ports_->port()); }
     Client terminal() { return Client::terminal(settings_.link); }
 
@@ -179,7 +186,7 @@ TEST_F(SenderPorts, KeepTheTerminalRaw) {
     EXPECT_EQ(client.ask("\r\n", "ok\r\nok\r\n"), "ok\r\nok\r\n");  // each of the two ends a line
 }
 
-TEST_F(SenderPorts, LetOthersLookOnAndStopButNotWrite) {
+TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
     start();
     Client writer = tcp();
     writer.hear(banner);
@@ -188,10 +195,24 @@ TEST_F(SenderPorts, LetOthersLookOnAndStopButNotWrite) {
     other.say("G1 X50 F60\n$X\n");
     EXPECT_THAT(other.ask("?", ">\r\n"), HasSubstr("<Idle|MPos:0.000"));
     EXPECT_THAT(writer.hear(">\r\n"), HasSubstr("<Idle|MPos:0.000"));
-    EXPECT_EQ(writer.ask("G1 X300 F600\n"), "ok\r\n");
-    EXPECT_EQ(other.hear("ok\r\n"), "ok\r\n");
+    writer.say("G4 P100000\n");
+    EXPECT_THAT(writer.until("Run"), HasSubstr("<Run"));
+    EXPECT_THAT(other.ask("\x18", "machine]\r\n"), HasSubstr("[MSG:The reset of one who looks on"));
+    EXPECT_THAT(writer.ask("?", ">\r\n"), HasSubstr("<Run|"));
+    other.say("!");
+    EXPECT_THAT(writer.until("Hold"), HasSubstr("<Hold"));
+}
+
+TEST_F(SenderPorts, LetResetsOfOnlookersStopTheMachineWhereThatIsChosen) {
+    settings_.resets_stop_all = true;
+    start();
+    Client writer = tcp();
+    writer.say("G4 P100000\n");
+    EXPECT_THAT(writer.until("Run"), HasSubstr("<Run"));
+    Client other = tcp();
+    other.hear("]\r\n");
     other.say("\x18");
-    EXPECT_THAT(writer.hear("help]\r\n"), HasSubstr("Grbl 1.1h"));
+    EXPECT_THAT(writer.hear("help]\r\n"), HasSubstr("ALARM:3\r\n"));
 }
 
 TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
@@ -208,12 +229,85 @@ TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
     EXPECT_EQ(greeting, banner);
 }
 
-TEST_F(SenderPorts, ThrowOutABrowser) {
+TEST_F(SenderPorts, CloseWhatIsNoSenderAndLetItTouchNothing) {
     start();
-    Client browser = tcp();
-    browser.hear(banner);
-    browser.say("POST / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\nG1 X5 F600\n");
-    EXPECT_EQ(browser.hear("ok"), "(closed)");
+    Client writer = tcp();
+    EXPECT_EQ(writer.ask("G4 P100000\n", banner), banner);
+    EXPECT_THAT(writer.until("Run"), StartsWith("<Run|"));
+    for (const std::string& first :
+         {std::string("POST / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n\x18"), std::string("\x16\x03\x01\x02\x00\x01\x18", 7),
+          std::string("SSH-2.0-OpenSSH_9.2\r\n\x18")}) {
+        Client stranger = tcp();
+        stranger.hear("]\r\n");
+        stranger.say(first);
+        EXPECT_EQ(stranger.hear("ok"), "(closed)");
+        EXPECT_THAT(writer.ask("?", ">\r\n"), StartsWith("<Run|"));
+    }
+}
+
+TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
+    settings_.silence = std::chrono::milliseconds(0);
+    start();
+    Client silent = tcp();
+    silent.hear(banner);
+    Client sender = tcp();
+    sender.hear("]\r\n");
+    EXPECT_EQ(sender.ask("$I\n", "\r\nok\r\n").substr(0, banner.size()), banner);
+    EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
+    EXPECT_THAT(silent.hear("heard]\r\n"), StartsWith("[MSG:Another sender writes here."));
+}
+
+TEST_F(SenderPorts, MakeRoomForASenderAmongSilentConnections) {
+    settings_.observers = 1;
+    start();
+    Client first = tcp(), second = tcp();
+    first.hear(banner);
+    second.hear("]\r\n");
+    Client sender = tcp();
+    EXPECT_EQ(sender.hear(banner), banner) << "the oldest silent one had the port";
+    EXPECT_EQ(first.hear("x"), "(closed)");
+}
+
+TEST_F(SenderPorts, EnableNoDriveBeforeALineMoves) {
+    start();
+    Client client = tcp();
+    client.hear(banner);
+    EXPECT_THAT(client.ask("?", ">\r\n"), StartsWith("<Idle|"));
+    client.ask("$$\n");
+    EXPECT_EQ(state(), operate::MachineState::disabled);
+    EXPECT_EQ(client.ask("G1 X1 F600\n"), "ok\r\n");
+    EXPECT_NE(state(), operate::MachineState::disabled);
+}
+
+TEST_F(SenderPorts, TellASenderWhoStoppedIt) {
+    start();
+    Client client = tcp();
+    client.say("G4 P100000\n");
+    EXPECT_THAT(client.until("Run"), HasSubstr("<Run"));
+    machine_->post([this] { machine_->stop({"anna", "192.168.1.5", "STOP"}); });
+    EXPECT_THAT(client.hear("]\r\n"),
+                AllOf(StartsWith("ALARM:3\r\n[MSG:STOP by anna (192.168.1.5): line "), EndsWith(" was stopped.]\r\n")));
+    EXPECT_EQ(client.hear("\r\n"), "error:9\r\n") << "the dwell";
+    EXPECT_EQ(client.ask("G0 X1\n", "\r\n"), "error:9\r\n");
+    EXPECT_EQ(client.ask("$X\n"), "[MSG:Caution: Unlocked]\r\nok\r\n");
+    EXPECT_EQ(client.ask("G0 X1\n"), "ok\r\n");
+}
+
+TEST_F(SenderPorts, LockASenderThatLosesControlInItsWork) {
+    start();
+    Client client = tcp();
+    EXPECT_EQ(client.ask("G1 X1 F600\nM0\n"), banner + "ok\r\n");
+    EXPECT_THAT(client.until("Hold:0"), HasSubstr("Hold:0"));
+    machine_->post([this] { EXPECT_TRUE(lease_.take("anna", "w1", true, operate::stands(machine_->state()))); });
+    EXPECT_EQ(client.hear("]\r\n"), "ALARM:3\r\n[MSG:anna has taken control]\r\n");
+    EXPECT_EQ(client.hear("\r\n"), "error:9\r\n") << "the pause";
+    EXPECT_EQ(client.ask("~G1 X0\n", "\r\n"), "error:9\r\n");
+}
+
+TEST_F(SenderPorts, LetOnlyTheirOwnerOpenTheTerminal) {
+    start();
+    EXPECT_EQ(std::filesystem::status(settings_.link).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
 TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMoves) {
@@ -225,7 +319,9 @@ TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMo
     first.say("G4 P100000\n");
     EXPECT_THAT(second.until("Run"), StartsWith("<Run|"));
     EXPECT_THAT(second.ask("G1 X1 F600\n", "error:9\r\n"), AllOf(StartsWith("[MSG:"), HasSubstr("sender 127.0.0.1:")));
-    EXPECT_THAT(second.ask("\x18", "help]\r\n"), HasSubstr("ALARM:3\r\n"));
+    EXPECT_THAT(second.ask("\x18", "ends it]\r\n"),
+                AllOf(HasSubstr(banner), HasSubstr("[MSG:Only this connection was reset, for sender 127.0.0.1:")));
+    EXPECT_THAT(first.ask("?", ">\r\n"), HasSubstr("<Run|"));
 }
 
 TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {

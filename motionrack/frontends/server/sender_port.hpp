@@ -1,0 +1,47 @@
+// One of the two ports for senders, on the motion thread: its Grbl, who writes to it, and whose machine it is.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/frontends/server/grbl_line.hpp>
+#include <motionrack/frontends/server/grbl_ports.hpp>
+#include <motionrack/grbl/session.hpp>
+#include <motionrack/operate/machine.hpp>
+#include <string>
+
+namespace motionrack::server {
+
+class SenderPort : public std::enable_shared_from_this<SenderPort> {
+  public:
+    SenderPort(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings);
+
+    /// Where output goes; on the motion thread. Set before Machine::run.
+    std::function<void(Said)> send;
+
+    // ---- from the network thread
+    /// Somebody may write from now on. `address`: "127.0.0.1:4711" or a path; `id`: of this one connection.
+    void came(const std::string& user, const std::string& address, const std::string& id);
+    void left();
+    /// `then`: on the motion thread, when these bytes were heard.
+    void hear(std::string bytes, bool writer, std::function<void()> then);
+
+    // ---- the motion thread
+    void tick();
+    void stopped(const operate::StopReport& report);
+
+  private:
+    void flush(bool greets = false);
+    Result<void> take_control();
+    Result<void> may_stop() const;
+    void see_control();
+
+    operate::Machine& machine_;
+    authority::ControlLease& lease_;
+    const bool resets_stop_all_;
+    std::unique_ptr<grbl::Session> session_;
+    std::string user_ = "a sender", address_, id_ = "grbl";  ///< of who writes
+    bool had_control_ = false;                               ///< nobody else has taken it since
+};
+
+}  // namespace motionrack::server

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <motionrack/control/gcode/number.hpp>
+#include <motionrack/grbl/intake.hpp>
+#include <motionrack/grbl/introduction.hpp>
+#include <utility>
+
+namespace motionrack::grbl {
+
+namespace {
+
+constexpr char reset_byte = '\x18';
+
+/// What a sender may begin with before its first line; a sender that looks for a Grbl says nothing else at first.
+bool is_greeting(char c) {
+    return c == '?' || c == '!' || c == '~' || c == '\r' || c == '\n' || c == reset_byte;
+}
+
+/// Letters with their numbers, as in "G1X-1.5F600" and "M115".
+bool is_words(std::string_view text) {
+    const char *at = text.data(), *const end = text.data() + text.size();
+    while (at < end) {
+        if (*at < 'A' || *at > 'Z') return false;
+        ++at;
+        if (control::gcode::scan_number(at, end).fault != control::gcode::NumberFault::none) return false;
+    }
+    return true;
+}
+
+/// A comment is one, too. "[ESP..]" asks what is behind a serial line, of what may be a wireless one.
+bool is_line_of_a_sender(const Line& line) {
+    const std::string& text = line.text;
+    if (line.too_long) return false;
+    return text.empty() || text[0] == '$' || text == "%" || text.rfind("[ESP", 0) == 0 || is_words(text);
+}
+
+/// Text as a sender writes it: in comments also that of other alphabets.
+bool is_text(std::string_view bytes) {
+    bool comment = false;
+    for (const char c : bytes) {
+        if (c == '\r' || c == '\n')
+            comment = false;
+        else if (c == '(' || c == ';')
+            comment = true;
+        const bool control = (c >= 0 && c < ' ') || c == '\x7F';
+        if (control && c != '\t' && !is_greeting(c)) return false;
+        if (static_cast<unsigned char>(c) > 0x7F && !comment) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Introduction::Verdict Introduction::hear(std::string_view bytes) {
+    bytes_ += bytes;
+    if (!is_text(bytes_)) return Verdict::stranger;
+    if (std::all_of(bytes_.begin(), bytes_.end(), is_greeting)) return bytes_.empty() ? Verdict::open : Verdict::sender;
+    Intake lines;
+    bool begun = false;  // a line: something stands in it
+    for (const char c : bytes_) {
+        if (realtime_of(static_cast<std::uint8_t>(c))) continue;
+        lines.put(static_cast<std::uint8_t>(c));
+        const auto line = lines.next();
+        if (line && begun) return is_line_of_a_sender(*line) ? Verdict::sender : Verdict::stranger;
+        begun = begun || !line;
+    }
+    return bytes_.size() > max_open_bytes ? Verdict::stranger : Verdict::open;
+}
+
+}  // namespace motionrack::grbl

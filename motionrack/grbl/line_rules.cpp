@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <motionrack/grbl/line_rules.hpp>
+
+namespace motionrack::grbl {
+
+using control::gcode::Block;
+using control::gcode::Interpreter;
+
+namespace {
+
+/// G codes that act once, and for which Grbl lets all motion before them come to its end.
+bool stands_first(int tenths) {
+    constexpr std::array<int, 8> codes = {40, 100, 281, 301, 920, 921, 922, 923};
+    return std::find(codes.begin(), codes.end(), tenths) != codes.end();
+}
+
+control::gcode::Spindle spindle_of(int code) {
+    using control::gcode::Spindle;
+    return code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
+}
+
+/// error_none: it is a jog.
+int fault_of_jog(const Block& block, int axes) {
+    using namespace control::gcode;
+    constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;
+    if (block.percent || block.m_groups != 0 || (block.g_groups & ~groups) != 0 ||
+        (block.has_g(g_nonmodal) && block.g[g_nonmodal] != 530))
+        return error_jog;
+    if (!grbl_has(block, axes)) return error_unsupported;
+    if ((block.words & ~(axis_words | letter_bit('F') | letter_bit('N'))) != 0) return error_unused_words;
+    if (!block.has('F')) return error_no_feed;
+    return (block.words & axis_words) == 0 ? error_no_axis_words : error_none;
+}
+
+}  // namespace
+
+bool grbl_has(const Block& block, int axes) {
+    using namespace control::gcode;
+    const std::uint32_t others = axes > 3 ? letter_bit('B') | letter_bit('C') : rotary_words;
+    const bool cutter = block.has_g(g_cutter) && block.g[g_cutter] != 400;
+    return (block.words & others) == 0 && !block.has_m(m_tool) && !cutter;
+}
+
+bool must_stand_first(const Block& block, const Interpreter& interpreter, bool laser) {
+    using namespace control::gcode;
+    const Modes& modes = interpreter.modes();
+    if (block.has_m(m_stop)) return true;
+    if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
+    if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
+    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter.frame().tool[2] != 0)) return true;
+    if (block.has_m(m_spindle) && spindle_of(block.m[m_spindle]) != modes.spindle) return !laser;
+    if (block.has('S') && block['S'] != modes.speed_rpm) return !laser;
+    return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) ||
+           (block.has_m(m_coolant_off) && (modes.mist || modes.flood));
+}
+
+JogLine read_jog(const std::string& text, Interpreter reader, int axes) {
+    using namespace control::gcode;
+    const auto wrong = [](int error) { return JogLine{error, {}, 0}; };
+    if (text.size() < 3 || text[2] != '=') return wrong(error_unknown);
+    const std::string_view words = std::string_view(text).substr(3);
+    Block block;
+    Problem problem;
+    if (!scan_line(words, {}, block, problem)) return wrong(static_cast<int>(problem.status));
+    if (const int fault = fault_of_jog(block, axes); fault != error_none) return wrong(fault);
+    const std::string line = fmt::format("G1G94{}", words);
+    if (const auto read = reader.line(line, 0); !read) return wrong(static_cast<int>(read.error().status));
+    const Step* step = reader.pull();
+    if (step == nullptr) return wrong(error_locked);
+    return {error_none, step->move.end, step->move.feed};
+}
+
+}  // namespace motionrack::grbl

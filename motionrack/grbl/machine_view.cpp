@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/grbl/machine_view.hpp>
+#include <motionrack/grbl/numbers.hpp>
+
+namespace motionrack::grbl {
+
+using operate::MachineState;
+
+bool is_moving(const operate::Machine& machine) {
+    const MachineState state = machine.state();
+    return state == MachineState::moving || state == MachineState::stopping || state == MachineState::jogging;
+}
+
+/// Contacts open when they act; an end that is not there does not.
+bool contact_open(operate::Machine& machine, const std::string& wire) {
+    const Result<double> level = machine.wires().get(wire);
+    return level && *level == 0;
+}
+
+bool limit_active(operate::Machine& machine, char letter) {
+    return contact_open(machine, fmt::format("{}.limit_minus", letter)) ||
+           contact_open(machine, fmt::format("{}.limit_plus", letter));
+}
+
+bool has_alarm(const operate::Machine& machine) {
+    const auto& alarms = machine.status().alarms;
+    return std::any_of(alarms.begin(), alarms.end(), [](const operate::Alarm& alarm) { return alarm.active; });
+}
+
+int alarm_of_stop(operate::Machine& machine) {
+    for (const rack::RackAxis& axis : machine.rack().config().axes)
+        if (limit_active(machine, axis.letter)) return alarm_hard_limit;
+    return alarm_reset;
+}
+
+double feed_now(const operate::Machine& machine) {
+    double linear = 0, rotary = 0;
+    for (const operate::AxisStatus& axis : machine.status().axes)
+        (axis.rotary ? rotary : linear) += axis.speed * axis.speed;
+    return std::sqrt(linear > 0 ? linear : rotary) * 60;
+}
+
+}  // namespace motionrack::grbl

@@ -1,0 +1,154 @@
+// Whoever stops the machine stops every sender too, in whatever it does: of what it sends afterwards nothing is driven.
+#include <algorithm>
+#include <random>
+#include <tests/environment.hpp>
+
+#include "bench.hpp"
+
+namespace motionrack::grbl {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// A sender that keeps so many bytes under way and goes on whatever is answered, as careless ones do.
+class Careless {
+  public:
+    Careless(Bench& bench, std::function<std::string(int)> line) : bench_(bench), line_(std::move(line)) {}
+    /// What comes back of these bytes at once and within `seconds`.
+    std::string say(const std::string& bytes, double seconds) {
+        sent += static_cast<int>(std::count(bytes.begin(), bytes.end(), '\n'));
+        std::string heard = bench_.ask(bytes, seconds);
+        for (int n = answers(heard); n > 0; --n, ++answered) {
+            if (sizes_.empty()) continue;
+            under_way_ -= sizes_.front();
+            sizes_.pop_front();
+        }
+        return heard;
+    }
+    /// Streams for so long; what came back.
+    std::string stream(double seconds) {
+        std::string out;
+        for (double left = seconds; left > 0; left -= 0.01) {
+            std::string bytes;
+            for (std::string next = line_(lines_); under_way_ + next.size() <= 120; next = line_(lines_)) {
+                under_way_ += next.size();
+                sizes_.push_back(next.size());
+                bytes += next;
+                ++lines_;
+            }
+            out += say(bytes, 0.01);
+        }
+        return out;
+    }
+    int sent = 0, answered = 0;
+
+  private:
+    Bench& bench_;
+    std::function<std::string(int)> line_;
+    std::deque<std::size_t> sizes_;
+    std::size_t under_way_ = 0;
+    int lines_ = 0;
+};
+
+struct Source {
+    const char* name;
+    const char* told;  ///< to the sender
+    void (*stop)(operate::Machine& machine);
+};
+const std::array<Source, 5> sources = {{
+    {"a page's STOP", "STOP by anna (?192.168.1.5?)",
+     [](auto& m) {
+         m.stop({"anna", "[192.168.1.5]", "STOP"});
+     }},
+    {"a STOP by HTTP, of nobody", "STOP (127.0.0.1)",
+     [](auto& m) {
+         m.stop({"", "127.0.0.1", "STOP"});
+     }},
+    {"a page's reset", "Reset by anna",
+     [](auto& m) {
+         m.reset({"anna", "", "Reset"});
+     }},
+    {"another sender's reset", "^X by a sender",
+     [](auto& m) {
+         m.reset({"a sender", "127.0.0.1:4", "^X"});
+     }},
+    {"disabling", "Disabling: ", [](auto& m) { ASSERT_TRUE(m.enable(false)); }},
+}};
+
+std::string zigzag(int i) {
+    return "G1X" + std::to_string(i % 7) + "." + std::to_string(i % 10) + "Y" + std::to_string(i % 5) + "F3000\n";
+}
+
+/// What the sender does when it is stopped; `before` is sent first.
+struct Doing {
+    const char* name;
+    std::string before;
+    std::function<std::string(int)> line;
+    bool homes = false;
+};
+const std::array<Doing, 9> doings = {{
+    {"streams lines", "", zigzag},
+    {"streams one long line", "", [](int i) { return i % 2 == 0 ? "G1X200F1500\n" : std::string("G1X0\n"); }},
+    {"brakes into a feed hold", "G1X200F6000\n", [](int i) { return i == 0 ? "!G1X0\n" : zigzag(i); }},
+    {"is held", "G1X200F3000\n", [](int i) { return i == 3 ? "!G1X0\n" : zigzag(i); }},
+    {"is held where it stands", "!", zigzag},
+    {"dwells", "G1X1F3000\nG4P3\n", zigzag},
+    {"waits at M0", "G1X1F3000\nM0\n", zigzag},
+    {"jogs", "", [](int i) { return "$J=G91X" + std::string(i % 3 == 2 ? "-2" : "3") + "F1500\n"; }},
+    {"homes", "$H\n", zigzag, true},
+}};
+
+class AStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
+  protected:
+    void try_once(double after, const Source& source, const Doing& doing) {
+        Bench b(doing.homes ? router() : three_axes());
+        Careless sender(b, doing.line);
+        sender.say(doing.before, 0.1);
+        sender.stream(after);
+        source.stop(*b.machine);
+        const std::string heard = sender.stream(0.7);
+        const std::string alarm = doing.homes ? "ALARM:" : "ALARM:3\r\n[MSG:";
+        ASSERT_THAT(heard, AllOf(HasSubstr(alarm), HasSubstr(source.told)));
+        ASSERT_TRUE(operate::idle(b.machine->state())) << operate::name_of(b.machine->state());
+        const std::vector<operate::AxisStatus> stood = b.machine->status().axes;
+        const std::string later = sender.stream(1) + sender.say("~G1X2F600\n", 0.2);
+        EXPECT_THAT(later, Not(HasSubstr("ok\r\n")));
+        EXPECT_THAT(later, AnyOf(HasSubstr("error:9\r\n"), HasSubstr("error:8\r\n")));
+        // What waits while the machine homes is forgotten when that is broken off.
+        if (!doing.homes) {
+            EXPECT_EQ(sender.answered, sender.sent);
+        }
+        for (std::size_t i = 0; i < stood.size(); ++i)
+            EXPECT_EQ(b.machine->status().axes[i].pulses, stood[i].pulses) << "a line was driven after the stop";
+        EXPECT_THAT(b.report(), StartsWith("<Alarm|"));
+        EXPECT_THAT(b.ask("$X\n", 0.2), EndsWith("[MSG:Caution: Unlocked]\r\nok\r\n"));
+        if (doing.homes) return;
+        EXPECT_EQ(b.ask("G91 G1 X0.5 F600\n", 0.02), "ok\r\n");
+        b.until_idle();
+        EXPECT_NE(b.machine->status().axes[0].pulses, stood[0].pulses);
+    }
+};
+
+/// MOTIONRACK_STOPS=N sets how many instants are tried.
+TEST_P(AStop, LeavesNoLineOfASenderToBeDriven) {
+    const auto [which, what] = GetParam();
+    const std::uint64_t seed = seed_from_environment(), count = trials("MOTIONRACK_STOPS", 3, 30);
+    std::mt19937 random(static_cast<std::uint32_t>(seed * 100 + which * 10 + what));
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const double after = 0.05 + static_cast<double>(random() % 1000) / 2500;
+        SCOPED_TRACE(sources[which].name + std::string(" while it ") + doings[what].name + ", " +
+                     std::to_string(after) + " s; MOTIONRACK_SEED=" + std::to_string(seed));
+        try_once(after, sources[which], doings[what]);
+        if (HasFailure()) return;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(By, AStop,
+                         testing::Combine(testing::Range(std::size_t{0}, sources.size()),
+                                          testing::Range(std::size_t{0}, doings.size())));
+
+}  // namespace
+}  // namespace motionrack::grbl
