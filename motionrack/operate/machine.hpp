@@ -181,6 +181,7 @@ class Machine {
     std::optional<rack::FrameWatch> frames_;
     std::unique_ptr<control::Stream> stream_;
     bool group_holds_ = false;  ///< the card's axes; else each by itself
+    bool hands_over_ = false;   ///< a card is being set up for the other ones: its counters mean nothing
     std::array<bool, control::axis_count> trusted_ = {}, enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;

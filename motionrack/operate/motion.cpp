@@ -47,9 +47,12 @@ Result<void> Machine::start(const rack::RackConfig& config) {
 
 Result<void> Machine::take_group() {
     if (group_holds_) return {};
-    MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
+    hands_over_ = true;
+    const Result<control::PathAxes*> group = rack_.path_axes_here();
+    hands_over_ = false;
+    if (!group) return tl::unexpected<Error>(group.error());
     rack_.set_stop_flag(stream_->stop_flag());
-    stream_->stand_here(*group);
+    stream_->stand_here(**group);
     group_holds_ = true;
     return {};
 }
@@ -58,7 +61,10 @@ Result<control::Axis*> Machine::take_axis(char letter) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         if (axis.config.letter != letter) continue;
         group_holds_ = false;
-        return axis.card->axis(rack_.config(), letter);
+        hands_over_ = true;
+        Result<control::Axis*> taken = axis.card->axis(rack_.config(), letter);
+        hands_over_ = false;
+        return taken;
     }
     return fail(Trouble::bad_input, fmt::format("There is no axis {}.", letter));
 }
@@ -76,7 +82,7 @@ void Machine::slice() {
     while (!on) {
         on = !settings_.pace || settings_.pace(now()) || quit_;
         hear();
-        tell();
+        if (!hands_over_) tell();
     }
 }
 
