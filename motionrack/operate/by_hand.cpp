@@ -45,7 +45,7 @@ void Machine::access_bus() {
         card.bus_write(access.bits, access.address, *access.value);
         for (const rack::RunningAxis& axis : rack_.axes()) {
             if (axis.card != card.motion()) continue;
-            trusted_[static_cast<std::size_t>(axis.config.index())] = false;
+            trust_.set(axis.config.letter, false);
         }
         ready(*access.value);
     }

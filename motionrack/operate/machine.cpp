@@ -61,7 +61,10 @@ Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
       rack_(placed(config, settings_.standing)),
       desk_(rack_),
       tap_(rack_.kernel()),
-      probe_(rack_.kernel()) {
+      probe_(rack_.kernel()),
+      trust_(rack_),
+      jogs_(
+          settings_.jog_lease, settings_.wall ? settings_.wall : [this] { return now(); }) {
     if (rack::grating_bus_of(rack_) != nullptr) frames_.emplace(rack_);
     rack_.input_log().keep_no_more();
 }
@@ -126,7 +129,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
             Trouble::refused,
             fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
-        if (!trusted_[static_cast<std::size_t>(axis.index())])
+        if (!trusted(axis))
             return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
                                                       "where it stands. Nothing was moved.",
                                                       what, axis.letter));
@@ -207,7 +210,7 @@ void Machine::stop(const StopSource& by) {
     stream_->stop();
     home_stop_ = true;
     home_wanted_.reset();
-    jogs_.clear();
+    jogs_.let_go();
     stop_wanted_ = true;
     if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging ||
         state_ == MachineState::hold)
@@ -223,12 +226,13 @@ void Machine::reset(const StopSource& by) {
     if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
 }
 
-Result<void> Machine::jog(char axis, double speed) {
+Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
+    MOTIONRACK_CHECK(jogs_.accept(axis, origin));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     MOTIONRACK_CHECK(axis_named("Not jogged", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
-    jogs_.push_back({axis, speed, std::nullopt});
+    jogs_.hold(axis, speed, origin.session);
     enter(MachineState::jogging);
     return {};
 }
@@ -239,7 +243,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(axis_named("Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
         return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
-    jogs_.push_back({axis, speed, distance});
+    jogs_.move(axis, distance, speed);
     enter(MachineState::jogging);
     return {};
 }

@@ -17,7 +17,9 @@
 #include <memory>
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/control/stream.hpp>
+#include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/status.hpp>
+#include <motionrack/operate/trust.hpp>
 #include <motionrack/rack/frame_watch.hpp>
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/probe.hpp>
@@ -36,7 +38,9 @@ struct MachineSettings {
     /// Called every slice on the motion thread, which hears what was posted and asks again until it is true: the world
     /// may run on. It waits a few ms at most. Empty: as fast as possible.
     std::function<bool(Instant now)> pace = {};
-    std::function<void(const Status&)> on_status = {};               ///< every slice, on the motion thread
+    std::function<Instant()> wall = {};  ///< the clock of the people, for leases of jogs; empty: the rack's own time
+    Duration jog_lease = milliseconds(250);             ///< of that clock: a jog that was not renewed for so long ends
+    std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
     std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
     std::vector<Standing> standing = {};  ///< axes that do not begin where the rack's file says
     std::string alarm = {};               ///< the machine begins with it, if there is one
@@ -84,8 +88,10 @@ class Machine {
     void stop(const StopSource& by = {});
     /// Ends an error stop and forgets programs and modes; work offsets and positions stay. Stops if something moves.
     void reset(const StopSource& by = {});
-    /// Jogs at `speed` a second (sign: direction) for as long as it is called again within 250 ms.
-    Result<void> jog(char axis, double speed);
+    /// Jogs at `speed` a second (sign: direction; 0 lets go) for as long as it is called again within the lease, and no
+    /// further than to the end of its travel. Refused also: an order that is older than another one of its session, and
+    /// one that only renews where the jog has ended.
+    Result<void> jog(char axis, double speed, const JogOrigin& origin = {});
     /// Jogs by a distance.
     Result<void> jog_by(char axis, double distance, double speed);
     /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run;
@@ -124,12 +130,13 @@ class Machine {
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
     bool can_home() const;  ///< some axis
     /// Whether the positions of this axis mean places of the machine.
-    bool trusted(const rack::RackAxis& axis) const { return trusted_[static_cast<std::size_t>(axis.index())]; }
+    bool trusted(const rack::RackAxis& axis) const { return trust_.of(axis.letter); }
     double feed_override() const { return feed_; }
     double rapid_override() const { return rapid_; }
     /// How the last homing went, if there was one.
     const std::optional<rack::HomingOutcome>& homed() const { return homed_; }
     const control::Stream& stream() const { return *stream_; }
+    Jogs& jogs() { return jogs_; }
     rack::Rack& rack() { return rack_; }
     rack::WireDesk& wires() { return desk_; }
     /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if
@@ -140,16 +147,8 @@ class Machine {
     Instant now() const { return rack_.kernel().now(); }
 
   private:
-    /// What the loop is to do for one axis.
-    struct JogOrder {
-        char axis = 'X';
-        double speed = 0;
-        std::optional<double> distance;
-    };
-
     Machine(const rack::RackConfig& config, MachineSettings settings);
     Result<void> start(const rack::RackConfig& config);
-    Result<void> stand(rack::RunningAxis& axis, bool known);
     Result<void> take_group();
     Result<control::Axis*> take_axis(char letter);
     void slice();
@@ -186,7 +185,9 @@ class Machine {
     std::optional<rack::FrameWatch> frames_;
     std::unique_ptr<control::Stream> stream_;
     bool group_holds_ = false;  ///< the card's axes; else each by itself
-    std::array<bool, control::axis_count> trusted_ = {}, enabled_ = {}, disable_wanted_ = {};
+    bool hands_over_ = false;   ///< a card is being set up for the other ones: its counters mean nothing
+    Trust trust_;
+    std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;
     // the program, or lines one by one
@@ -198,8 +199,7 @@ class Machine {
     Instant last_line_{};
     double feed_ = 1, rapid_ = 1;
     // by hand
-    std::vector<JogOrder> jogs_;
-    std::vector<control::Axis*> jogging_;
+    Jogs jogs_;
     std::optional<std::string> home_wanted_;
     std::vector<std::pair<char, double>> positions_wanted_;  ///< until all of them are declared
     std::optional<rack::HomingOutcome> homed_;

@@ -15,20 +15,26 @@ bool Machine::can_home() const {
 
 // ---- who holds the card's axes
 
-/// `known`: nobody could find out by homing.
-Result<void> Machine::stand(rack::RunningAxis& axis, bool known) {
-    MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
-    Standing here{axis.config.letter, axis.config.start_position, axis.config.start_position, known};
-    for (const Standing& told : settings_.standing)
-        if (told.letter == here.letter) here = told;
-    trusted_[static_cast<std::size_t>(axis.config.index())] = here.trusted;
-    return here.trusted ? one->set_position(here.commanded) : Result<void>();
+namespace {
+
+/// Where an axis stands at the start. `known`: nobody could find out by homing.
+Standing standing_of(const rack::RackAxis& axis, const std::vector<Standing>& told, bool known) {
+    for (const Standing& one : told)
+        if (one.letter == axis.letter) return one;
+    return {axis.letter, axis.start_position, axis.start_position, known};
 }
+
+}  // namespace
 
 Result<void> Machine::start(const rack::RackConfig& config) {
     rack_.start();
     const bool known = !can_home();
-    for (rack::RunningAxis& axis : rack_.axes()) MOTIONRACK_CHECK(stand(axis, known));
+    for (rack::RunningAxis& axis : rack_.axes()) {
+        MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
+        const Standing here = standing_of(axis.config, settings_.standing, known);
+        if (here.trusted) MOTIONRACK_CHECK(one->set_position(here.commanded));
+        trust_.set(axis.config.letter, here.trusted);
+    }
     MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
     control::StreamSettings settings;
     settings.gcode = rack::reader_settings(config);
@@ -47,9 +53,12 @@ Result<void> Machine::start(const rack::RackConfig& config) {
 
 Result<void> Machine::take_group() {
     if (group_holds_) return {};
-    MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
+    hands_over_ = true;
+    const Result<control::PathAxes*> group = rack_.path_axes_here();
+    hands_over_ = false;
+    if (!group) return tl::unexpected<Error>(group.error());
     rack_.set_stop_flag(stream_->stop_flag());
-    stream_->stand_here(*group);
+    stream_->stand_here(**group);
     group_holds_ = true;
     return {};
 }
@@ -58,7 +67,10 @@ Result<control::Axis*> Machine::take_axis(char letter) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         if (axis.config.letter != letter) continue;
         group_holds_ = false;
-        return axis.card->axis(rack_.config(), letter);
+        hands_over_ = true;
+        Result<control::Axis*> taken = axis.card->axis(rack_.config(), letter);
+        hands_over_ = false;
+        return taken;
     }
     return fail(Trouble::bad_input, fmt::format("There is no axis {}.", letter));
 }
@@ -76,7 +88,7 @@ void Machine::slice() {
     while (!on) {
         on = !settings_.pace || settings_.pace(now()) || quit_;
         hear();
-        tell();
+        if (!hands_over_) tell();
     }
 }
 
@@ -91,7 +103,8 @@ void Machine::hear() {
 
 void Machine::step() {
     if (!accesses_.empty()) return access_bus();
-    if (!jogs_.empty() || !jogging_.empty()) return jog_all();
+    if (jogs_.any()) return jog_all();
+    for (std::string& lost : trust_.look(now(), state_)) raise("position", std::move(lost));
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     if (walk_ || over_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
@@ -183,33 +196,18 @@ void Machine::drive() {
 // ---- by hand
 
 void Machine::jog_all() {
-    for (const JogOrder& order : std::exchange(jogs_, {})) {
-        const Result<control::Axis*> axis = take_axis(order.axis);
-        Result<void> begun;
-        if (!axis)
-            begun = tl::unexpected<Error>(axis.error());
-        else
-            begun = order.distance ? (*axis)->move_by(*order.distance, order.speed) : (*axis)->jog(order.speed, now());
-        if (!begun) {
-            status_.why = begun.error().message;
-            continue;
-        }
-        if (std::find(jogging_.begin(), jogging_.end(), *axis) == jogging_.end()) jogging_.push_back(*axis);
+    const auto take = [this](char letter) { return take_axis(letter); };
+    for (const Jogs::Ended& one : jogs_.step(take, now(), stop_wanted_)) {
+        if (one.how || one.how.error().trouble == Trouble::stopped) continue;
+        status_.why = one.how.error().message;
+        if (one.trusted || !trust_.of(one.letter)) continue;
+        trust_.set(one.letter, false);  // it stopped without a ramp, or does not know its counts
+        jogs_.let_go();
+        stop_wanted_ = true;
+        failed(one.how.error());
     }
-    for (std::size_t i = 0; i < jogging_.size();) {
-        control::Axis& axis = *jogging_[i];
-        if (stop_wanted_) axis.stop();
-        axis.step(now());
-        const control::AxisState state = axis.state();
-        if (state == control::AxisState::standstill || state == control::AxisState::error) {
-            if (const Result<void> good = axis.wait(Duration{0}); !good && good.error().trouble == Trouble::machine)
-                status_.why = good.error().message;
-            jogging_.erase(jogging_.begin() + static_cast<std::ptrdiff_t>(i));
-        } else {
-            ++i;
-        }
-    }
-    if (!jogging_.empty()) return host().pass(settings_.slice);
+    for (std::string& lost : trust_.look(now(), state_)) raise("position", std::move(lost));
+    if (jogs_.any()) return host().pass(settings_.slice);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.why, {}));
 }
@@ -222,8 +220,7 @@ void Machine::home_all() {
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
-        if (axis.begun)
-            trusted_[static_cast<std::size_t>(rack_.config().axis(axis.letter)->index())] = axis.outcome.homed;
+        if (axis.begun) trust_.set(axis.letter, axis.outcome.homed);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (!homed.ended && homed.ended.error().trouble == Trouble::machine) return failed(homed.ended.error());
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
@@ -235,7 +232,7 @@ void Machine::change_positions() {
         const auto [letter, position] = positions_wanted_[i];
         const Result<control::Axis*> axis = take_axis(letter);
         done = axis ? (*axis)->set_position(position) : tl::unexpected<Error>(axis.error());
-        if (done) trusted_[static_cast<std::size_t>(rack_.config().axis(letter)->index())] = true;
+        if (done) trust_.set(letter, true);
     }
     if (Result<void> taken = take_group(); done) done = taken;
     positions_wanted_.clear();
@@ -259,9 +256,10 @@ void Machine::failed(const Error& error) {
     program_runs_ = false;
     tools_off();
     const bool pressed = button_pressed();
-    if (pressed) trusted_.fill(false);  // it stopped without a ramp
-    raise(pressed ? button_name : what,
-          error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
+    std::string text = error.text();
+    if (pressed) text += " The emergency stop is pressed";
+    if (pressed) text += trust_.lose_driven() ? ": the positions are not trusted any more." : ".";
+    raise(pressed ? button_name : what, std::move(text));
     enter(MachineState::error_stop, status_.alarms.back().text);
 }
 
@@ -300,7 +298,7 @@ AxisStatus Machine::look_at(rack::RunningAxis& axis) {
     AxisStatus out;
     out.letter = axis.config.letter;
     out.rotary = axis.config.index() >= 3;
-    out.trusted = trusted_[static_cast<std::size_t>(axis.config.index())];
+    out.trusted = trusted(axis.config);
     out.enabled = enabled_[static_cast<std::size_t>(axis.config.index())];
     out.pulses = axis.card->pulse_counter(axis.channel);
     out.counts = axis.card->encoder_counter(axis.channel);

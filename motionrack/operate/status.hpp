@@ -36,7 +36,8 @@ constexpr bool stands(MachineState state) {
 struct Alarm {
     std::int64_t number = 0;  ///< from 1
     Instant at{};
-    std::string source;  ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine"
+    std::string source;  ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine",
+                         ///< "position"
     std::string text;
     bool active = true, acknowledged = false;
 };

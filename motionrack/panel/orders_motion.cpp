@@ -10,6 +10,10 @@ using nlohmann::json;
 
 namespace {
 
+operate::JogOrigin origin_of(const Caller& caller, const json& fields) {
+    return {caller.session, fields.value("sequence", std::int64_t{0}), fields.value("renews", false)};
+}
+
 constexpr std::array control = {
     Doer{"take_control",
          [](Desk& desk, const Caller& caller, const json& fields) {
@@ -36,10 +40,10 @@ constexpr std::array motion = {
     Doer{"home", [](Desk& desk, const Caller&,
                     const json& fields) { return taken(desk.machine.home(fields.value("axes", ""))); }},
     Doer{"jog",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+         [](Desk& desk, const Caller& caller, const json& fields) -> Result<json> {
              MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
              const bool again = desk.machine.state() == operate::MachineState::jogging;
-             MOTIONRACK_CHECK(desk.machine.jog(letter, fields.at("speed").get<double>()));
+             MOTIONRACK_CHECK(desk.machine.jog(letter, fields.at("speed").get<double>(), origin_of(caller, fields)));
              return json{{"again", again}};
          }},
     Doer{"jog_by",
@@ -49,7 +53,8 @@ constexpr std::array motion = {
                  desk.machine.jog_by(letter, fields.at("distance").get<double>(), fields.at("speed").get<double>()));
          }},
     Doer{"jog_stop",
-         [](Desk& desk, const Caller&, const json&) -> Result<json> {
+         [](Desk& desk, const Caller& caller, const json& fields) -> Result<json> {
+             static_cast<void>(desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is never too old
              if (desk.machine.state() == operate::MachineState::jogging) desk.machine.stop();
              return json::object();
          }},

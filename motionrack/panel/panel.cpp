@@ -185,6 +185,11 @@ void Panel::stop(const Caller& caller) {
     ask(caller, "stop", json::object(), [](const Answer&) {});
 }
 
+void Panel::left(std::string session) {
+    operate::Machine& machine = inside_->desk().machine;
+    machine.post([&machine, session = std::move(session)] { machine.jogs().end_of(session); });
+}
+
 void Panel::subscribe(std::vector<std::string> channels,
                       std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready) {
     inside_->desk().machine.post([this, channels = std::move(channels), ready = std::move(ready)] {

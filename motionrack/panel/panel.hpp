@@ -75,6 +75,8 @@ class Panel {
              std::function<void(Answer)> reply);
     /// STOP, from anyone; never waits.
     void stop(const Caller& caller);
+    /// The connection of this session has ended, and with it what goes on only while it is asked for.
+    void left(std::string session);
     /// The set of these channels; equal lists share one. `ready` is called once, on the motion thread. Errors:
     /// bad_input, unknown names or more than most_channels.
     void subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready);

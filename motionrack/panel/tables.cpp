@@ -34,6 +34,8 @@ constexpr FieldRow texts(std::string_view name, double most, std::string_view ab
 
 constexpr FieldRow axis = text("axis", 1, "letter of an axis");
 constexpr FieldRow card_name = text("card", 32, "name of a card of the rack");
+constexpr FieldRow sequence = integer(
+    "sequence", 1, 9e15, "grows with each jog and jog_stop of a connection or token; an older one is refused", false);
 constexpr FieldRow speed = number("speed", 0, far, "mm/s or degrees/s", "above 0, at most the axis' greatest");
 
 constexpr std::array take_control_fields = {
@@ -42,7 +44,9 @@ constexpr std::array enable_fields = {flag("on", "false: what moves is stopped f
                                       text("axes", 6, "letters; without it all", false)};
 constexpr std::array home_fields = {text("axes", 6, "letters; without it all that have a home switch", false)};
 constexpr std::array jog_fields = {
-    axis, number("speed", -far, far, "mm/s or degrees/s", "the sign is the direction; 0 lets go")};
+    axis, number("speed", -far, far, "mm/s or degrees/s", "the sign is the direction; 0 lets go"), sequence,
+    flag("renews", "only prolongs a jog: it is refused where that has ended, whatever ended it", false)};
+constexpr std::array jog_stop_fields = {sequence};
 constexpr std::array jog_by_fields = {axis, number("distance", -far, far, "mm or degrees", "signed"), speed};
 constexpr std::array declare_fields = {
     axis, number("position", -far, far, "mm or degrees", "where the axis stands, machine coordinates")};
@@ -126,9 +130,12 @@ constexpr std::array order_rows = {
         "another's control ends. Never refused."},
     AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
     AskRow{"home", Role::operate, true, home_fields, "Searches home."},
-    AskRow{"jog", Role::operate, true, jog_fields, "Jogs for as long as it is asked again within 250 ms."},
+    AskRow{
+        "jog", Role::operate, true, jog_fields,
+        "Jogs for as long as it is asked again within 250 ms of real time, and to the end of the travel at most; ends "
+        "with the connection that asked."},
     AskRow{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},
-    AskRow{"jog_stop", Role::operate, true, {}, "Ends all jogs; a program goes on."},
+    AskRow{"jog_stop", Role::operate, true, jog_stop_fields, "Ends all jogs; a program goes on."},
     AskRow{"declare_position", Role::operate, true, declare_fields,
            "Says where an axis stands; its position is trusted then."},
     AskRow{"set_work_zero", Role::operate, true, work_zero_fields,

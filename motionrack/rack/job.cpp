@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/job.hpp>
-#include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/rack/trust.hpp>
+#include <utility>
 
 namespace motionrack::rack {
 
@@ -126,50 +127,6 @@ void Job::give(std::string_view program, std::string name, control::gcode::Setti
     settings_.reading = std::move(reading);
 }
 
-/// Of every axis whose encoder its own card counts beside the pulses: what the card has counted, less what the motor
-/// has turned. Axes that position by themselves do so by these counts.
-std::vector<std::int64_t> Job::counted_wrongly() {
-    std::vector<std::int64_t> out;
-    const Instant now = rack_.kernel().now();
-    const RackConfig& config = rack_.config();
-    for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
-        const RunningAxis& axis = rack_.axes()[i];
-        const bool counted =
-            std::any_of(config.encoder_links.begin(), config.encoder_links.end(), [&](const EncoderLink& link) {
-                return link.axis == static_cast<int>(i) && !link.swapped && link.channel == axis.channel &&
-                       config.cards[static_cast<std::size_t>(link.card)].name == axis.config.card;
-            });
-        const auto turned = static_cast<std::int64_t>(
-            std::floor(static_cast<double>(axis.machine->rotor().count(now)) * counts_per_pulse(axis.config)));
-        out.push_back(
-            counted && !config.positions_alone(axis.config) ? axis.card->encoder_counter(axis.channel) - turned : 0);
-    }
-    return out;
-}
-
-void Job::tell_wrong_counts(const std::vector<std::int64_t>& before, JobOutcome& out) {
-    const std::vector<std::int64_t> after = counted_wrongly();
-    for (std::size_t i = 0; i < after.size(); ++i) {
-        const auto off = static_cast<std::int32_t>(after[i] - before[i]);  // the counters have 32 bits
-        if (std::abs(off) > 1)
-            out.warnings.push_back({rack_.kernel().now(), 0,
-                                    fmt::format("encoder of {}: the card's counter is {} counts off from what the "
-                                                "motor turned; a line of the encoder or the card's input is "
-                                                "faulty. Do not go by this counter; mend it, then home again",
-                                                rack_.axes()[i].config.letter, off)});
-    }
-}
-
-/// Of an axis that positions by itself whether it knows where it is.
-bool Job::trusts_itself(int index) {
-    for (RunningAxis& axis : rack_.axes())
-        if (axis.config.index() == index && rack_.config().positions_alone(axis.config)) {
-            const Result<control::Axis*> one = axis.card->axis(rack_.config(), axis.config.letter);
-            return one && (*one)->trusted();
-        }
-    return true;
-}
-
 JobOutcome Job::run() {
     JobOutcome out;
     const Result<control::PathAxes*> axes = rack_.path_axes();
@@ -177,7 +134,7 @@ JobOutcome Job::run() {
         out.ended = tl::unexpected<Error>(axes.error());
         return out;
     }
-    const std::vector<std::int64_t> counted_before = counted_wrongly();
+    TrustWatch trust(rack_);
     lines_ = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
@@ -198,10 +155,14 @@ JobOutcome Job::run() {
         out.warnings.push_back(
             {began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
     collect_conditions(out);
-    tell_wrong_counts(counted_before, out);
+    for (TrustFinding& found : trust.look(true)) {
+        if (found.lost)
+            out.position_trusted = false;
+        else
+            out.warnings.push_back({found.at, 0, std::move(found.text)});
+    }
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
-        out.position_trusted = out.position_trusted && axis.lost_pulses == 0 && trusts_itself(axis.index);
         if (!axis.servo) continue;
         const double off = std::fabs(axis.real_end - axis.planned_end);
         if (out.rest_axis < 0 || off > out.rest_off) out.rest_off = off, out.rest_axis = axis.index;
@@ -210,14 +171,8 @@ JobOutcome Job::run() {
 }
 
 void Job::collect_conditions(JobOutcome& out) {
-    for (const sim::Condition& condition : rack_.kernel().conditions()) {
+    for (const sim::Condition& condition : rack_.kernel().conditions())
         out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
-        // What was lost and found again by chance was lost all the same.
-        for (const RunningAxis& axis : rack_.axes())
-            if (condition.device == axis.machine->id() &&
-                condition.code == static_cast<std::uint16_t>(parts::AxisCondition::lost_steps))
-                out.position_trusted = false;
-    }
     if (const std::uint64_t dropped = rack_.kernel().dropped_conditions())
         out.warnings.push_back({rack_.kernel().now(), 0, fmt::format("{} earlier conditions were not kept", dropped)});
     for (JobWarning& warning : out.warnings) {

@@ -1,8 +1,11 @@
 // Jogging: a lease that is renewed while a key or a button is held, and ended by everything that could mean that none
 // is held any more.
 //
-//   begin ──► jog ──80 ms──► jog ──80 ms──► ...
+//   begin ──► jog ──80 ms──► jog (renews) ──80 ms──► ...
 //   end, blur, hidden, page gone, connection lost, arm switch off ──► jog_stop
+//
+// Orders are numbered, so that none that comes late moves anything. A renewal that is refused ends the hold: something
+// else has stopped the axis, and only another press may move it.
 //
 // The program itself stops an axis that was not renewed for 250 ms: what this page does is only to be quicker.
 import { signal } from '@preact/signals';
@@ -42,14 +45,26 @@ interface Held {
 }
 
 const held = new Map<string, Held>();
+let sequence = 0;
 let timer: ReturnType<typeof setInterval> | undefined;
 
 const speedOf = (axis: string, rapid: boolean): number =>
   (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
 
+const speedFor = (one: Held): number => one.direction * speedOf(one.axis, one.rapid);
+
 function renew(): void {
-  for (const one of held.values())
-    ask({ order: 'jog', axis: one.axis, speed: one.direction * speedOf(one.axis, one.rapid) }).catch(() => undefined);
+  for (const [who, one] of held)
+    ask({ order: 'jog', axis: one.axis, speed: speedFor(one), sequence: ++sequence, renews: true }).catch(() =>
+      drop(who, one),
+    );
+}
+
+/** This hold moves nothing any more; one that took its place stays. */
+function drop(who: string, one: Held): void {
+  if (held.get(who) !== one) return;
+  held.delete(who);
+  settle();
 }
 
 function tell(): void {
@@ -65,10 +80,11 @@ export function begin(who: string, axis: string, direction: 1 | -1, rapid = fals
     return;
   }
   for (const [other, one] of held) if (one.axis === axis) held.delete(other);
-  held.set(who, { axis, direction, rapid });
+  const one: Held = { axis, direction, rapid };
+  held.set(who, one);
   tell();
-  void order('jog', { axis, speed: direction * speedOf(axis, rapid) }).then((taken) => {
-    if (!taken && held.delete(who)) settle();
+  void order('jog', { axis, speed: speedFor(one), sequence: ++sequence }).then((taken) => {
+    if (!taken) drop(who, one);
   });
   timer ??= setInterval(renew, RENEW_MS);
 }
@@ -77,7 +93,7 @@ export function end(who: string): void {
   const one = held.get(who);
   if (one === undefined) return;
   held.delete(who);
-  if (held.size > 0) ask({ order: 'jog', axis: one.axis, speed: 0 }).catch(() => undefined);
+  if (held.size > 0) ask({ order: 'jog', axis: one.axis, speed: 0, sequence: ++sequence }).catch(() => undefined);
   settle();
 }
 
@@ -97,7 +113,7 @@ export function endAll(): void {
 function settle(): void {
   tell();
   if (held.size > 0) return;
-  ask({ order: 'jog_stop' }).catch(() => undefined);
+  ask({ order: 'jog_stop', sequence: ++sequence }).catch(() => undefined);
   clearInterval(timer);
   timer = undefined;
 }

@@ -111,6 +111,48 @@ describe('a jog', () => {
   });
 });
 
+describe('the orders of a jog', () => {
+  test('are numbered upwards, and only the first one can begin a motion', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    await after(160);
+    lease.end('key');
+    lease.begin('key', 'X', -1);
+    const sent = program.asked('jog').map(({ sequence, renews }) => [sequence, renews]);
+    expect(sent).toEqual([
+      [1, undefined],
+      [2, true],
+      [3, true],
+      [5, undefined],
+    ]);
+    expect(program.asked('jog_stop').map(({ sequence }) => sequence)).toEqual([4]);
+  });
+
+  test('end when a renewal is refused: what has stopped the axis stays its stop until another press', async () => {
+    const { lease, program } = await opened();
+    lease.begin('key', 'X', 1);
+    await after(80);
+    program.answers.jog = 'The jog of axis X has ended.';
+    await after(80);
+    expect(lease.jogging.value).toBe('');
+    await ended(program);
+    program.answers.jog = {};
+    lease.begin('key', 'X', 1);
+    expect(lease.jogging.value).toBe('+X');
+  });
+
+  test('of a second press are not ended by the late refusal of the first', async () => {
+    const { lease, program } = await opened();
+    program.answers.jog = 'X stands at its limit.';
+    lease.begin('key', 'X', 1);
+    lease.end('key');
+    program.answers.jog = {};
+    lease.begin('key', 'X', -1);
+    await settled();
+    expect(lease.jogging.value).toBe('-X');
+  });
+});
+
 describe('two held jogs', () => {
   test('of two axes: letting one go stops that one alone', async () => {
     const { lease, program } = await opened();

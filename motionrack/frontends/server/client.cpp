@@ -221,7 +221,7 @@ void Client::written() {
 void Client::closed() {
     wire_ = nullptr;
     leaving_ = true;
-    service_.lease().left(session_);
+    service_.left(session_);
 }
 
 void Client::goodbye(int code, std::string_view reason) {

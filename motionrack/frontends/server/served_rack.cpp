@@ -20,6 +20,7 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
         if (meanwhile) meanwhile();
         return pacer_.pace(now);
     };
+    settings.machine.wall = [this] { return clock_.now(); };
     MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings.machine)));
     MOTIONRACK_TRY(door_, authority::Doorkeeper::open(std::move(settings.door)));
     if (settings.grbl) {

@@ -232,6 +232,11 @@ void Service::stop(panel::Caller caller, const std::string& address) {
     audit(caller.user, address, "stop", panel::done());
 }
 
+void Service::left(const std::string& session) {
+    panel_.left(session);
+    lease_.left(session);
+}
+
 /// The same a second time within a second is not told again.
 void Service::audit(const std::string& user, const std::string& address, std::string what,
                     const panel::Answer& answer) {

@@ -71,6 +71,8 @@ class Service {
              std::function<void(panel::Answer)> reply);
     /// STOP. Never refused, never counted.
     void stop(panel::Caller caller, const std::string& address);
+    /// A connection has ended.
+    void left(const std::string& session);
     /// The role of who comes without a token.
     authority::Role role_without_token(const Peer& peer) const {
         return peer.loopback ? settings_.loopback_role : authority::Role::nobody;

@@ -30,8 +30,7 @@ inline rack::RackConfig router() {
 /// A machine, and orders that are given when their time has come.
 class Operated {
   public:
-    explicit Operated(const rack::RackConfig& config) {
-        MachineSettings settings;
+    explicit Operated(const rack::RackConfig& config, MachineSettings settings = {}) {
         settings.pace = [this](Instant now) { return give(to_seconds(now)), true; };
         settings.on_status = [this](const Status& status) { look(status); };
         settings.on_event = [this](const control::gcode::Step& step) { events.push_back(step.kind); };

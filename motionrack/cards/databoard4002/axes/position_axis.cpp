@@ -11,6 +11,7 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration least_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
+constexpr double count_slack = 1e-6;                         // what is so little off a whole count is one
 constexpr std::int64_t least_progress = 2;                   // a broken line alone goes to and fro by one count
 
 /// From one look at the progress to the next, at `speed` counts/s: time for ten times that.
@@ -145,7 +146,9 @@ Result<void> PositionAxis::begin_jog(double speed, Instant now) {
     MOTIONRACK_CHECK(check_free("Jog", forward));
     MOTIONRACK_TRY(const std::int64_t here, counts());
     const double end = forward ? settings_.limits.max_position : settings_.limits.min_position;
-    const auto limit = static_cast<std::int64_t>(std::floor((end - offset_) * settings_.counts_per_unit + 0.5));
+    const double counts_to_end = (end - offset_) * settings_.counts_per_unit;
+    const auto limit = static_cast<std::int64_t>(forward ? std::floor(counts_to_end + count_slack)
+                                                         : std::ceil(counts_to_end - count_slack));
     const std::int64_t most = forward ? map::greatest_24 : map::least_24;
     const std::int64_t target = std::clamp(trusted_ ? limit : most, std::max(map::least_24, here - longest_move),
                                            std::min(map::greatest_24, here + longest_move));
@@ -166,6 +169,7 @@ Result<void> PositionAxis::jog(double speed, Instant now) {
     if (doing_ == Doing::nothing && !search_.running()) return begin_jog(speed, now);
     if (doing_ == Doing::moving || search_.running())
         return refuse("Jog", "it moves; stop it and wait until it stands");
+    if (error_) return refuse("Jog", "something has stopped it; wait until it stands");
     MOTIONRACK_TRY(const int rate, rate_of("Jog", std::fabs(speed)));
     renewed_ = now;
     if (doing_ == Doing::jogging && (speed > 0) == forward_) {

@@ -12,6 +12,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
+constexpr double pulse_slack = 1e-6;  // what is so little off a whole pulse is one
 constexpr double most_pulses = static_cast<double>(param::pulses.greatest),
                  most_place = static_cast<double>(param::LP.greatest);
 
@@ -85,7 +86,7 @@ Result<void> SingleAxis::begin_move(double distance, double speed) {
     MOTIONRACK_CHECK(real_.set(drive_at(speed, settings_.limits.max_jerk > 0)));
     MOTIONRACK_CHECK(real_.move(distance));
     moving_ = true;
-    stopping_ = false;
+    jogged_ = stopping_ = false;
     return {};
 }
 
@@ -114,21 +115,45 @@ Result<void> SingleAxis::move_by(double distance, double speed) {
     return begin_move(distance, speed);
 }
 
+/// The whole pulses within the travel.
+ManualTravel SingleAxis::travel() const {
+    const control::AxisLimits& limits = settings_.limits;
+    const double scale = limits.pulses_per_unit;
+    return {static_cast<std::int64_t>(std::ceil(limits.min_position * scale - pulse_slack)),
+            static_cast<std::int64_t>(std::floor(limits.max_position * scale + pulse_slack))};
+}
+
+/// There is a pulse left that way.
+Result<void> SingleAxis::check_travel(double speed) {
+    const bool negative = speed < 0;
+    const std::int64_t at = driver_.ReadLPS(settings_.channel);
+    if (!trusted_ || (negative ? at > travel().least : at < travel().greatest)) return {};
+    return refuse("Jog", fmt::format("it stands at the {} end of its travel, {} {}; move it in {} direction",
+                                     negative ? "-" : "+",
+                                     negative ? settings_.limits.min_position : settings_.limits.max_position,
+                                     settings_.unit, negative ? "+" : "-"));
+}
+
 Result<void> SingleAxis::jog(double speed, Instant now) {
     if (speed == 0) return manual_.jog(0, now);
     MOTIONRACK_CHECK(check_speed("Jog", std::fabs(speed)));
+    if (manual_.state() != ManualState::standing) step(now);  // what has ended meanwhile
     if (manual_.state() == ManualState::standing) {
         MOTIONRACK_CHECK(check_free("Jog"));
+        MOTIONRACK_CHECK(check_travel(speed));
         MOTIONRACK_TRY(const RealSetting setting, real_.set(drive_at(settings_.limits.max_speed, false)));
         ManualSettings manual;
         manual.sv = setting.start_speed.value;
         manual.a = setting.acceleration.value;
         manual.hold = settings_.hold;
+        if (trusted_) manual.travel = travel();
         MOTIONRACK_CHECK(manual_.set(manual));
     }
     const double unit = driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
     const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, most_units));
-    return manual_.jog(speed < 0 ? -v : v, now);
+    MOTIONRACK_CHECK(manual_.jog(speed < 0 ? -v : v, now));
+    jogged_ = true;
+    return {};
 }
 
 // ---- homing
@@ -186,7 +211,7 @@ Result<void> SingleAxis::home(const control::HomeOrder& order, Instant now) {
     MOTIONRACK_CHECK(check_free("Homing"));
     MOTIONRACK_CHECK(home_.start(settings, now));
     trust(false);
-    stopping_ = false;
+    jogged_ = stopping_ = false;
     return {};
 }
 
@@ -315,12 +340,11 @@ Result<void> SingleAxis::wait(Duration timeout) {
     if (asked)
         return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
                                                   settings_.name, position(), settings_.unit));
-    const AxisStatus status = driver_.axis_status(settings_.channel);
-    if (!homing && !status.why_stopped().empty())
+    const std::string why = jogged_ ? manual_.why_ended() : driver_.axis_status(settings_.channel).why_stopped();
+    if (!homing && !why.empty())
         return fail(Trouble::machine,
                     fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit,
-                                status.why_stopped(),
-                                trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
+                                why, trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
     return {};
 }
 

@@ -61,6 +61,8 @@ class SingleAxis final : public control::Axis {
     Result<void> check_free(const char* what);
     Result<void> check_into_limit(const char* what, bool negative);
     Result<void> begin_move(double distance, double speed);
+    ManualTravel travel() const;
+    Result<void> check_travel(double speed);
     void trust(bool on);
     void note_end();
     RealDrive drive_at(double speed, bool with_jerk) const;
@@ -73,6 +75,7 @@ class SingleAxis final : public control::Axis {
     Manual manual_;
     bool trusted_ = false;
     bool moving_ = false;  ///< a move of ours, until its end was looked at
+    bool jogged_ = false;  ///< last, and nothing since
     bool stopping_ = false;
 };
 

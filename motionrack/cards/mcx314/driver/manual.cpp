@@ -1,8 +1,10 @@
 // Jog, step, manual home: a small machine around single drive commands.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <motionrack/cards/mcx314/driver/manual.hpp>
+#include <motionrack/cards/mcx314/driver/parameters.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -10,7 +12,7 @@ namespace {
 
 constexpr StateInfo states[] = {
     {"standing", "no manual drive"},
-    {"jogging", "a continuous drive that is renewed"},
+    {"jogging", "a drive that is renewed: continuous, or to the end of the travel"},
     {"turning", "decelerates, to jog on from rest"},
     {"stepping", "a fixed drive"},
     {"homing", "a homing that is renewed"},
@@ -22,7 +24,7 @@ constexpr TransitionInfo transitions[] = {
     {"standing", "homing", "home()"},
     {"jogging", "turning", "jog() the other way"},
     {"jogging", "stopping", "not renewed, jog(0) or stop()"},
-    {"jogging", "standing", "the chip ended the drive"},
+    {"jogging", "standing", "the chip ended the drive, or the travel has ended"},
     {"turning", "jogging", "the axis stands and the jog is renewed"},
     {"turning", "stopping", "not renewed, jog(0) or stop()"},
     {"turning", "standing", "the axis stands at a limit of the new direction"},
@@ -87,13 +89,38 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     if ((negative ? field("RR2", "SLMTM") : field("RR2", "SLMTP")).test(status.rr2))
         return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+",
                                   negative ? "+" : "-"));
+    if (settings_.travel && way_left(negative) <= 0)
+        return refuse(fmt::format("it stands at pulse {}, the {} end of its travel; move it in {} direction",
+                                  driver_.ReadLPS(axis_), negative ? "-" : "+", negative ? "+" : "-"));
     return {};
 }
 
+/// Pulses to the end of the travel.
+std::int64_t Manual::way_left(bool negative) {
+    const std::int64_t at = driver_.ReadLPS(axis_);
+    return negative ? at - settings_.travel->least : settings_.travel->greatest - at;
+}
+
+/// Within a travel the drive has the pulses to its end and no more: the chip itself cannot go beyond.
 Result<void> Manual::begin_jog() {
     why_.clear();
     const bool negative = wanted_ < 0;
-    return driver_.TCurve_C(mask(), settings_.sv, negative ? -wanted_ : wanted_, settings_.a, negative);
+    const std::int64_t v = negative ? -wanted_ : wanted_;
+    if (!settings_.travel) return driver_.TCurve_C(mask(), settings_.sv, v, settings_.a, negative);
+    const std::int64_t way = std::min(way_left(negative), param::pulses.greatest);
+    const double pulses_per_v = static_cast<double>(rules::speed_carry) / static_cast<double>(settings_.a) *
+                                driver_.multiple(axis_) / rules::clock_hz;
+    reserve_ = RampReserve(settings_.sv, pulses_per_v, v);
+    MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.greatest)));
+    return driver_.TCurve_F(mask(), settings_.sv, v, settings_.a, negative ? -way : way);
+}
+
+Result<void> Manual::change_speed(std::int64_t v) {
+    if (settings_.travel) {
+        reserve_.change(driver_.ReadCV(axis_), v);
+        MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.greatest)));
+    }
+    return driver_.SetV(mask(), v);
 }
 
 Result<void> Manual::jog(std::int64_t v, Instant now) {
@@ -110,7 +137,7 @@ Result<void> Manual::jog(std::int64_t v, Instant now) {
         MOTIONRACK_CHECK(begin_jog());
         state_ = ManualState::jogging;
     } else if (state_ == ManualState::jogging && !turns) {
-        if (v != wanted_) MOTIONRACK_CHECK(driver_.SetV(mask(), v < 0 ? -v : v));
+        if (v != wanted_) MOTIONRACK_CHECK(change_speed(v < 0 ? -v : v));
     } else if (state_ != ManualState::turning) {
         driver_.SlowStop(mask());
         state_ = ManualState::turning;
@@ -164,7 +191,7 @@ void Manual::step(Instant now) {
     const bool held = now < until_;
     if ((state_ == ManualState::jogging || state_ == ManualState::turning) && !held) stop();
     if (driver_.moving(mask())) return;
-    why_ = driver_.axis_status(axis_).why_stopped();
+    end_drive();
     if (state_ == ManualState::turning && held) {
         state_ = ManualState::standing;
         const Result<void> begun = [&]() -> Result<void> {
@@ -178,6 +205,16 @@ void Manual::step(Instant now) {
         return;
     }
     state_ = ManualState::standing;
+}
+
+/// Why it ended; fixed drives of others keep no pulses for their end.
+void Manual::end_drive() {
+    why_ = driver_.axis_status(axis_).why_stopped();
+    if (!settings_.travel || state_ == ManualState::stepping) return;
+    static_cast<void>(driver_.SetAO(mask(), 0));
+    const bool negative = wanted_ < 0;
+    if (why_.empty() && state_ == ManualState::jogging && way_left(negative) <= 0)
+        why_ = fmt::format("the {} end of its travel was reached", negative ? "-" : "+");
 }
 
 void Manual::stop() {

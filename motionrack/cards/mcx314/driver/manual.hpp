@@ -2,13 +2,21 @@
 //
 //   jog(+v) ══ jog(+v) ══ jog(+2v) ══ nothing for `hold` ──► decelerates         every call renews for `hold`
 //   jog(+v) ══ jog(-v) ──► decelerates, then the other way
+//   jog(+v) ══ jog(+v) ══ decelerates ──► the last pulse of the travel, if one is given: the drive has no more pulses
 //
 // Nothing waits and nothing looks at a clock: the caller gives the time and calls step() every few ms.
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/home.hpp>
+#include <motionrack/cards/mcx314/driver/ramp_reserve.hpp>
+#include <optional>
 
 namespace motionrack::mcx314 {
+
+/// Where a jog may go: values of LP.
+struct ManualTravel {
+    std::int64_t least = 0, greatest = 0;
+};
 
 /// Speeds in V units, acceleration in A units, at the R that is written.
 struct ManualSettings {
@@ -16,6 +24,7 @@ struct ManualSettings {
     std::int64_t a = 100;               ///< acceleration and deceleration, 1 .. 8,000
     std::int64_t most_v = 8'000;        ///< greatest speed that jog() takes, 1 .. 8,000
     Duration hold = milliseconds(250);  ///< how long a jog or a manual home goes on without being renewed, 1 ms .. 10 s
+    std::optional<ManualTravel> travel = {};  ///< absent: a jog goes on until something stops it
 };
 
 enum class ManualState : std::uint8_t { standing, jogging, turning, stepping, homing, stopping };
@@ -32,8 +41,8 @@ class Manual {
     const ManualSettings& settings() const { return settings_; }
 
     /// Jogs at `v`, the sign is the direction; 0 lets go. Starts, renews, changes the speed on the fly, or turns round
-    /// by way of a stop. Refused: above most_v, into an active limit, with alarm or emergency stop active, while
-    /// stepping or homing.
+    /// by way of a stop. Refused: above most_v, at the end of the travel or into an active limit, with alarm or
+    /// emergency stop active, while stepping or homing.
     Result<void> jog(std::int64_t v, Instant now);
     /// One step of `pulses` (signed, not 0) at `v`. Refused unless standing, and as jog().
     Result<void> step_jog(std::int64_t pulses, std::int64_t v);
@@ -56,6 +65,9 @@ class Manual {
     std::string name() const { return std::string(1, "XYZU"[axis_]); }
     Result<void> check_ready(const char* what, std::int64_t v);
     Result<void> begin_jog();
+    Result<void> change_speed(std::int64_t v);
+    std::int64_t way_left(bool negative);
+    void end_drive();
 
     Driver& driver_;
     int axis_;
@@ -64,6 +76,7 @@ class Manual {
     ManualState state_ = ManualState::standing;
     std::int64_t wanted_ = 0;  ///< speed of the jog, or of the one after the turn
     Instant until_{};          ///< renewed up to here
+    RampReserve reserve_;      ///< of a jog within a travel
     std::string why_;
 };
 

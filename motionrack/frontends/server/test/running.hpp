@@ -22,7 +22,7 @@ namespace motionrack::server {
 class Running {
   public:
     using Change = std::function<void(ServerSettings&)>;
-    explicit Running(const Change& change = {}, Page page = {}) {
+    explicit Running(const Change& change = {}, Page page = {}, Duration jog_lease = milliseconds(250)) {
         const rack::RackReading reading = rack::read_rack_text(
             "[rack]\nname = \"two\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
             "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
@@ -31,6 +31,7 @@ class Running {
         settings.version = "0.0.0";
         settings.boot = "b007";
         settings.machine.on_status = [this](const operate::Status& status) { look(status); };
+        settings.machine.jog_lease = jog_lease;
         settings.door.on_start_code = [](const std::string&) {};
         settings.page = std::move(page);
         settings.server.port = 0;

@@ -112,6 +112,40 @@ TEST(AStream, HasOneMasterAtATime) {
     EXPECT_THAT(error_of(anna.order({{"order", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
 }
 
+TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
+    Running running({}, {}, whole_seconds(3600));
+    WebClient watcher = running.stream("");
+    {
+        WebClient anna = running.master("anna");
+        ASSERT_TRUE(anna.order({{"order", "jog"}, {"axis", "X"}, {"speed", 1}, {"sequence", 1}}).value("done", false));
+        anna.receive_until([](const json& message) { return state_is(message, "jogging"); });
+        { WebClient bert = running.stream(running.token("bert")); }  // another one that closes ends nothing
+        EXPECT_TRUE(anna.order({{"order", "jog"}, {"axis", "X"}, {"speed", 2}, {"sequence", 2}, {"renews", true}})
+                        .value("done", false));
+    }
+    const json stood = watcher.receive_until([](const json& message) {
+        return state_is(message, "standstill") && message["status"]["axes"][0]["commanded"] > 0;
+    });
+    EXPECT_LT(stood["status"]["axes"][0]["commanded"], 290) << "it stopped long before the end of its travel";
+}
+
+TEST(AStream, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
+    Running running;
+    WebClient anna = running.master("anna");
+    const json jog = {{"order", "jog"}, {"axis", "X"}, {"speed", 1}};
+    const auto with = [&](std::int64_t sequence, bool renews) {
+        json out = jog;
+        out["sequence"] = sequence;
+        out["renews"] = renews;
+        return error_of(anna.order(out));
+    };
+    EXPECT_THAT(with(1, true), HasSubstr("has ended"));
+    EXPECT_EQ(with(2, false), "");
+    EXPECT_TRUE(anna.order({{"order", "jog_stop"}, {"sequence", 7}}).value("done", false));
+    EXPECT_THAT(with(6, false), HasSubstr("sequence 6, but 7 came before it"));
+    EXPECT_TRUE(anna.order({{"order", "jog_stop"}, {"sequence", 3}}).value("done", false)) << "a stop is never too old";
+}
+
 /// What clients do wrong, while the machine drives a job and while it stands.
 class AStreamWhile : public testing::TestWithParam<bool> {
   protected:

@@ -1,0 +1,101 @@
+// Jogs and their leases.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/operate/jogs.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+// ---- orders
+
+Result<void> Jogs::see(const JogOrigin& origin) {
+    if (origin.sequence == 0) return {};
+    if (origin.session == newest_.session && origin.sequence <= newest_.sequence)
+        return fail(Trouble::refused,
+                    fmt::format("Not jogged: the order has the sequence {}, but {} came before it. Nothing was "
+                                "changed; number the orders of a session upwards.",
+                                origin.sequence, newest_.sequence));
+    newest_ = origin;
+    return {};
+}
+
+Result<void> Jogs::accept(char letter, const JogOrigin& origin) {
+    MOTIONRACK_CHECK(see(origin));
+    if (!origin.renews || held(letter)) return {};
+    return fail(Trouble::refused,
+                fmt::format("Not jogged: the jog of axis {} has ended, so it cannot be renewed. Nothing was moved; let "
+                            "go, and jog again.",
+                            letter));
+}
+
+void Jogs::hold(char letter, double speed, const std::string& session) {
+    if (speed == 0)
+        leases_.erase(letter);
+    else
+        leases_[letter] = {speed, session, wall_() + lease_};
+    orders_.push_back({letter, speed, std::nullopt});
+}
+
+void Jogs::move(char letter, double distance, double speed) {
+    orders_.push_back({letter, speed, distance});
+}
+
+void Jogs::end_of(const std::string& session) {
+    std::erase_if(leases_, [&](const auto& one) { return one.second.session == session; });
+}
+
+void Jogs::let_go() {
+    orders_.clear();
+    leases_.clear();
+}
+
+bool Jogs::held(char letter) const {
+    const auto found = leases_.find(letter);
+    return found != leases_.end() && wall_() < found->second.until;
+}
+
+// ---- motion
+
+/// What has ended by itself is not begun again by its lease: first it is looked at, then it is renewed.
+std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
+    using control::AxisState;
+    if (stop) one.axis->stop();
+    one.axis->step(now);
+    const AxisState state = one.axis->state();
+    if (state == AxisState::standstill || state == AxisState::error) {
+        leases_.erase(one.letter);
+        return Ended{one.letter, one.axis->trusted(), one.axis->wait(Duration{0})};
+    }
+    if (one.leased && !stop) static_cast<void>(one.axis->jog(held(one.letter) ? leases_.at(one.letter).speed : 0, now));
+    return std::nullopt;
+}
+
+Result<void> Jogs::begin(const Order& order, const Take& take, Instant now) {
+    const bool leased = !order.distance;
+    if (leased && order.speed != 0 && !held(order.letter)) return {};  // over before it began
+    MOTIONRACK_TRY(control::Axis * axis, take(order.letter));
+    MOTIONRACK_CHECK(leased ? axis->jog(order.speed, now) : axis->move_by(*order.distance, order.speed));
+    const bool known =
+        std::any_of(moving_.begin(), moving_.end(), [&](const Moving& one) { return one.letter == order.letter; });
+    if (!known) moving_.push_back({order.letter, axis, leased});
+    return {};
+}
+
+std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, bool stop) {
+    std::vector<Ended> out;
+    std::erase_if(moving_, [&](Moving& one) {
+        std::optional<Ended> ended = carry_on(one, now, stop);
+        if (ended) out.push_back(std::move(*ended));
+        return ended.has_value();
+    });
+    for (const Order& order : std::exchange(orders_, {})) {
+        Result<void> begun = begin(order, take, now);
+        if (begun) continue;
+        leases_.erase(order.letter);
+        out.push_back({order.letter, true, std::move(begun)});
+    }
+    return out;
+}
+
+}  // namespace motionrack::operate

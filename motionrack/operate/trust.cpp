@@ -1,0 +1,53 @@
+// Trust gained and lost.
+#include <fmt/format.h>
+
+#include <motionrack/operate/trust.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+namespace {
+
+/// What a stop at once does to a motor that was fast shows some milliseconds later.
+constexpr Duration look_every = milliseconds(20);
+
+}  // namespace
+
+std::size_t Trust::index(char letter) const {
+    return static_cast<std::size_t>(rack_.config().axis(letter)->index());
+}
+
+void Trust::set(char letter, bool on) {
+    trusted_[index(letter)] = on;
+    for (std::size_t i = 0; on && i < rack_.axes().size(); ++i)
+        if (rack_.axes()[i].config.letter == letter) watch_.begin(i);
+}
+
+bool Trust::lose_driven() {
+    bool any = false;
+    for (const rack::RackAxis& axis : rack_.config().axes) {
+        if (rack_.config().positions_alone(axis)) continue;
+        set(axis.letter, false);
+        any = true;
+    }
+    return any;
+}
+
+/// While axes search home nothing is known of them yet.
+std::vector<std::string> Trust::look(Instant now, MachineState state) {
+    std::vector<std::string> out;
+    if (state == MachineState::homing || now < due_) return out;
+    due_ = now + look_every;
+    const bool stand = stands(state), stood = std::exchange(stood_, stand);
+    for (const rack::TrustFinding& found : watch_.look(stand && stood)) {
+        const char letter = rack_.axes()[found.axis].config.letter;
+        if (!of(letter)) continue;  // known, and its counters mean nothing
+        if (found.lost) set(letter, false);
+        out.push_back(found.lost
+                          ? fmt::format("{}. The position of axis {} is not trusted any more.", found.text, letter)
+                          : fmt::format("{}.", found.text));
+    }
+    return out;
+}
+
+}  // namespace motionrack::operate

@@ -1,0 +1,37 @@
+// Which positions of a machine mean places of it: gained by homing and declaring, lost as in a program that is run.
+#pragma once
+
+#include <array>
+#include <motionrack/control/move.hpp>
+#include <motionrack/operate/status.hpp>
+#include <motionrack/rack/trust.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::operate {
+
+/// Axes by their letters, which the rack has.
+class Trust {
+  public:
+    /// Nothing is trusted. The rack must outlive this.
+    explicit Trust(rack::Rack& rack) : rack_(rack), watch_(rack) {}
+
+    bool of(char letter) const { return trusted_[index(letter)]; }
+    void set(char letter, bool on);
+    /// The emergency stop has stopped without a ramp what pulses drive; an axis that counts for itself has counted on.
+    /// False if there is none of the former.
+    bool lose_driven();
+    /// What was lost since the last look, or counts wrongly: sentences for alarms. Now and then, between drives.
+    std::vector<std::string> look(Instant now, MachineState state);
+
+  private:
+    std::size_t index(char letter) const;
+
+    rack::Rack& rack_;
+    rack::TrustWatch watch_;
+    std::array<bool, control::axis_count> trusted_ = {};
+    Instant due_{};
+    bool stood_ = false;
+};
+
+}  // namespace motionrack::operate

@@ -1,0 +1,117 @@
+// What takes the trust from a position.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <motionrack/rack/trust.hpp>
+#include <motionrack/sim/parts/conditions.hpp>
+#include <utility>
+
+namespace motionrack::rack {
+
+TrustWatch::TrustWatch(Rack& rack) : rack_(rack), watched_(rack.axes().size()) {
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        watched_[i].counted = is_counted(i);
+        watched_[i].counted_wrongly = counted_wrongly(i);
+    }
+}
+
+void TrustWatch::begin(std::size_t axis) {
+    Watched& one = watched_[axis];
+    one.since = rack_.kernel().now();
+    one.lost_pulses = lost_pulses(axis);
+    one.counted_wrongly = counted_wrongly(axis);
+    one.lost = one.told_counts = false;
+}
+
+std::vector<TrustFinding> TrustWatch::look(bool standing) {
+    std::vector<TrustFinding> out;
+    look_at_conditions(out);
+    for (std::size_t i = 0; standing && i < watched_.size(); ++i) compare(i, out);
+    return out;
+}
+
+void TrustWatch::lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out) {
+    if (std::exchange(watched_[axis].lost, true)) return;
+    out.push_back({axis, at, std::move(text), true});
+}
+
+/// What was lost and found again by chance was lost all the same.
+void TrustWatch::look_at_conditions(std::vector<TrustFinding>& out) {
+    const std::vector<sim::Condition> all = rack_.kernel().conditions();
+    const std::uint64_t first = rack_.kernel().dropped_conditions();
+    for (std::uint64_t i = std::max(seen_, first); i < first + all.size(); ++i) {
+        const sim::Condition& condition = all[static_cast<std::size_t>(i - first)];
+        if (condition.code != static_cast<std::uint16_t>(parts::AxisCondition::lost_steps)) continue;
+        for (std::size_t k = 0; k < watched_.size(); ++k)
+            if (condition.device == rack_.axes()[k].machine->id() && condition.at > watched_[k].since)
+                lose(k, condition.at, rack_.describe(condition), out);
+    }
+    seen_ = first + all.size();
+}
+
+void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
+    Watched& one = watched_[axis];
+    const Instant now = rack_.kernel().now();
+    const char letter = rack_.axes()[axis].config.letter;
+    if (!knows_itself(axis))
+        lose(axis, now,
+             fmt::format("axis {} does not know its position any more; look at its motor and its encoder, then home it",
+                         letter),
+             out);
+    if (const std::int64_t lost = lost_pulses(axis) - one.lost_pulses; lost != 0)
+        lose(axis, now,
+             fmt::format("the motor of axis {} did not follow {} pulses; find home again", letter, std::abs(lost)),
+             out);
+    const auto off = static_cast<std::int32_t>(counted_wrongly(axis) - one.counted_wrongly);  // counters have 32 bits
+    if (std::abs(off) <= 1 || std::exchange(one.told_counts, true)) return;
+    out.push_back(
+        {axis, now,
+         fmt::format("encoder of {}: the card's counter is {} counts off from what the motor turned; a line of "
+                     "the encoder or the card's input is faulty. Do not go by this counter; mend it, then "
+                     "home again",
+                     letter, off),
+         false});
+}
+
+// ---- what there is to compare
+
+/// Its own card counts its encoder beside the pulses. Axes that position by themselves do so by these counts.
+bool TrustWatch::is_counted(std::size_t axis) const {
+    const RackConfig& config = rack_.config();
+    const RunningAxis& running = rack_.axes()[axis];
+    if (config.positions_alone(running.config)) return false;
+    return std::any_of(config.encoder_links.begin(), config.encoder_links.end(), [&](const EncoderLink& link) {
+        return link.axis == static_cast<int>(axis) && !link.swapped && link.channel == running.channel &&
+               config.cards[static_cast<std::size_t>(link.card)].name == running.config.card;
+    });
+}
+
+/// Of an axis that positions by itself; others are told where they are.
+bool TrustWatch::knows_itself(std::size_t axis) {
+    RunningAxis& running = rack_.axes()[axis];
+    if (!rack_.config().positions_alone(running.config)) return true;
+    const Result<control::Axis*> one = running.card->axis(rack_.config(), running.config.letter);
+    return one && (*one)->trusted();
+}
+
+/// A servo has no pulses to lose.
+std::int64_t TrustWatch::lost_pulses(std::size_t axis) const {
+    const RunningAxis& running = rack_.axes()[axis];
+    const Instant now = rack_.kernel().now();
+    return running.turned_by().count(now) - running.machine->rotor().count(now);
+}
+
+/// What the card has counted less what the motor has turned.
+std::int64_t TrustWatch::counted_wrongly(std::size_t axis) const {
+    if (!watched_[axis].counted) return 0;
+    const RunningAxis& running = rack_.axes()[axis];
+    const double counts_per_pulse = static_cast<double>(running.config.encoder_counts_per_rev) /
+                                    static_cast<double>(running.config.pulses_per_rev());
+    const double turned = static_cast<double>(running.machine->rotor().count(rack_.kernel().now()));
+    return running.card->encoder_counter(running.channel) -
+           static_cast<std::int64_t>(std::floor(turned * counts_per_pulse));
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,57 @@
+// Whether the positions of a rack's axes still mean places of the machine: one rule for programs that are run and for
+// machines that people operate.
+//
+//   a motor lost steps, was pushed or held ──────────────────────► lost, until the axis is homed or declared
+//   an axis that positions by itself does not know where it is ──► lost
+//   a card's encoder counter is off from what the motor turned ──► told; the pulses, which axes are driven by, are right
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/time.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// What is wrong with the position of an axis.
+struct TrustFinding {
+    std::size_t axis = 0;  ///< of Rack::axes()
+    Instant at{};
+    std::string text;   ///< without a full stop
+    bool lost = false;  ///< the position is not to be trusted
+};
+
+class TrustWatch {
+  public:
+    /// Of a rack since its start; encoders count right here and now.
+    explicit TrustWatch(Rack& rack);
+    /// An axis is where it says from now on: it was homed, or declared.
+    void begin(std::size_t axis);
+    /// What was found since the last look, each once until begin(). `standing`: nothing moves, so counters and rotors
+    /// can be compared and axes asked.
+    std::vector<TrustFinding> look(bool standing);
+
+  private:
+    struct Watched {
+        Instant since{-1};                 ///< what came before does not matter
+        std::int64_t lost_pulses = 0;      ///< when it began
+        std::int64_t counted_wrongly = 0;  ///< when it began
+        bool counted = false;              ///< its card counts its encoder beside the pulses
+        bool lost = false, told_counts = false;
+    };
+    bool is_counted(std::size_t axis) const;
+    bool knows_itself(std::size_t axis);
+    std::int64_t lost_pulses(std::size_t axis) const;
+    std::int64_t counted_wrongly(std::size_t axis) const;
+    void lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out);
+    void look_at_conditions(std::vector<TrustFinding>& out);
+    void compare(std::size_t axis, std::vector<TrustFinding>& out);
+
+    Rack& rack_;
+    std::vector<Watched> watched_;
+    std::uint64_t seen_ = 0;  ///< conditions
+};
+
+}  // namespace motionrack::rack
