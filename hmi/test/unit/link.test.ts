@@ -101,18 +101,8 @@ describe('control', () => {
     expect(program.asked('take_control')).toEqual([{ order: 'take_control' }]);
   });
 
-  test('is taken from another user by force, at standstill', async () => {
-    const { program } = await connected({ machine: { control: { holder: 'bert', holder_session: 's' } } });
-    const { takeControl, whyNotControl } = await control();
-    expect(whyNotControl()).toBe('');
-    takeControl();
-    expect(program.asked('take_control')).toEqual([{ order: 'take_control', force: true }]);
-  });
-
-  test('is taken from another user by force in a hold', async () => {
-    const { program } = await connected({
-      machine: { state: 'hold', control: { holder: 'bert', holder_session: 's' } },
-    });
+  test.each(['standstill', 'hold'])('is taken from another user by force, at %s', async (state) => {
+    const { program } = await connected({ machine: { state, control: { holder: 'bert', holder_session: 's' } } });
     const { takeControl, whyNotControl } = await control();
     expect(whyNotControl()).toBe('');
     takeControl();
