@@ -32,6 +32,11 @@ std::string_view name_of(MachineState state) {
 
 namespace {
 
+Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
+    if (!latch.latched()) return {};
+    return fail(Trouble::refused, fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
+}
+
 rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& standing) {
     for (const Standing& one : standing)
         for (rack::RackAxis& axis : config.axes)
@@ -66,7 +71,7 @@ void Machine::post(std::function<void()> work) {
 
 void Machine::quit() {
     post([this] {
-        stop();
+        cancel();
         quit_ = true;
     });
 }
@@ -75,6 +80,7 @@ void Machine::quit() {
 
 /// Standing and enabled.
 Result<void> Machine::ready(const char* what) {
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {
         return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why));
     };
@@ -118,7 +124,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
 Result<void> Machine::enable(bool on, std::string_view axes) {
     for (const char letter : axes)
         MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
-    if (!on) stop();
+    if (!on) cancel();
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
         const auto i = static_cast<std::size_t>(axis.index());
@@ -152,6 +158,8 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
         problem.place.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
     };
+    if (Result<void> can = not_stopped(rack_.stop_latch(), "The line was not taken"); !can)
+        return refuse(can.error().message);
     if (program_runs_) return refuse("The line was not taken: a program runs. Stop it or wait for its end.");
     if (!has_room()) return refuse("The line was not taken: there is no room for it until others are driven.");
     if (state_ != MachineState::moving && state_ != MachineState::hold)
@@ -176,12 +184,18 @@ Result<void> Machine::resume() {
         return fail(Trouble::refused,
                     fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
                                 name_of(state_)));
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
     stream_->resume();
     enter(MachineState::moving);
     return {};
 }
 
 void Machine::stop() {
+    rack_.stop_latch().order();
+    take_stop();
+}
+
+void Machine::cancel() {
     walk_.reset();
     over_ = false;
     program_runs_ = false;
@@ -196,11 +210,12 @@ void Machine::stop() {
 }
 
 void Machine::reset() {
-    stop();
+    cancel();
     reset_wanted_ = true;
 }
 
 Result<void> Machine::jog(char axis, double speed) {
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     MOTIONRACK_CHECK(axis_named("Not jogged", axis));
@@ -222,6 +237,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 }
 
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
     if (!stream_->has_room())
         return fail(Trouble::refused, "Not jogged: there is no room for another jog until others are driven.");

@@ -40,6 +40,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
+    rack_.stop_latch().arm();
     if (!settings_.alarm.empty()) raise("last run", settings_.alarm);
     tell();
     return {};
@@ -75,19 +76,38 @@ void Machine::slice() {
     bool on = false;
     while (!on) {
         on = !settings_.pace || settings_.pace(now()) || quit_;
-        hear();
+        std::vector<std::function<void()>> work;
+        {
+            const std::lock_guard<std::mutex> alone(lock_);
+            work.swap(inbox_);
+        }
+        for (const std::function<void()>& one : work) one();
+        take_stop();
         tell();
     }
 }
 
-void Machine::hear() {
-    std::vector<std::function<void()>> work;
-    {
-        const std::lock_guard<std::mutex> alone(lock_);
-        work.swap(inbox_);
-    }
-    for (const std::function<void()>& one : work) one();
+/// In every slice, whatever moves or waits.
+void Machine::take_stop() {
+    rack::StopLatch& latch = rack_.stop_latch();
+    latch.look();
+    if (latch.latched()) jogs_.clear();
+    if (!latch.halted() || std::exchange(stop_taken_, true)) return;
+    cancel();
 }
+
+namespace {
+
+/// Whoever asked for the stop needs no alarm.
+std::string alarm_source(const rack::StopLatch& latch) {
+    return latch.cause() == rack::StopSource::stop_order ? std::string() : std::string(rack::name_of(latch.cause()));
+}
+
+std::string stop_text(const rack::StopLatch& latch) {
+    return fmt::format("{} {}", latch.sentence(), latch.advice());
+}
+
+}  // namespace
 
 void Machine::step() {
     if (!accesses_.empty()) return access_bus();
@@ -96,38 +116,44 @@ void Machine::step() {
     if (!positions_wanted_.empty()) return change_positions();
     if (walk_ || over_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
     if (stop_wanted_) return come_to_rest();
-    watch_button();
+    if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
+        const rack::StopLatch& latch = rack_.stop_latch();
+        return enter_error_stop(alarm_source(latch), stop_text(latch));
+    }
     host().pass(settings_.slice);
 }
 
-namespace {
-constexpr const char* button_name = "emergency stop";
-}
-
-bool Machine::button_pressed() const {
-    const Result<double> level = desk_.get("estop");
-    return level && *level == 0;  // its contact opens
-}
-
-/// At a standstill no drive ends by it.
-void Machine::watch_button() {
-    if (state_ == MachineState::error_stop || !button_pressed()) return;
-    raise(button_name, "The emergency stop is pressed. Release it, then reset.");
-    enter(MachineState::error_stop, status_.alarms.back().text);
+/// Everything stands. Without a source there is no alarm: who asked for the stop needs none.
+void Machine::enter_error_stop(std::string source, std::string text) {
+    rack::StopLatch& latch = rack_.stop_latch();
+    if (latch.latched()) {
+        latch.settle();
+        stop_taken_ = true;
+        for (std::size_t i = 0; i < trusted_.size(); ++i)
+            trusted_[i] = trusted_[i] && latch.keeps_position(static_cast<int>(i));
+        text += ' ' + latch.position_sentence();
+    }
+    tools_off();
+    if (!source.empty()) raise(std::move(source), text);
+    enter(MachineState::error_stop, std::move(text));
 }
 
 /// Nothing moves any more after a stop.
 void Machine::come_to_rest() {
     stop_wanted_ = false;
     home_stop_ = false;
-    if (reset_wanted_ && button_pressed())
-        status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
-    if (std::exchange(reset_wanted_, false) && !button_pressed()) {
+    rack::StopLatch& latch = rack_.stop_latch();
+    const bool asked = std::exchange(reset_wanted_, false);
+    const Result<void> reset = asked ? latch.reset() : Result<void>();
+    if (!reset) status_.why = reset.error().message;
+    if (asked && reset) {
+        stop_taken_ = false;
         stream_->forget_modes();
         tools_off();
         for (Alarm& alarm : status_.alarms) alarm.active = false;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
+    if (latch.latched() && state_ != MachineState::error_stop) enter_error_stop(alarm_source(latch), stop_text(latch));
     if (state_ == MachineState::stopping) enter(MachineState::standstill);
     for (std::size_t i = 0; i < enabled_.size(); ++i)
         enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
@@ -257,12 +283,10 @@ void Machine::failed(const Error& error) {
     walk_.reset();
     over_ = false;
     program_runs_ = false;
-    tools_off();
-    const bool pressed = button_pressed();
-    if (pressed) trusted_.fill(false);  // it stopped without a ramp
-    raise(pressed ? button_name : what,
-          error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
-    enter(MachineState::error_stop, status_.alarms.back().text);
+    const rack::StopLatch& latch = rack_.stop_latch();
+    const bool known =
+        latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
+    enter_error_stop(known ? alarm_source(latch) : what, error.text());
 }
 
 void Machine::raise(std::string source, std::string text) {

@@ -49,7 +49,7 @@ constexpr std::array motion = {
          }},
     Doer{"jog_stop",
          [](Desk& desk, const Caller&, const json&) -> Result<json> {
-             if (desk.machine.state() == operate::MachineState::jogging) desk.machine.stop();
+             if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
              return json::object();
          }},
     Doer{"set_work_zero",

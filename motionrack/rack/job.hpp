@@ -107,6 +107,7 @@ class Job {
     void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     void collect_conditions(JobOutcome& out);
+    void tell_stop(JobOutcome& out);
     bool trusts_itself(int index);
     std::vector<std::int64_t> counted_wrongly();
     void tell_wrong_counts(const std::vector<std::int64_t>& before, JobOutcome& out);
