@@ -5,6 +5,7 @@
 #include <motionrack/mark/job.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/sweep/sweep_file.hpp>
 #include <regex>
@@ -80,6 +81,11 @@ TEST(Docs, TheRackFilePageIsCurrent) {
 TEST(Docs, TheMarkingJobPageIsCurrent) {
     EXPECT_EQ(text_of(source_root / "docs/reference/marking-job.md"), mark::job_file_reference())
         << "make it anew: motionrack describe marking-job > docs/reference/marking-job.md";
+}
+
+TEST(Docs, TheSafetyPageIsCurrent) {
+    EXPECT_EQ(text_of(source_root / "docs/explanations/safety.md"), rack::safety_reference())
+        << "make it anew: motionrack describe safety > docs/explanations/safety.md";
 }
 
 TEST(Docs, TheSweepFilePageIsCurrent) {

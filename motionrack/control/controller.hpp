@@ -40,6 +40,7 @@ struct ControllerSettings {
     bool jerk_limited = false;  ///< not trapezoids, but within each axis' jerk
     const std::atomic<bool>* stop =
         nullptr;  ///< somebody wishes to stop: with limited jerk the ride slows down, else the axes on their own
+    const std::atomic<bool>* halted = nullptr;  ///< the machine must stop: the same
     double kept_back = 0;            ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
     std::size_t event_limit = 2000;  ///< events kept; later ones are counted only
 };
@@ -70,7 +71,10 @@ class Controller {
     Result<void> run(std::string_view text, const std::string& file, ProgramRun& run);
 
   private:
-    bool stop_wished() const { return settings_.stop && settings_.stop->load(std::memory_order_relaxed); }
+    bool stop_wished() const {
+        return (settings_.stop && settings_.stop->load(std::memory_order_relaxed)) ||
+               (settings_.halted && settings_.halted->load(std::memory_order_relaxed));
+    }
     Result<void> hand_over();
     Result<void> stopped();
     Result<void> take(const gcode::Step& step, ProgramRun& run);

@@ -90,6 +90,8 @@ Result<void> Positioning::dwell(double seconds) {
 
 Result<void> Positioning::follow(const PlannedMove& move) {
     starts_.push_back({blocks_++, move.move.line, host_.now()});
+    if (host_.stop_requested())
+        return fail(Trouble::stopped, "Stopped on request before a move; the axes stand.", {move.move.line, 0});
     Result<void> done = move.move.kind == MoveKind::dwell ? dwell(move.move.seconds) : order(move);
     if (done && move.move.kind != MoveKind::dwell) done = wait();
     if (!done && done.error().place.line == 0) done.error().place.line = move.move.line;

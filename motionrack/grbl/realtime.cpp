@@ -52,7 +52,7 @@ void Session::act(Realtime what) {
         case Realtime::door:
             return open_door();
         case Realtime::jog_cancel:
-            if (state() == State::jog) machine_.stop();
+            if (state() == State::jog) machine_.cancel();
             return;
         case Realtime::cycle_start:
             return resume();
@@ -105,7 +105,7 @@ void Session::hold() {
             held_ = machine_.hold().has_value();
             break;
         case State::jog:
-            machine_.stop();
+            machine_.cancel();
             break;
         case State::home:
             reset();
@@ -124,7 +124,7 @@ void Session::open_door() {
     }
     if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return;
     say("Check Door");
-    if (now == State::jog) machine_.stop();
+    if (now == State::jog) machine_.cancel();
     if (now == State::run) (void)machine_.hold();
     door_ = true;
     held_ = false;
@@ -158,9 +158,9 @@ void Session::reset() {
     if (may) {
         machine_.set_overrides(1, 1);
         resets_ = true;
-        machine_.reset(stands             ? operate::StopSource{}
+        machine_.reset(stands             ? operate::StopOrigin{}
                        : settings_.source ? settings_.source()
-                                          : operate::StopSource{"a sender", "", "^X"});
+                                          : operate::StopOrigin{"a sender", "", "^X"});
         resets_ = false;
     }
     begin_again(true);

@@ -167,7 +167,7 @@ control::gcode::Outcome<void> Session::give(const std::string& text, std::int32_
 
 int Session::refused(const Problem& problem) {
     if (problem.status == GrblStatus::travel_exceeded) {
-        if (!check_ && machine_.state() == MachineState::moving) machine_.stop();
+        if (!check_ && machine_.state() == MachineState::moving) machine_.cancel();
         doing_ = Doing{Doing::What::leaving_travel};
         return answer_later;
     }

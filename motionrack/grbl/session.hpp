@@ -31,7 +31,7 @@ struct SessionSettings {
     /// Good: a reset of this sender may stop what the machine does at present. Empty: always.
     std::function<Result<void>()> may_stop = {};
     /// Who this sender is, for those who hear of its reset.
-    std::function<operate::StopSource()> source = {};
+    std::function<operate::StopOrigin()> source = {};
     bool onlookers_reset = false;  ///< resets of those who look on are this sender's
     /// A setting was changed, as a sentence.
     std::function<void(const std::string&)> on_setting = {};

@@ -32,7 +32,7 @@ std::string_view name_of(MachineState state) {
 
 namespace {
 
-StopReport stop_report(Instant at, const StopSource& by, MachineState state, const std::string& at_work) {
+StopReport stop_report(Instant at, const StopOrigin& by, MachineState state, const std::string& at_work) {
     const std::string who = by.who.empty() ? "" : " by " + by.who;
     const std::string from = by.address.empty() ? "" : fmt::format(" ({})", by.address);
     const std::string what =
@@ -45,6 +45,11 @@ void tell_stop(const StopReport& report, std::string& why,
                const std::vector<std::function<void(const StopReport&)>>& listeners) {
     if (!idle(report.state) && (report.state != MachineState::stopping || why.empty())) why = report.text;
     for (const auto& call : listeners) call(report);
+}
+
+Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
+    if (!latch.latched()) return {};
+    return fail(Trouble::refused, fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
 }
 
 rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& standing) {
@@ -84,10 +89,7 @@ void Machine::post(std::function<void()> work) {
 
 void Machine::quit() {
     post([this] {
-        if (idle(state_))
-            stop();
-        else
-            stop({"", "", "Shutdown"});
+        cancel(idle(state_) ? StopOrigin{} : StopOrigin{"", "", "Shutdown"});
         quit_ = true;
     });
 }
@@ -96,6 +98,7 @@ void Machine::quit() {
 
 /// Standing and enabled.
 Result<void> Machine::ready(const char* what) {
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {
         return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why));
     };
@@ -139,7 +142,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
 Result<void> Machine::enable(bool on, std::string_view axes) {
     for (const char letter : axes)
         MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
-    if (!on) stop({"", "", "Disabling"});
+    if (!on) cancel({"", "", "Disabling"});
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
         const auto i = static_cast<std::size_t>(axis.index());
@@ -173,6 +176,8 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
         problem.place.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
     };
+    if (Result<void> can = not_stopped(rack_.stop_latch(), "The line was not taken"); !can)
+        return refuse(can.error().message);
     if (program_runs_) return refuse("The line was not taken: a program runs. Stop it or wait for its end.");
     if (!has_room()) return refuse("The line was not taken: there is no room for it until others are driven.");
     if (state_ != MachineState::moving && state_ != MachineState::hold)
@@ -197,12 +202,21 @@ Result<void> Machine::resume() {
         return fail(Trouble::refused,
                     fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
                                 name_of(state_)));
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
     stream_->resume();
     enter(MachineState::moving);
     return {};
 }
 
-void Machine::stop(const StopSource& by) {
+void Machine::stop(const StopOrigin& by) {
+    const StopReport report = stop_report(now(), by, state_, at_work());
+    ordered_by_ = by.kind.empty() ? std::string() : report.text;
+    rack_.stop_latch().order();
+    take_stop();
+    if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
+}
+
+void Machine::cancel(const StopOrigin& by) {
     const StopReport report = stop_report(now(), by, state_, at_work());
     walk_.reset();
     over_ = false;
@@ -218,16 +232,17 @@ void Machine::stop(const StopSource& by) {
     if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
 }
 
-void Machine::reset(const StopSource& by) {
+void Machine::reset(const StopOrigin& by) {
     StopReport report = stop_report(now(), by, state_, at_work());
     report.releases = idle(state_);
-    stop();
+    cancel();
     reset_wanted_ = true;
     if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
 }
 
 Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     MOTIONRACK_CHECK(axis_named("Not jogged", axis));
@@ -249,6 +264,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 }
 
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
     if (!stream_->has_room())
         return fail(Trouble::refused, "Not jogged: there is no room for another jog until others are driven.");

@@ -4,9 +4,11 @@
 //                                            │ every 2 ms of virtual time: pace, inbox, picture ──► on_status
 //
 //   disabled ──enable──► standstill ──line, program──► moving ◄──hold, resume──► hold
-//                            │  ▲ ├──jog──► jogging      │ a limit, an alarm, the emergency stop
-//                            │  └─┴──home─► homing       ▼
-//                            └◄───────reset────────── error stop          stop() from every state, always accepted
+//                            │  ▲ ├──jog──► jogging      │ a limit, an alarm, the emergency stop, a watchdog: from
+//                            │  └─┴──home─► homing       ▼ every state, as the rack's stop latch says; stop(), too
+//                            └◄───────reset────────── error stop
+//
+// A reset moves nothing; what was under way is forgotten, and something new must be ordered.
 //
 // Only the motion thread touches the rack. What a front end posts runs there between two runs of the kernel, often in
 // the middle of a drive: so orders only note what is wanted, and the motion thread's loop does it.
@@ -83,11 +85,15 @@ class Machine {
     bool has_room() const { return stream_->has_room() && !program_runs_; }
     Result<void> hold();
     Result<void> resume();
-    /// Decelerates whatever moves, and forgets programs and lines. Never refused. An operator's has a source: all who
-    /// listen to stops hear of it at once, and the status says who it was.
-    void stop(const StopSource& by = {});
+    /// The STOP order: sets the rack's stop latch, so that everything decelerates, goes off and stays so until a reset;
+    /// programs and lines are forgotten. Never refused. Who listens to stops hears of one with a source at once, and
+    /// the status says who it was.
+    void stop(const StopOrigin& by = {});
+    /// Decelerates whatever moves, and forgets programs and lines; no reset is needed afterwards. Never refused. Told
+    /// as a stop is.
+    void cancel(const StopOrigin& by = {});
     /// Ends an error stop and forgets programs and modes; work offsets and positions stay. Stops if something moves.
-    void reset(const StopSource& by = {});
+    void reset(const StopOrigin& by = {});
     /// Jogs at `speed` a second (sign: direction; 0 lets go) for as long as it is called again within the lease, and no
     /// further than to the end of its travel. Refused also: an order that is older than another one of its session, and
     /// one that only renews where the jog has ended.
@@ -95,7 +101,7 @@ class Machine {
     /// Jogs by a distance.
     Result<void> jog_by(char axis, double distance, double speed);
     /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run;
-    /// stop() ends them. Modes stay as they are. Errors: refused, also where no axis may go; bad_input, an axis that
+    /// cancel() ends them. Modes stay as they are. Errors: refused, also where no axis may go; bad_input, an axis that
     /// the machine has not, or no speed.
     Result<void> jog_to(const control::Point& target, double speed);
     /// Homes these axes; empty: all that have a home switch.
@@ -152,7 +158,6 @@ class Machine {
     Result<void> take_group();
     Result<control::Axis*> take_axis(char letter);
     void slice();
-    void hear();
     void step();
     void drive();
     void feed_program();
@@ -164,8 +169,9 @@ class Machine {
     void raise(std::string source, std::string text);
     std::string at_work() const;
     void come_to_rest();
-    void watch_button();
-    bool button_pressed() const;
+    void take_stop();
+    void enter_error_stop(std::string source, std::string text);
+    std::string stop_text();
     Result<void> ready(const char* what);
     Result<const rack::RackAxis*> axis_named(const char* what, char letter) const;
     Result<void> all_enabled(const char* what, std::string_view axes) const;
@@ -190,6 +196,8 @@ class Machine {
     std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;
+    bool stop_taken_ = false;  ///< what the stop latch stops was told to
+    std::string ordered_by_;   ///< the STOP that is in force, in words; empty: nobody gave one
     // the program, or lines one by one
     std::string program_, program_name_;
     std::optional<control::gcode::Walk> walk_;

@@ -46,6 +46,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
+    rack_.stop_latch().arm();
     if (!settings_.alarm.empty()) raise("last run", settings_.alarm);
     tell();
     return {};
@@ -87,18 +88,40 @@ void Machine::slice() {
     bool on = false;
     while (!on) {
         on = !settings_.pace || settings_.pace(now()) || quit_;
-        hear();
+        std::vector<std::function<void()>> work;
+        {
+            const std::lock_guard<std::mutex> alone(lock_);
+            work.swap(inbox_);
+        }
+        for (const std::function<void()>& one : work) one();
+        take_stop();
         if (!hands_over_) tell();
     }
 }
 
-void Machine::hear() {
-    std::vector<std::function<void()>> work;
-    {
-        const std::lock_guard<std::mutex> alone(lock_);
-        work.swap(inbox_);
-    }
-    for (const std::function<void()>& one : work) one();
+/// In every slice, whatever moves or waits.
+void Machine::take_stop() {
+    rack::StopLatch& latch = rack_.stop_latch();
+    latch.look();
+    if (latch.latched()) jogs_.let_go();
+    if (!latch.halted() || std::exchange(stop_taken_, true)) return;
+    cancel();
+}
+
+namespace {
+
+/// Whoever asked for the stop needs no alarm.
+std::string alarm_source(const rack::StopLatch& latch) {
+    return latch.cause() == rack::StopSource::stop_order ? std::string() : std::string(rack::name_of(latch.cause()));
+}
+
+}  // namespace
+
+/// What stopped the machine, or who, and what to do.
+std::string Machine::stop_text() {
+    const rack::StopLatch& latch = rack_.stop_latch();
+    const bool ordered = latch.cause() == rack::StopSource::stop_order && !ordered_by_.empty();
+    return fmt::format("{} {}", ordered ? ordered_by_ : latch.sentence(), latch.advice());
 }
 
 void Machine::step() {
@@ -109,38 +132,45 @@ void Machine::step() {
     if (!positions_wanted_.empty()) return change_positions();
     if (walk_ || over_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
     if (stop_wanted_) return come_to_rest();
-    watch_button();
+    if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
+        const rack::StopLatch& latch = rack_.stop_latch();
+        return enter_error_stop(alarm_source(latch), stop_text());
+    }
     host().pass(settings_.slice);
 }
 
-namespace {
-constexpr const char* button_name = "emergency stop";
-}
-
-bool Machine::button_pressed() const {
-    const Result<double> level = desk_.get("estop");
-    return level && *level == 0;  // its contact opens
-}
-
-/// At a standstill no drive ends by it.
-void Machine::watch_button() {
-    if (state_ == MachineState::error_stop || !button_pressed()) return;
-    raise(button_name, "The emergency stop is pressed. Release it, then reset.");
-    enter(MachineState::error_stop, status_.alarms.back().text);
+/// Everything stands. Without a source there is no alarm: who asked for the stop needs none.
+void Machine::enter_error_stop(std::string source, std::string text) {
+    rack::StopLatch& latch = rack_.stop_latch();
+    if (latch.latched()) {
+        latch.settle();
+        stop_taken_ = true;
+        for (const rack::RackAxis& axis : rack_.config().axes)
+            if (!latch.keeps_position(axis.index())) trust_.set(axis.letter, false);
+        text += ' ' + latch.position_sentence();
+    }
+    tools_off();
+    if (!source.empty()) raise(std::move(source), text);
+    enter(MachineState::error_stop, std::move(text));
 }
 
 /// Nothing moves any more after a stop.
 void Machine::come_to_rest() {
     stop_wanted_ = false;
     home_stop_ = false;
-    if (reset_wanted_ && button_pressed())
-        status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
-    if (std::exchange(reset_wanted_, false) && !button_pressed()) {
+    rack::StopLatch& latch = rack_.stop_latch();
+    const bool asked = std::exchange(reset_wanted_, false);
+    const Result<void> reset = asked ? latch.reset() : Result<void>();
+    if (!reset) status_.why = reset.error().message;
+    if (asked && reset) {
+        stop_taken_ = false;
+        ordered_by_.clear();
         stream_->forget_modes();
         tools_off();
         for (Alarm& alarm : status_.alarms) alarm.active = false;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
+    if (latch.latched() && state_ != MachineState::error_stop) enter_error_stop(alarm_source(latch), stop_text());
     if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.why);
     for (std::size_t i = 0; i < enabled_.size(); ++i)
         enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
@@ -254,13 +284,10 @@ void Machine::failed(const Error& error) {
     walk_.reset();
     over_ = false;
     program_runs_ = false;
-    tools_off();
-    const bool pressed = button_pressed();
-    std::string text = error.text();
-    if (pressed) text += " The emergency stop is pressed";
-    if (pressed) text += trust_.lose_driven() ? ": the positions are not trusted any more." : ".";
-    raise(pressed ? button_name : what, std::move(text));
-    enter(MachineState::error_stop, status_.alarms.back().text);
+    const rack::StopLatch& latch = rack_.stop_latch();
+    const bool known =
+        latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
+    enter_error_stop(known ? alarm_source(latch) : what, error.text());
 }
 
 void Machine::raise(std::string source, std::string text) {

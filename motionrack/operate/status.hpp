@@ -56,7 +56,7 @@ struct AxisStatus {
 };
 
 /// Who asks for a stop, and how.
-struct StopSource {
+struct StopOrigin {
     std::string who = {};      ///< "anna"; empty: nobody who is known by name
     std::string address = {};  ///< "192.168.1.5", "127.0.0.1:4711", a path; empty: this program itself
     std::string kind = {};     ///< "STOP", "Reset", "^X", "Disabling", "Shutdown"; empty: nobody needs to hear of it
@@ -66,7 +66,7 @@ struct StopSource {
 /// meant to be driven behind what was dropped.
 struct StopReport {
     Instant at{};
-    StopSource source;
+    StopOrigin source;
     MachineState state = MachineState::standstill;  ///< in which it came
     std::string text;                               ///< "STOP by anna (192.168.1.5): line 12 was stopped."
     bool releases = false;  ///< a reset of a machine that stood: who was stopped before may go on

@@ -23,16 +23,6 @@ void Trust::set(char letter, bool on) {
         if (rack_.axes()[i].config.letter == letter) watch_.begin(i);
 }
 
-bool Trust::lose_driven() {
-    bool any = false;
-    for (const rack::RackAxis& axis : rack_.config().axes) {
-        if (rack_.config().positions_alone(axis)) continue;
-        set(axis.letter, false);
-        any = true;
-    }
-    return any;
-}
-
 /// While axes search home nothing is known of them yet.
 std::vector<std::string> Trust::look(Instant now, MachineState state) {
     std::vector<std::string> out;

@@ -18,9 +18,6 @@ class Trust {
 
     bool of(char letter) const { return trusted_[index(letter)]; }
     void set(char letter, bool on);
-    /// The emergency stop has stopped without a ramp what pulses drive; an axis that counts for itself has counted on.
-    /// False if there is none of the former.
-    bool lose_driven();
     /// What was lost since the last look, or counts wrongly: sentences for alarms. Now and then, between drives.
     std::vector<std::string> look(Instant now, MachineState state);
 

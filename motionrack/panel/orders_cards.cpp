@@ -5,6 +5,7 @@
 #include <limits>
 #include <motionrack/panel/desk.hpp>
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
 
 namespace motionrack::panel {
 
@@ -61,6 +62,10 @@ constexpr std::array card_rows = {
          [](Desk& desk, const Caller&, const json& fields) {
              return taken(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(),
                                              fields.at("target").get_ref<const std::string&>()));
+         }},
+    Doer{"start_part",
+         [](Desk& desk, const Caller&, const json& fields) {
+             return taken(rack::start_part(desk.machine.rack(), fields.at("part").get_ref<const std::string&>()));
          }},
     Doer{"write_register", nullptr,
          [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},

@@ -79,8 +79,15 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
     return out;
 }
 
+Result<void> not_stopped(Desk& desk) {
+    const rack::StopLatch& latch = desk.machine.rack().stop_latch();
+    if (!latch.latched()) return {};
+    return fail(Trouble::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
+}
+
 /// On the motion thread, between runs.
 Result<json> begin_marking(Desk& desk, const std::string& card, const Lists& lists) {
+    MOTIONRACK_CHECK(not_stopped(desk));
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
     if (!engine.at_rest())
         return fail(
@@ -116,6 +123,7 @@ Result<void> check_card(Desk& desk, const std::string& card) {
 void mark(Desk& desk, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
     if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
+    if (const Result<void> may = not_stopped(desk); !may) return ready(tl::unexpected<Error>(may.error()));
     const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(),
                        drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
         return lists_of(config, card, text, drawing, on_parts);

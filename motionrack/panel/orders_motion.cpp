@@ -55,7 +55,7 @@ constexpr std::array motion = {
     Doer{"jog_stop",
          [](Desk& desk, const Caller& caller, const json& fields) -> Result<json> {
              static_cast<void>(desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is never too old
-             if (desk.machine.state() == operate::MachineState::jogging) desk.machine.stop();
+             if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
              return json::object();
          }},
     Doer{"set_work_zero",

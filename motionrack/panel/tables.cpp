@@ -99,6 +99,7 @@ constexpr std::array mark_fields = {
     text("drawing", longest_text, "the text of the SVG or G-code file that the job names", false),
     choice("start", "now|parts", "at once, or at each part's edge at the card's start input", false)};
 constexpr std::array mark_stop_fields = {card_name};
+constexpr std::array start_part_fields = {text("part", 32, "a belt, a table or a stage of the rack")};
 constexpr std::array name_fields = {text("name", 32, "name of a card of the rack")};
 constexpr std::array workpiece_fields = {text("scanner", 32, "name of a scan head of the rack"),
                                          integer("points", 2, 100'000, "about so many at most; 5000", false)};
@@ -126,8 +127,8 @@ constexpr std::array order_rows = {
         Role::nobody,
         false,
         {},
-        "Decelerates whatever moves, and forgets programs and lines; senders go on only after $X, ^X or a reset, and "
-        "another's control ends. Never refused."},
+        "Stops whatever moves, puts out lasers, and forgets programs and lines; a reset ends it, and another's control "
+        "ends with it. Never refused."},
     AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
     AskRow{"home", Role::operate, true, home_fields, "Searches home."},
     AskRow{
@@ -148,7 +149,7 @@ constexpr std::array order_rows = {
            Role::operate,
            true,
            {},
-           "Ends an error stop; programs and modes are forgotten, work zero and positions stay."},
+           "Ends an error stop and moves nothing; programs and modes are forgotten, work zero and positions stay."},
     AskRow{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", ""},
     AskRow{"set_single_step", Role::operate, true, step_fields, "Pauses after each line, or no longer."},
     AskRow{"acknowledge", Role::operate, false, acknowledge_fields, "Says that an alarm was seen."},
@@ -170,6 +171,8 @@ constexpr std::array order_rows = {
            "commands, notes"},
     AskRow{"mark_stop", Role::operate, true, mark_stop_fields,
            "Ends what a laser card marks, and takes no further starts.", ""},
+    AskRow{"start_part", Role::operate, true, start_part_fields,
+           "Lets a belt, a table or a stage go on that a stop has brought to rest, after the reset.", ""},
     AskRow{"invite", Role::maintain, false, invite_fields, "Makes a code with which somebody can be paired.", "code",
            true},
     AskRow{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true},

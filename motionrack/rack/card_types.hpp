@@ -2,6 +2,7 @@
 #pragma once
 
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/stop_source.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <optional>
 #include <span>
@@ -43,6 +44,14 @@ struct Lamp {
     int lit = 1;  ///< the level that means yes
 };
 
+/// A pin at which a card hears, or tells, that the machine must stop; of each channel, or of the card.
+struct StopPin {
+    std::string_view pin;
+    StopSource source;
+    int active = 0;     ///< the level that means stop
+    int direction = 0;  ///< of a limit switch: +1, -1
+};
+
 /// What is wrong between the settings of a card and others: the key to blame and a sentence.
 struct CardFlaw {
     std::string_view key;
@@ -75,6 +84,7 @@ struct CardType {
     std::size_t (*chip_pin_count)(const RackCard& card) = nullptr;
     std::span<const Lamp> lamps = {};
     std::string_view probe_pin = {};  ///< a channel's input at whose edge the card can catch its position; empty: none
+    std::span<const StopPin> stop_pins = {};
 
     int channel_count() const {
         return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size());

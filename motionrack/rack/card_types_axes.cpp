@@ -138,6 +138,17 @@ constexpr std::array<DefaultWire, 10> databoard4002_wires = {{
 }};
 
 constexpr std::array<Lamp, 3> mcx314_lamps = {{{"alarm", "alarm", 0}, {"capture", "in3", 0}, {"compare", "out4"}}};
+constexpr std::array<StopPin, 4> mcx314_stop_pins = {{
+    {"emgn", StopSource::emergency_stop},
+    {"alarm", StopSource::drive_alarm},
+    {"lmtp", StopSource::limit_switch, 0, +1},
+    {"lmtm", StopSource::limit_switch, 0, -1},
+}};
+constexpr std::array<StopPin, 3> databoard4002_stop_pins = {{
+    {"ems", StopSource::emergency_stop, 1},
+    {"esr", StopSource::limit_switch, 1, +1},
+    {"esl", StopSource::limit_switch, 1, -1},
+}};
 constexpr std::array<std::string_view, 4> mcx314_stops = {"in0", "in1", "in2", "in3"};
 constexpr std::array<std::string_view, 1> databoard4002_references = {"ref"}, databoard4002_zeros = {"zero"};
 
@@ -210,7 +221,7 @@ CardType mcx314_type() {
     // clang-format off
     return {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins,
         mcx314_wires, "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz,
-        2'147'483'647, mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps, "in3"};
+        2'147'483'647, mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps, "in3", mcx314_stop_pins};
     // clang-format on
 }
 
@@ -221,7 +232,8 @@ CardType databoard4002_type() {
         "motor follows its pulses, one count each",
         "", databoard4002_channel_pins, databoard4002_pins, databoard4002_wires, "ems", databoard4002_settings,
         databoard4002_of, databoard4002_pulse_hz, any_accel, databoard4002_encoder_hz, 8'388'607,
-        databoard4002_references, databoard4002_zeros, true, databoard4002_flaw};
+        databoard4002_references, databoard4002_zeros, true, databoard4002_flaw, nullptr, {}, {},
+        databoard4002_stop_pins};
     // clang-format on
 }
 

@@ -83,6 +83,8 @@ class Card {
     /// Whether describe() knows the conditions of this device: the card, and its bus.
     virtual bool speaks_for(sim::DeviceId id) const { return id == device(); }
     virtual std::string describe(const sim::Condition& condition) const = 0;
+    /// The code of the condition by which device() says that its watchdog has restarted it, if it has one.
+    virtual std::optional<std::uint16_t> watchdog_condition() const { return std::nullopt; }
 };
 
 /// A card that moves axes, with its driver.

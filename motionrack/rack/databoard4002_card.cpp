@@ -177,6 +177,9 @@ class Databoard4002Card final : public MotionCard {
     sim::VirtualBytePort* byte_port() override { return &port_; }
     bool speaks_for(sim::DeviceId id) const override { return id == card_.id() || id == bus_->id(); }
     std::string describe(const sim::Condition& condition) const override { return db::describe(condition, name_); }
+    std::optional<std::uint16_t> watchdog_condition() const override {
+        return static_cast<std::uint16_t>(db::CardCondition::watchdog_reset);
+    }
 
   private:
     std::string name_;

@@ -152,6 +152,10 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_TRY(const Found found, find(rack, fault, target));
+    if (found.track != nullptr && rack.stop_latch().latched() && found.name.substr(0, 6) == "drive.")
+        return fail(Trouble::refused, fmt::format("{} stands by a stop and stays so until that is reset. Nothing was "
+                                                  "done; reset it, then start {} again.",
+                                                  target, target));
     const Instant now = rack.kernel().now();
     const sim::DeviceId device = device_of(found);
     const auto names = names_of(found);

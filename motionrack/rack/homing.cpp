@@ -40,6 +40,20 @@ class Homing {
     Homing(Rack& rack, const HomingSettings& settings) : rack_(rack), settings_(settings) {}
 
     HomingOutcome run() {
+        StopLatch& latch = rack_.stop_latch();
+        const bool armed = latch.armed();
+        if (!armed) latch.arm();
+        latch.heed_limits(false);
+        home_all();
+        latch.heed_limits(true);
+        tell_stop();
+        if (!armed) latch.disarm();
+        gather();
+        return std::move(out_);
+    }
+
+  private:
+    void home_all() {
         out_.ended = choose();
         if (out_.ended) {
             began_ = rack_.kernel().now();
@@ -53,11 +67,17 @@ class Homing {
                 if (!out_.ended) break;
             }
         }
-        gather();
-        return std::move(out_);
     }
 
-  private:
+    /// The axes were only asked to stop; the latch knows why.
+    void tell_stop() {
+        const StopLatch& latch = rack_.stop_latch();
+        if (!latch.latched() || latch.cause() == StopSource::stop_order) return;
+        if (out_.ended || out_.ended.error().trouble != Trouble::stopped) return;
+        out_.ended = fail(Trouble::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
+                                                        latch.position_sentence(), latch.advice()));
+    }
+
     struct Work {
         RunningAxis* running = nullptr;
         control::Axis* axis = nullptr;

@@ -3,7 +3,7 @@
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
 #include <motionrack/cards/ioflex02/model/card.hpp>
-#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/ioflex02_card.hpp>
 
 namespace motionrack::rack {
 
@@ -42,6 +42,7 @@ class Ioflex02Card final : public Card {
     }
 
     const std::shared_ptr<io::Bus>& bus() const { return bus_; }
+    io::Card& card() { return card_; }
 
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return card_.id(); }
@@ -98,6 +99,11 @@ std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config,
     for (const auto& other : before)
         if (const auto* same = dynamic_cast<const Ioflex02Card*>(other.get())) bus = same->bus();
     return std::make_unique<Ioflex02Card>(kernel, config, log, std::move(bus));
+}
+
+io::Card* ioflex02_card_of(Rack& rack, std::string_view name) {
+    auto* card = dynamic_cast<Ioflex02Card*>(rack.card(name));
+    return card != nullptr ? &card->card() : nullptr;
 }
 
 }  // namespace motionrack::rack

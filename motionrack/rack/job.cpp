@@ -73,7 +73,10 @@ void Job::listen(const std::vector<control::BlockStart>& starts) {
     for (const control::BlockStart& start : starts) line_ = start.line;
     monitor_->started(starts);
     monitor_->drain();
-    if (settings_.orders != nullptr) settings_.orders->apply_due();
+    if (settings_.orders != nullptr) {
+        settings_.orders->apply_due();
+        if (rack_.stop_latch().halted()) settings_.orders->halt();
+    }
     if (settings_.on_slice) settings_.on_slice();
     if (settings_.progress) settings_.progress({to_seconds(rack_.kernel().now() - began_), line_, lines_});
 }
@@ -85,6 +88,7 @@ Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
     settings.jerk_limited = rack_.config().jerk_limited();
     if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
     settings.stop = settings_.orders != nullptr ? settings_.orders->stop_flag() : settings_.stop;
+    settings.halted = &rack_.stop_latch().halted();
     rack_.set_stop_flag(settings.stop);
     rack_.on_slice(slice, [&] { listen(axes.take_starts()); });
     control::Controller controller(axes, settings);
@@ -138,7 +142,9 @@ JobOutcome Job::run() {
     lines_ = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
+    rack_.stop_latch().arm();
     out.ended = drive(**axes, out);
+    tell_stop(out);
     if (!out.ended && out.ended.error().trouble == Trouble::machine) {
         out.ended.error().file = settings_.program_name;
         rack_.axes().front().card->host().pass(shows_after);
@@ -163,11 +169,27 @@ JobOutcome Job::run() {
     }
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
+        out.position_trusted = out.position_trusted && rack_.stop_latch().keeps_position(axis.index);
         if (!axis.servo) continue;
         const double off = std::fabs(axis.real_end - axis.planned_end);
         if (out.rest_axis < 0 || off > out.rest_off) out.rest_off = off, out.rest_axis = axis.index;
     }
+    rack_.stop_latch().disarm();
     return out;
+}
+
+/// Where the axes themselves have nothing to say but that they were asked to stop, the latch knows why.
+void Job::tell_stop(JobOutcome& out) {
+    StopLatch& latch = rack_.stop_latch();
+    if (!latch.latched()) return;
+    latch.settle();
+    latch.look();
+    const bool asked = latch.cause() == StopSource::stop_order;
+    if (asked || (!out.ended && out.ended.error().trouble != Trouble::stopped)) return;
+    out.ended = fail(Trouble::machine,
+                     fmt::format("{} The program was stopped in line {} and nothing after it was driven. {} {}",
+                                 latch.sentence(), line_, latch.position_sentence(), "Mend the cause and start again."),
+                     {line_, 1});
 }
 
 void Job::collect_conditions(JobOutcome& out) {

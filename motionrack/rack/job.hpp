@@ -107,6 +107,7 @@ class Job {
     void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     void collect_conditions(JobOutcome& out);
+    void tell_stop(JobOutcome& out);
 
     Rack& rack_;
     JobSettings settings_;

@@ -108,8 +108,16 @@ void OrderPlan::apply_due() {
         }
 }
 
+void OrderPlan::halt() {
+    if (stop_flag_.exchange(true) || stream_ == nullptr) return;
+    stream_->stop();
+}
+
 void OrderPlan::apply(const Order& order) {
-    if (order.kind == Kind::stop) stop_flag_ = true;
+    if (order.kind == Kind::stop) {
+        stop_flag_ = true;
+        rack_.stop_latch().order();
+    }
     if (order.kind == Kind::hold || order.kind == Kind::resume) holds_ = order.kind == Kind::hold;
     if (stream_ == nullptr) return;
     switch (order.kind) {

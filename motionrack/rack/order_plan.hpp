@@ -40,6 +40,8 @@ class OrderPlan final : public sim::Device {
     /// Comes to rest soon; once. Gives the instant at which it takes effect.
     std::optional<Instant> ask_stop();
     void apply_due();
+    /// The stop latch has stopped the machine: whoever drives comes to rest and forgets the program.
+    void halt();
     bool stopped() const { return stop_flag_; }
     /// The last of holds and resumes was a hold. A resume that comes before the axes stand lets them go on as soon as
     /// they do.

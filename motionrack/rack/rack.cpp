@@ -19,6 +19,8 @@ Rack::Rack(const RackConfig& config) : config_(config) {
     build_wires();
     build_stages();
     build_scanners();
+    stop_latch_ = std::make_unique<StopLatch>(*this);
+    for (const auto& card : cards_) card->host().set_halted_flag(&stop_latch_->halted());
 }
 
 Rack::~Rack() {
@@ -295,7 +297,13 @@ Result<control::PathAxes*> Rack::positioning_axes(const std::optional<control::P
 }
 
 void Rack::on_slice(Duration slice, const std::function<void()>& call) {
-    for (const auto& card : cards_) card->host().on_slice(slice, call);
+    std::function<void()> heard;
+    if (call)
+        heard = [this, call] {
+            call();
+            stop_latch_->look();
+        };
+    for (const auto& card : cards_) card->host().on_slice(slice, heard);
 }
 
 void Rack::set_stop_flag(const std::atomic<bool>* stop) {

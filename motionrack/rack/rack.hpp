@@ -18,6 +18,7 @@
 #include <motionrack/rack/marking.hpp>
 #include <motionrack/rack/motions.hpp>
 #include <motionrack/rack/stage.hpp>
+#include <motionrack/rack/stop_latch.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/kernel.hpp>
@@ -73,6 +74,7 @@ class Rack {
     /// nullptr if there is no such part.
     RunningTrack* track(std::string_view name);
     RunningScanner* scanner(std::string_view name);
+    StopLatch& stop_latch() { return *stop_latch_; }
     sim::InputLog& input_log() { return log_; }
     /// Who hears the changes of wires.
     WireFork& wire_ears() { return wire_ears_; }
@@ -87,7 +89,7 @@ class Rack {
     /// that they stand. Errors: refused if the rack has both kinds. The rack must be started.
     Result<control::PathAxes*> path_axes() { return path_axes(start_position()); }
     Result<control::PathAxes*> path_axes_here() { return path_axes(std::nullopt); }
-    /// For progress, draining and Ctrl-C: see VirtualPort.
+    /// For progress, draining and Ctrl-C: see VirtualPort. The stop latch is looked at after each call.
     void on_slice(Duration slice, const std::function<void()>& call);
     void set_stop_flag(const std::atomic<bool>* stop);
 
@@ -126,6 +128,7 @@ class Rack {
     std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
     std::unique_ptr<sim::Junctions> junctions_;
     std::optional<control::Positioning> positioning_;
+    std::unique_ptr<StopLatch> stop_latch_;
     bool started_ = false;
 };
 

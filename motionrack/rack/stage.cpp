@@ -1,9 +1,11 @@
 // Stages from their settings, and the processors' frames.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <motionrack/rack/stage.hpp>
 #include <motionrack/rack/toml_reader.hpp>
+#include <utility>
 
 namespace motionrack::rack {
 
@@ -12,6 +14,8 @@ namespace gb = grating_bus;
 namespace {
 
 constexpr double nm_per_mm = 1e6;
+/// A stage that has braked is held for so long before its power goes: it would drift with what speed is left.
+constexpr Duration settles = milliseconds(50);
 
 gb::MotionLimits limits_of(const RackStageServo& s) {
     return {s.speed_mm_s * nm_per_mm, s.accel_mm_s2 * nm_per_mm, s.jerk_mm_s3 * nm_per_mm};
@@ -41,11 +45,12 @@ StagePlan::StagePlan(const RackStage& stage) : profile_(gb::HoldProfile{stage.st
     if (!stage.servo) return;
     const RackStageServo& s = *stage.servo;
     delay_s_ = s.delay_ms * 1e-3;
-    const gb::MotionLimits limits = limits_of(s);
-    if (s.profile == StageProfile::scan) profile_ = gb::ScanProfile(s.from_mm * nm_per_mm, s.to_mm * nm_per_mm, limits);
+    limits_ = limits_of(s);
+    if (s.profile == StageProfile::scan)
+        profile_ = gb::ScanProfile(s.from_mm * nm_per_mm, s.to_mm * nm_per_mm, limits_);
     if (s.profile == StageProfile::steps)
         profile_ = gb::StepProfile(stage.start_mm.value_or(0) * nm_per_mm, s.step_mm * nm_per_mm,
-                                   static_cast<int>(s.steps), s.every_ms * 1e-3, limits);
+                                   static_cast<int>(s.steps), s.every_ms * 1e-3, limits_);
 }
 
 gb::Setpoint StagePlan::at(double seconds) const {
@@ -99,7 +104,7 @@ gb::ServoSettings loop_settings(const RackStage& stage, std::int64_t first) {
 
 CardProcessor::CardProcessor(sim::Kernel& kernel, const std::string& name, gb::Card& card)
     : kernel_(kernel), card_(card), id_(kernel.add(*this, sim::Phase::cards, name)) {
-    static_assert(sizeof(State) == gb::output_count * (sizeof(gb::ServoLoop) + 8) + 8,
+    static_assert(sizeof(State) == gb::output_count * (sizeof(gb::ServoLoop) + 8) + 40,
                   "padding would get into the state's hash");
     state_.stale_at = card.settings().offset + 2 * card.settings().period;
     card.add_listener(*this);
@@ -112,17 +117,52 @@ void CardProcessor::add(int output, const StagePlan& plan, const gb::ServoSettin
     plans_[n] = plan;
     compute_[n] = compute;
     used_[n] = true;
+    braking_s_ = std::max(braking_s_, plan.braking_s());
     state_.loops[n] = gb::ServoLoop(settings);
     state_.loops[n].close(count);
 }
 
+void CardProcessor::stop(bool power_off) {
+    state_.stopping = 1;
+    if (power_off && state_.power_off == 0)
+        state_.power_off = 1 + static_cast<std::int32_t>(settles / card_.settings().period);
+}
+
+void CardProcessor::go_on(const std::array<std::int64_t, gb::output_count>& count) {
+    for (std::size_t n = 0; n < plans_.size(); ++n)
+        if (used_[n] && state_.loops[n].state() == gb::LoopState::stopped) state_.loops[n].close(count[n]);
+    state_.stopping = state_.power_off = 0;
+}
+
+/// The plans' time goes on by a frame; gives how its rate changes, 1/s.
+double CardProcessor::advance(const gb::Frame& frame, double period) {
+    const auto sequence = static_cast<std::int64_t>(frame.sequence);
+    const double passed = static_cast<double>(sequence - std::exchange(state_.sequence, sequence)) * period;
+    const double wanted = state_.stopping != 0 ? 0 : 1;
+    if (state_.rate == wanted) {
+        state_.behind_s += (1 - state_.rate) * passed;
+        return 0;
+    }
+    const double slope = (wanted - state_.rate > 0 ? 1 : -1) / braking_s_;
+    state_.behind_s += (1 - state_.rate) * passed;
+    state_.rate = std::clamp(state_.rate + slope * passed, 0.0, 1.0);
+    return slope;
+}
+
 void CardProcessor::published(const gb::Card&, const gb::Frame& frame, Instant now) {
-    const double period = to_seconds(card_.settings().period), seconds = frame.sequence * period;
+    const double period = to_seconds(card_.settings().period);
+    const double slope = advance(frame, period), rate = state_.rate;
+    const double seconds = frame.sequence * period - state_.behind_s;
+    if (rate == 0 && state_.power_off > 1) --state_.power_off;
     for (std::size_t n = 0; n < plans_.size(); ++n) {
         if (!used_[n]) continue;
         const bool closed = state_.loops[n].closed();
-        state_.loops[n].on_frame(frame, gb::wanted_at(plans_[n], seconds, period));
+        gb::Setpoint wanted = gb::wanted_at(plans_[n], seconds, period);
+        wanted.accel_nm_s2 = wanted.accel_nm_s2 * rate * rate + wanted.speed_nm_s * slope;
+        wanted.speed_nm_s *= rate;
+        state_.loops[n].on_frame(frame, wanted);
         if (closed && !state_.loops[n].closed()) report_open(n);
+        if (rate == 0 && state_.power_off == 1) state_.loops[n].stop();
         state_.put_out[n] = now + compute_[n];
     }
     state_.stale_at = now + 2 * card_.settings().period;

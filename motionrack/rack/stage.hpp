@@ -28,8 +28,12 @@ class StagePlan {
     grating_bus::Setpoint at(double seconds) const;
     /// Where it is before it begins.
     double start_nm() const { return at(-1).position_nm; }
+    /// In which it may be slowed to standstill along its own way: twice as long as a ramp from its greatest speed, for
+    /// it may be in one.
+    double braking_s() const { return 2 * limits_.speed_nm_s / limits_.accel_nm_s2; }
 
   private:
+    grating_bus::MotionLimits limits_;
     std::variant<grating_bus::HoldProfile, grating_bus::ScanProfile, grating_bus::StepProfile> profile_;
     double delay_s_ = 0;
 };
@@ -39,6 +43,12 @@ enum class LoopCondition : std::uint16_t { stale = 1, too_far = 2 };
 
 /// The loops of one card: at each frame the voltages for its outputs, some time later; two periods without a frame: 0
 /// V. Its time is the frames' sequence, for a card knows no clock but the pulses that it counts.
+///
+/// A stop slows the plans' time down to standstill, so that every stage brakes on its own way, and none jumps when the
+/// time goes on:
+///
+///   rate of the plans' time   1 ‾‾‾\          /‾‾‾
+///                             0     \________/          stop()      go_on()
 class CardProcessor final : public sim::Device, private grating_bus::FrameListener {
   public:
     CardProcessor(sim::Kernel& kernel, const std::string& name, grating_bus::Card& card);
@@ -50,6 +60,14 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     sim::DeviceId id() const { return id_; }
     const StagePlan& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
 
+    // ---- between runs
+    /// Brings its stages to rest; `power_off`: their loops are opened then, 0 V.
+    void stop(bool power_off);
+    /// Loops that stop() has opened are closed again, at `count` of the output's scale; all go on from there.
+    void go_on(const std::array<std::int64_t, grating_bus::output_count>& count);
+    /// All stand, or are at least not driven.
+    bool stopped() const { return state_.rate == 0; }
+
     void act(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
@@ -58,8 +76,13 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
         std::array<grating_bus::ServoLoop, grating_bus::output_count> loops;
         std::array<Instant, grating_bus::output_count> put_out{never, never, never, never};
         Instant stale_at{};
+        double rate = 1;      ///< of the plans' time, 0 .. 1
+        double behind_s = 0;  ///< the plans' time, of the frames'
+        std::int32_t stopping = 0, power_off = 0;
+        std::int64_t sequence = -1;  ///< of the last frame
     };
 
+    double advance(const grating_bus::Frame& frame, double period);
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
     /// Output `n` has no longer a closed loop.
     void report_open(std::size_t n);
@@ -71,6 +94,7 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     std::array<StagePlan, grating_bus::output_count> plans_{};
     std::array<Duration, grating_bus::output_count> compute_{};
     std::array<bool, grating_bus::output_count> used_{};
+    double braking_s_ = 0;  ///< of its slowest stage
     State state_{};
 };
 

@@ -20,10 +20,12 @@ class VirtualHost : public Interrupt {
     bool wait(Duration timeout) override;
     void pass(Duration duration) override;
     Instant now() const override { return kernel_.now(); }
-    bool stop_requested() const override { return stop_ && stop_->load(std::memory_order_relaxed); }
+    bool stop_requested() const override { return is_set(stop_) || is_set(halted_); }
 
     /// The flag a signal handler sets (Ctrl-C); may be nullptr.
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
+    /// The flag of the rack's stop latch, which counts as well; may be nullptr.
+    void set_halted_flag(const std::atomic<bool>* halted) { halted_ = halted; }
     /// Called between runs at least every `slice` of virtual time: progress, draining of recorders.
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
@@ -37,6 +39,9 @@ class VirtualHost : public Interrupt {
     Kernel& kernel_;
 
   private:
+    static bool is_set(const std::atomic<bool>* flag) {
+        return flag != nullptr && flag->load(std::memory_order_relaxed);
+    }
     void run_to(Instant until, bool until_interrupt);
 
     DeviceId id_;
@@ -45,6 +50,7 @@ class VirtualHost : public Interrupt {
     Duration access_;
     InputLog* log_;
     const std::atomic<bool>* stop_ = nullptr;
+    const std::atomic<bool>* halted_ = nullptr;
     Duration slice_ = milliseconds(50);
     Instant next_slice_{};
     std::function<void()> on_slice_;

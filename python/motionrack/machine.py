@@ -172,11 +172,11 @@ class Machine:
         self._operated().resume()
 
     def stop(self) -> None:
-        """Decelerates whatever moves, and forgets programs. Never refused."""
+        """Decelerates whatever moves, and forgets programs; nothing moves until a reset. Never refused."""
         self._operated().stop()
 
     def reset(self) -> None:
-        """Ends an error stop."""
+        """Ends a stop; moves nothing."""
         self._operated().reset()
 
     def home(self, axes: str = "") -> None:

@@ -11,6 +11,7 @@
 #include <motionrack/panel/tables.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
 #include <motionrack/sweep/sweep_file.hpp>
 
 namespace motionrack::cli {
@@ -42,6 +43,10 @@ int describe(const DescribeOptions& options) {
         fmt::print("{}", sweep::sweep_file_reference());
         return exit_done;
     }
+    if (options.what == "safety") {
+        fmt::print("{}", rack::safety_reference());
+        return exit_done;
+    }
     if (options.what == "api") {
         fmt::print("{}", options.markdown ? panel::api_reference() : panel::openapi().dump(2) + "\n");
         return exit_done;
@@ -49,7 +54,8 @@ int describe(const DescribeOptions& options) {
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
         print_error(fmt::format(
-            "There is nothing called '{}' to describe; there are: rack-file, marking-job, sweep-file, api, {}.",
+            "There is nothing called '{}' to describe; there are: rack-file, marking-job, sweep-file, safety, api, "
+            "{}.",
             options.what, card_types()));
         return exit_usage;
     }
@@ -70,7 +76,9 @@ void add_describe(CLI::App& app, Action& chosen) {
     command
         ->add_option(
             "CARD", options->what,
-            fmt::format("a card type ({}), rack-file, marking-job, sweep-file, or api (OpenAPI)", card_types()))
+            fmt::format("a card type ({}), rack-file, marking-job, sweep-file, safety (what a stop does), or api "
+                        "(OpenAPI)",
+                        card_types()))
         ->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);

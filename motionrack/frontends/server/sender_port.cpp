@@ -11,7 +11,7 @@ SenderPort::SenderPort(operate::Machine& machine, authority::ControlLease& lease
     session.axes = settings.axes;
     session.take_control = [this] { return take_control(); };
     session.may_stop = [this] { return may_stop(); };
-    session.source = [this] { return operate::StopSource{"a sender", address_, "^X"}; };
+    session.source = [this] { return operate::StopOrigin{"a sender", address_, "^X"}; };
     session.onlookers_reset = settings.resets_stop_all;
     if (settings.on_setting)
         session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };

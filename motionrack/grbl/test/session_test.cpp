@@ -358,8 +358,10 @@ TEST(AGrblPort, FollowsWhatOthersDoWithTheMachine) {
     b.pass(0.1);
     EXPECT_THAT(b.report(), StartsWith("<Run|"));
     b.machine->stop();
-    b.pass(0.5);
-    EXPECT_THAT(b.report(), StartsWith("<Idle|"));
+    EXPECT_THAT(b.ask("", 0.5), AllOf(StartsWith("ALARM:3\r\n"), HasSubstr("Stopped on request")));
+    EXPECT_THAT(b.report(), StartsWith("<Alarm|"));
+    EXPECT_EQ(b.ask("\x18", 0.1), banner + unlock);
+    EXPECT_EQ(b.ask("$X\n", 0.1), "[MSG:Caution: Unlocked]\r\nok\r\n");
     ASSERT_TRUE(b.machine->enable(false));
     EXPECT_THAT(b.ask("", 0.1), AllOf(StartsWith("ALARM:3\r\n[MSG:Disabling"), EndsWith("]\r\n")));
     EXPECT_THAT(b.report(), StartsWith("<Alarm|"));

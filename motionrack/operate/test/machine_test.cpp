@@ -111,26 +111,31 @@ TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
         m.stop({"anna", "", "STOP"});
     });
     o.at(0.7, [](Machine& m) {
-        EXPECT_EQ(m.status().why, "STOP by anna: line 1 was stopped.");
+        EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: line 1 was stopped."));
+        m.reset();
+    });
+    o.at(0.8, [](Machine& m) {
         EXPECT_TRUE(m.line("G1 X12 F600", 3));
     });
     o.run(1.2);
     EXPECT_NEAR(o.x(), 12, 1e-3);
 }
 
-TEST(AMachine, StoppedStandsAndTheNextLineBeginsThere) {
+TEST(AMachine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
     Operated o(two_axes());
     double stopped_x = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\nG1 Y20\n", "p")); });
     o.at(1, [](Machine& m) { m.stop(); });
     o.at(2, [&](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_EQ(m.state(), MachineState::error_stop);
         stopped_x = m.status().axes[0].commanded;
-        EXPECT_TRUE(m.line("G91 G1 X-2 F600", 1));
+        EXPECT_FALSE(m.line("G91 G1 X-2 F600", 1));
+        m.reset();
     });
+    o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X-2 F600", 1)); });
     o.run(4);
-    EXPECT_THAT(o.states,
-                ElementsAre("disabled", "standstill", "moving", "stopping", "standstill", "moving", "standstill"));
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "stopping", "error stop", "standstill",
+                                      "moving", "standstill"));
     EXPECT_NEAR(o.x(), stopped_x - 2, 0.6 / 640);
     EXPECT_DOUBLE_EQ(o.y(), 0);
 }
@@ -138,14 +143,16 @@ TEST(AMachine, StoppedStandsAndTheNextLineBeginsThere) {
 TEST(AMachine, StopsFromAHoldAndIsNeverRefusedAStop) {
     Operated o(two_axes());
     o.machine->stop();
+    o.at(0.05, [](Machine& m) { m.reset(); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.hold()); });
     o.at(2, [](Machine& m) { m.stop(); });
     o.at(2.5, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_EQ(m.state(), MachineState::error_stop);
         m.stop();
-        EXPECT_TRUE(m.line("G1 X12 F600", 1));
+        m.reset();
     });
+    o.at(2.6, [](Machine& m) { EXPECT_TRUE(m.line("G1 X12 F600", 1)); });
     o.run(5);
     EXPECT_NEAR(o.x(), 12, 0.5 / 640);
 }
@@ -214,7 +221,7 @@ TEST(AMachine, StopsItsHoming) {
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.at(0.4, [](Machine& m) { m.stop(); });
     o.run(2);
-    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "homing", "stopping", "standstill"));
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "homing", "stopping", "error stop"));
     EXPECT_LT(o.stood_since, 1);
     EXPECT_FALSE(o.machine->status().axes[0].trusted);
 }
@@ -270,10 +277,10 @@ TEST(AMachine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
     EXPECT_EQ(o.machine->stream().moves(), 0u);
 }
 
-TEST(AMachine, StopsAJogAlongALineAndGoesOnFromThere) {
+TEST(AMachine, CancelsAJogAlongALineAndGoesOnFromThere) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({200, 100, 0, 0, 0, 0}, 20)); });
-    o.at(1, [](Machine& m) { m.stop(); });
+    o.at(1, [](Machine& m) { m.cancel(); });
     o.at(2, [&](Machine& m) {
         EXPECT_GT(o.x(), 20);
         EXPECT_LT(o.x(), 40);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <memory>
@@ -39,7 +40,11 @@ class Operated {
         machine = std::move(*made);
         EXPECT_TRUE(machine->enable(true));
     }
-    void at(double seconds, std::function<void(Machine&)> order) { orders_.push_back({seconds, std::move(order)}); }
+    void at(double seconds, std::function<void(Machine&)> order) {
+        const auto later =
+            std::find_if(orders_.begin(), orders_.end(), [&](const Order& one) { return one.seconds > seconds; });
+        orders_.insert(later, {seconds, std::move(order)});
+    }
     /// Until `seconds`.
     void run(double seconds) {
         at(seconds, [](Machine& m) { m.quit(); });

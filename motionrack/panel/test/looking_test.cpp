@@ -291,8 +291,8 @@ TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
         EXPECT_TRUE(answer.body["status"]["homing"]["phases"].contains("X")) << answer.body["status"]["homing"];
         EXPECT_FALSE(answer.body["status"]["axes"][0]["leds"]["in_position"].get<bool>());
     });
-    a.good(0.9, "set_wire", {{"name", "motion.yalarm"}, {"value", 0}});
-    a.at(1.0, eve, "status", json::object(), [](const Answer& answer) {
+    a.good(30.1, "set_wire", {{"name", "motion.yalarm"}, {"value", 0}});
+    a.at(30.2, eve, "status", json::object(), [](const Answer& answer) {
         EXPECT_TRUE(answer.body["status"]["axes"][1]["leds"]["alarm"].get<bool>());
         EXPECT_FALSE(answer.body["status"]["axes"][0]["leds"]["alarm"].get<bool>());
     });

@@ -20,14 +20,19 @@ bool TrackDrive::fault(std::string_view name, double value, Instant now) {
     const bool by_hand = name == track_drive_faults[0];
     if (!by_hand && name != track_drive_faults[1]) return false;
     if (!(std::fabs(value) <= greatest_speed_)) return false;
+    drive(now, by_hand ? std::optional<double>(value) : std::nullopt);
+    return true;
+}
+
+/// Without a speed: by its profile.
+void TrackDrive::drive(Instant now, std::optional<double> speed) {
     for (TrackMotion* motion : motions_) motion->hand_over_edges();
     const double speed_before = track_.speed(to_seconds(now));
-    if (by_hand)
-        track_.drive(to_seconds(now), value);
+    if (speed)
+        track_.drive(to_seconds(now), *speed);
     else
         track_.follow_profile(to_seconds(now));
     for (TrackMotion* motion : motions_) motion->changed(speed_before);
-    return true;
 }
 
 }  // namespace motionrack::parts

@@ -10,6 +10,7 @@
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/track.hpp>
 #include <motionrack/sim/parts/track_motion.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,11 +29,18 @@ class TrackDrive final : public sim::Device {
     void add(TrackMotion& motion) { motions_.push_back(&motion); }
     static std::span<const std::string_view> fault_names();
 
+    // ---- between runs
+    /// Stands from now on; `go_on`: as its profile says.
+    void stop(Instant now) { drive(now, 0.0); }
+    void go_on(Instant now) { drive(now, std::nullopt); }
+
     void act(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(track_.driving()); }
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
+    void drive(Instant now, std::optional<double> speed);
+
     Track track_;
     double greatest_speed_;
     std::vector<TrackMotion*> motions_;

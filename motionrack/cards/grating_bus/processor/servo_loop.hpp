@@ -43,8 +43,9 @@ struct ServoSettings {
 enum class LoopState : std::uint32_t {
     not_begun,  ///< close() was not called
     closed,
-    stale,   ///< opened: no frame came in time
-    too_far  ///< opened: the following error was greater than limit_nm
+    stale,    ///< opened: no frame came in time
+    too_far,  ///< opened: the following error was greater than limit_nm
+    stopped   ///< opened by stop()
 };
 
 /// What the loop has missed since it was last reset.
@@ -69,6 +70,8 @@ class ServoLoop {
     double on_frame(const Frame& frame, const Setpoint& wanted);
     /// No frame came in time: opens the loop, if it is closed; 0 V.
     double on_stale();
+    /// Opens the loop, if it is closed; 0 V.
+    double stop() { return closed() ? open(LoopState::stopped) : volts_; }
 
     bool closed() const { return state_ == LoopState::closed; }
     LoopState state() const { return state_; }

@@ -107,7 +107,7 @@ TEST(AStream, HasOneMasterAtATime) {
     EXPECT_TRUE(bert.order({{"order", "hold"}}).value("done", false)) << "everybody who operates may hold";
     anna.receive_until([](const json& message) { return state_is(message, "hold"); });
     EXPECT_TRUE(anna.order({{"order", "stop"}}).value("done", false));
-    anna.receive_until([](const json& message) { return state_is(message, "standstill"); });
+    anna.receive_until([](const json& message) { return state_is(message, "error stop"); });
     EXPECT_TRUE(bert.order({{"order", "take_control"}, {"force", true}}).value("done", false));
     EXPECT_THAT(error_of(anna.order({{"order", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
 }

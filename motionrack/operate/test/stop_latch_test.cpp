@@ -1,0 +1,173 @@
+// The stop latch of a machine that people operate: states x sources, what is refused, and that a reset moves nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "operated.hpp"
+
+namespace motionrack::operate {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string switches =
+    "[axis.X.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\nhome_mm = 0\n"
+    "[axis.Y.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\n";
+
+/// A button that is pressed at 2 s and released at 2.2 s.
+void press_and_release(Operated& o) {
+    o.at(2, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(2.2, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 1)); });
+}
+
+/// In error stop with nothing moving; a resume and a line do nothing; a reset moves nothing; then a new line does.
+void expect_latched_until_reset(Operated& o, double x) {
+    o.at(3, [x](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
+        EXPECT_NEAR(m.status().axes[0].commanded, x, 0.01);
+        ASSERT_EQ(m.status().alarms.size(), 1u);
+        EXPECT_EQ(m.status().alarms[0].source, "emergency stop");
+        EXPECT_TRUE(m.status().axes[0].trusted);
+        EXPECT_FALSE(m.resume());
+        EXPECT_THAT(m.line("G1 X30 F600", 1).error().message, HasSubstr("The emergency stop was pressed"));
+        EXPECT_FALSE(m.jog('X', 5));
+        EXPECT_FALSE(m.home(""));
+    });
+    o.at(4, [](Machine& m) { m.reset(); });
+    o.at(5, [x](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_NEAR(m.status().axes[0].commanded, x, 0.01) << "a reset moves nothing";
+        EXPECT_FALSE(m.resume()) << "what was under way is forgotten";
+        EXPECT_TRUE(m.line("G21 G90 G1 X30 F1200", 1));
+    });
+    o.run(9);
+    EXPECT_NEAR(o.x(), 30, 0.01);
+}
+
+TEST(TheStopLatch, HoldsAMachineThatDwells) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG4 P5\nG1 X80\n", "p")); });
+    press_and_release(o);
+    expect_latched_until_reset(o, 20);
+}
+
+TEST(TheStopLatch, HoldsAMachineThatIsHeld) {
+    Operated o(two_axes());
+    double held = 0;
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
+    o.at(0.6, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(1.5, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        held = m.status().axes[0].commanded;
+    });
+    press_and_release(o);
+    o.at(2.3, [](Machine& m) { EXPECT_FALSE(m.resume()); });
+    o.at(3, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_FALSE(m.resume());
+        m.reset();
+    });
+    o.run(6);
+    EXPECT_GT(held, 15);
+    EXPECT_EQ(o.x(), held);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+}
+
+TEST(TheStopLatch, HoldsAMachineThatWaitsAtM0) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM0\nG1 X80\n", "p")); });
+    o.at(1.5, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::hold); });
+    press_and_release(o);
+    expect_latched_until_reset(o, 20);
+}
+
+TEST(TheStopLatch, HoldsAMachineThatStepsLineByLine) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        m.set_single_step(true);
+        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG1 X80\n", "p"));
+    });
+    o.at(1.5, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::hold); });
+    press_and_release(o);
+    o.at(2.3, [](Machine& m) { m.set_single_step(false); });
+    expect_latched_until_reset(o, 20);
+}
+
+TEST(TheStopLatch, HoldsAMachineThatWaitsForTheNextLine) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G21 G90 G1 X20 F1200", 1)); });
+    press_and_release(o);
+    expect_latched_until_reset(o, 20);
+}
+
+TEST(TheStopLatch, IsSetByTheStopOrderToo) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG4 P5\nG1 X80\n", "p")); });
+    o.at(2, [](Machine& m) { m.stop(); });
+    o.at(3, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_THAT(m.status().why, HasSubstr("Stopped on request at 2.0"));
+        EXPECT_TRUE(m.status().alarms.empty()) << "who asked for it needs no alarm";
+        EXPECT_THAT(m.line("G1 X30 F600", 1).error().message, HasSubstr("Reset"));
+        m.reset();
+    });
+    o.at(4, [](Machine& m) { EXPECT_TRUE(m.line("G21 G90 G1 X30 F1200", 1)); });
+    o.run(7);
+    EXPECT_NEAR(o.x(), 30, 0.01);
+}
+
+TEST(TheStopLatch, StaysSetWhileItsCauseIsThere) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("m.xalarm", 0)); });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        m.reset();
+    });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_THAT(m.status().why, HasSubstr("the drive of X still reports an alarm"));
+        EXPECT_TRUE(m.wires().set("m.xalarm", 1));
+        m.reset();
+    });
+    o.run(2);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+    EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "one alarm a cause";
+}
+
+TEST(TheStopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
+    Operated o(two_axes());
+    for (int i = 0; i < 30; ++i) {
+        if (i == 10) {
+            o.at(1.05, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+            o.at(1.08, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 1)); });
+        }
+        o.at(0.1 + 0.1 * i, [](Machine& m) { (void)m.jog('X', 20); });
+    }
+    o.run(4);
+    EXPECT_EQ(o.machine->state(), MachineState::error_stop);
+    EXPECT_LT(o.stood_since, 1.06);
+}
+
+TEST(TheStopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
+    Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 12\n"));
+    for (double t = 0.1; t < 1; t += 0.1) o.at(t, [](Machine& m) { (void)m.jog('X', 5); });
+    o.at(2, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_TRUE(m.status().axes[0].trusted) << "it has decelerated";
+        m.reset();
+    });
+    o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', -4, 5)); });
+    o.run(5);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+    EXPECT_LT(o.x(), 9);
+}
+
+TEST(TheStopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
+    Operated o(two_axes(switches));
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.run(20);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
+    EXPECT_TRUE(o.machine->status().axes[0].trusted);
+}
+
+}  // namespace
+}  // namespace motionrack::operate

@@ -1,0 +1,284 @@
+// What sets the latch, what it leaves to the cards, and the sentences.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/card_types.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/stop_latch.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
+#include <utility>
+
+namespace motionrack::rack {
+
+namespace {
+
+/// A switch that has been left bounces for some milliseconds; that is no new trip.
+constexpr Duration bounces_for = milliseconds(20);
+/// So long a card has for what is left to it: a ramp from full speed.
+constexpr Duration card_has = whole_seconds(2);
+/// And so long whoever drives has to see that the axes stand.
+constexpr Duration seen_within = milliseconds(300);
+/// A servo that holds its place trembles; slower than this part of its speed it stands.
+constexpr double trembles = 0.01;
+
+struct SourceWords {
+    StopSource source;
+    std::string_view name, advice;
+};
+constexpr std::array<SourceWords, stop_sources.size()> words = {{
+    {StopSource::emergency_stop, "emergency stop", "Release it, then reset."},
+    {StopSource::stop_order, "STOP order", "Reset, then start anew."},
+    {StopSource::drive_alarm, "drive alarm", "Clear it at the drive, then reset."},
+    {StopSource::limit_switch, "limit switch", "Reset, then move it off the switch."},
+    {StopSource::watchdog, "watchdog", "Reset, then home."},
+}};
+
+const SourceWords& words_of(StopSource source) {
+    return words[static_cast<std::size_t>(source)];
+}
+
+bool moves(const RunningAxis& axis, Instant now) {
+    const double speed = std::fabs(axis.speed(now));
+    return axis.servo ? speed > trembles * axis.config.max_speed : speed > 0;
+}
+
+}  // namespace
+
+std::string_view name_of(StopSource source) {
+    return words_of(source).name;
+}
+
+StopLatch::StopLatch(Rack& rack)
+    : rack_(rack), kernel_(rack.kernel()), id_(kernel_.add(*this, sim::Phase::observers, "stop_latch")) {
+    watch({kernel_.find_wire("estop"), StopSource::emergency_stop});
+    for (std::size_t c = 0; c < rack_.config().cards.size(); ++c) {
+        const RackCard& card = rack_.config().cards[c];
+        const CardType* type = find_card_type(card.type);
+        for (const StopPin& pin : type->stop_pins) {
+            const bool of_card = std::any_of(type->chip_pins.begin(), type->chip_pins.end(),
+                                             [&](const PinType& own) { return own.name == pin.pin; });
+            if (of_card)
+                watch({kernel_.find_wire(fmt::format("{}.{}", card.name, pin.pin)), pin.source, pin.active,
+                       pin.direction, static_cast<int>(c)});
+            for (std::size_t a = 0; a < rack_.axes().size() && !of_card; ++a)
+                if (const RackAxis& axis = rack_.axes()[a].config; axis.card == card.name)
+                    watch({kernel_.find_wire(fmt::format("{}.{}{}", card.name, axis.channel, pin.pin)), pin.source,
+                           pin.active, pin.direction, static_cast<int>(c), static_cast<int>(a)});
+        }
+        if (const auto code = rack_.cards()[c]->watchdog_condition(); code) {
+            inputs_.push_back({sim::WireId::none, StopSource::watchdog, *code, 0, static_cast<int>(c)});
+            has_watchdogs_ = true;
+        }
+    }
+}
+
+void StopLatch::watch(const Input& input) {
+    MOTIONRACK_ASSERT(input.wire != sim::WireId::none);
+    kernel_.listen(input.wire, id_, static_cast<int>(inputs_.size()));
+    inputs_.push_back(input);
+}
+
+bool StopLatch::is_active(const Input& input) const {
+    return input.wire != sim::WireId::none && kernel_.level(input.wire) == input.active;
+}
+
+// ---- setting
+
+void StopLatch::arm() {
+    state_.armed = 1;
+    const Instant now = kernel_.now();
+    state_.heard = kernel_.dropped_conditions() + kernel_.conditions().size();
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+        const StopSource source = inputs_[i].source;
+        if (is_active(inputs_[i]) && (source == StopSource::emergency_stop || source == StopSource::drive_alarm))
+            trip(source, static_cast<int>(i), now);
+    }
+}
+
+void StopLatch::disarm() {
+    const State before = state_;
+    state_ = {};
+    state_.left = before.left;
+    state_.heard = before.heard;
+    halted_ = false;
+}
+
+void StopLatch::on_wire(int pin, int, Instant now) {
+    const Input& input = inputs_[static_cast<std::size_t>(pin)];
+    if (is_active(input)) {
+        if (state_.armed != 0 && trips(input, now)) trip(input.source, pin, now);
+    } else if (input.source == StopSource::limit_switch) {
+        left_at(input) = now;
+    }
+}
+
+Instant& StopLatch::left_at(const Input& input) {
+    return state_.left[static_cast<std::size_t>(2 * input.axis + (input.direction > 0))];
+}
+
+/// Of an input that has become active.
+bool StopLatch::trips(const Input& input, Instant now) {
+    if (input.source != StopSource::limit_switch) return true;
+    if (state_.heeds_limits == 0) return false;
+    if (const Instant left = left_at(input); left != Instant{} && now - left < bounces_for) return false;
+    const RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.axis)];
+    return !moves(axis, now) || axis.speed(now) * input.direction > 0;  // the way back stays free
+}
+
+/// Its card stops what moves at this input.
+bool StopLatch::left_to_card(const Input& input, Instant now) const {
+    const std::vector<RunningAxis>& axes = rack_.axes();
+    switch (input.source) {
+        case StopSource::limit_switch:
+            return moves(axes[static_cast<std::size_t>(input.axis)], now);
+        case StopSource::emergency_stop:  // look() sees which cards have heard of it
+            return std::any_of(axes.begin(), axes.end(), [now](const RunningAxis& axis) { return moves(axis, now); });
+        case StopSource::watchdog:
+            return std::any_of(axes.begin(), axes.end(), [&](const RunningAxis& axis) { return moves(axis, now); }) &&
+                   std::all_of(axes.begin(), axes.end(),
+                               [&](const RunningAxis& axis) { return !moves(axis, now) || is_on_card(axis, input); });
+        case StopSource::drive_alarm:
+        case StopSource::stop_order:
+            break;
+    }
+    return false;
+}
+
+void StopLatch::trip(StopSource source, int input, Instant now) {
+    const Input* from = input < 0 ? nullptr : &inputs_[static_cast<std::size_t>(input)];
+    if ((state_.tripped & bit(source)) == 0) state_.pending |= bit(source);
+    state_.tripped |= bit(source);
+    note_lost(source, from, now);
+    if (state_.latched == 0) {
+        state_.latched = 1;
+        state_.at = now;
+        state_.cause = static_cast<std::int32_t>(source);
+        state_.input = input;
+    }
+    if (from == nullptr || !left_to_card(*from, now)) halted_ = true;
+    kernel_.break_run();
+}
+
+/// Steps are lost where a motor is to stop without a ramp and was faster than it can, or where its drive gave up while
+/// it moved. Cards that position by an encoder know for themselves.
+void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
+    const std::vector<RunningAxis>& axes = rack_.axes();
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+        const RunningAxis& axis = axes[a];
+        if (source == StopSource::watchdog && is_on_card(axis, *input)) state_.lost |= 1u << axis.config.index();
+        if (rack_.config().positions_alone(axis.config)) continue;
+        const double speed = std::fabs(axis.speed(now));
+        const bool without_ramp = source == StopSource::emergency_stop && speed > axis.config.start_speed;
+        const bool drive_gave_up = source == StopSource::drive_alarm && input->axis == static_cast<int>(a) && speed > 0;
+        if (without_ramp || drive_gave_up) state_.lost |= 1u << axis.config.index();
+    }
+}
+
+void StopLatch::order() {
+    trip(StopSource::stop_order, -1, kernel_.now());
+    look();
+}
+
+bool StopLatch::is_on_card(const RunningAxis& axis, const Input& input) const {
+    return input.card >= 0 && rack_.cards()[static_cast<std::size_t>(input.card)]->motion() == axis.card;
+}
+
+// ---- carrying out
+
+/// A card says it by a condition, which no device hears.
+void StopLatch::look_at_watchdogs() {
+    const std::vector<sim::Condition> conditions = kernel_.conditions();
+    const std::uint64_t dropped = kernel_.dropped_conditions();
+    for (std::size_t k = state_.heard > dropped ? state_.heard - dropped : 0; k < conditions.size(); ++k)
+        for (std::size_t i = 0; i < inputs_.size(); ++i)
+            if (inputs_[i].source == StopSource::watchdog && conditions[k].code == inputs_[i].active &&
+                rack_.cards()[static_cast<std::size_t>(inputs_[i].card)]->device() == conditions[k].device)
+                trip(StopSource::watchdog, static_cast<int>(i), conditions[k].at);
+    state_.heard = dropped + conditions.size();
+}
+
+void StopLatch::look() {
+    if (state_.armed != 0 && has_watchdogs_) look_at_watchdogs();
+    if (state_.latched == 0) return;
+    for (const StopSource source : stop_sources)
+        if ((std::exchange(state_.pending, state_.pending & ~bit(source)) & bit(source)) != 0)
+            for (const StopReaction& reaction : stop_reactions())
+                if (reaction.act != nullptr && reaction.is_to(source)) reaction.act(rack_, reaction);
+    if (halted_) return;
+    const Instant now = kernel_.now();
+    bool any = false, heard = true;
+    for (const RunningAxis& axis : rack_.axes()) {
+        if (!moves(axis, now)) continue;
+        any = true;
+        for (const Input& input : inputs_)
+            if (input.source == StopSource::emergency_stop && cause() == input.source && is_on_card(axis, input))
+                heard = heard && is_active(input);
+    }
+    const Duration since = now - state_.at;
+    if (!heard || since > card_has || (!any && since > seen_within)) halted_ = true;
+}
+
+void StopLatch::settle() {
+    if (state_.latched != 0) halted_ = true;
+}
+
+// ---- releasing
+
+Result<void> StopLatch::reset() {
+    for (const Input& input : inputs_) {
+        if (!is_active(input)) continue;
+        if (input.source == StopSource::emergency_stop)
+            return fail(Trouble::refused,
+                        "Not reset: the emergency stop is still pressed. Nothing was changed; release it, then reset.");
+        if (input.source == StopSource::drive_alarm)
+            return fail(Trouble::refused,
+                        fmt::format("Not reset: the drive of {} still reports an alarm. Nothing was changed; clear it "
+                                    "at the drive, then reset.",
+                                    rack_.axes()[static_cast<std::size_t>(input.axis)].config.letter));
+    }
+    disarm();
+    state_.armed = 1;
+    return {};
+}
+
+// ---- sentences
+
+std::string StopLatch::input_text() const {
+    const Input* input = state_.input < 0 ? nullptr : &inputs_[static_cast<std::size_t>(state_.input)];
+    const char letter =
+        input == nullptr || input->axis < 0 ? '?' : rack_.axes()[static_cast<std::size_t>(input->axis)].config.letter;
+    switch (cause()) {
+        case StopSource::emergency_stop:
+            return "The emergency stop was pressed";
+        case StopSource::stop_order:
+            return "Stopped on request";
+        case StopSource::drive_alarm:
+            return fmt::format("The drive of {} reported an alarm", letter);
+        case StopSource::limit_switch:
+            return fmt::format("The {} limit switch of {} was reached", input->direction > 0 ? "+" : "-", letter);
+        case StopSource::watchdog:
+            return fmt::format("The watchdog of card {} restarted it",
+                               rack_.config().cards[static_cast<std::size_t>(input->card)].name);
+    }
+    return {};
+}
+
+std::string StopLatch::sentence() const {
+    return fmt::format("{} at {:.3f} s.", input_text(), to_seconds(state_.at));
+}
+
+std::string StopLatch::position_sentence() const {
+    std::string lost;
+    for (const RunningAxis& axis : rack_.axes())
+        if (!keeps_position(axis.config.index()))
+            lost += fmt::format("{}{}", lost.empty() ? "" : ", ", axis.config.letter);
+    if (lost.empty()) return "The positions are kept.";
+    return fmt::format("The position of {} is not trusted any more: steps may have been lost; home again.", lost);
+}
+
+std::string_view StopLatch::advice() const {
+    return words_of(cause()).advice;
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,156 @@
+// The table of reactions, and what the latch does itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/ioflex02_card.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr std::uint32_t to(std::initializer_list<StopSource> sources) {
+    std::uint32_t out = 0;
+    for (const StopSource source : sources) out |= 1u << static_cast<unsigned>(source);
+    return out;
+}
+
+using enum StopSource;
+using enum StopCategory;
+
+constexpr std::uint32_t every = to({emergency_stop, stop_order, drive_alarm, limit_switch, watchdog});
+constexpr std::uint32_t but_the_button = to({stop_order, drive_alarm, limit_switch, watchdog});
+
+/// A slice of whoever drives; an edge ends a slice at once.
+constexpr Duration a_slice = milliseconds(50);
+
+// ---- what the latch does
+
+/// Lists end, starts are no longer taken, the laser's gate closes at this tick.
+void laser_off(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards())
+        if (rtc5::Card* laser = rtc5_card_of(rack, card->name()); laser != nullptr) {
+            laser->engine().set_control_mode(0);
+            laser->engine().stop_execution();
+        }
+}
+
+void stop_belts(Rack& rack, const StopReaction&) {
+    for (RunningTrack& track : rack.tracks()) track.drive->stop(rack.kernel().now());
+}
+
+void stop_stages(Rack& rack, const StopReaction& reaction) {
+    for (const RunningStage& stage : rack.stages())
+        if (stage.processor != nullptr) stage.processor->stop(reaction.category == category_1);
+}
+
+/// The outputs that no loop drives.
+void clear_analog_outputs(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards()) {
+        grating_bus::Card* found = grating_card_of(rack, card->name());
+        if (found == nullptr) continue;
+        for (int output = 0; output < grating_bus::output_count; ++output)
+            if (std::none_of(rack.stages().begin(), rack.stages().end(), [&](const RunningStage& stage) {
+                    return stage.processor != nullptr && stage.config.card == card->name() &&
+                           stage.config.output == output;
+                }))
+                found->put_out(output, 0);
+    }
+}
+
+void clear_outputs(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards())
+        if (ioflex02::Card* found = ioflex02_card_of(rack, card->name()); found != nullptr)
+            for (const std::uint32_t low_and_high : {ioflex02::offset("OUTL"), ioflex02::offset("OUTH")})
+                found->write(low_and_high, 0);
+}
+
+// clang-format off
+constexpr std::array reactions = {
+    StopReaction{"mcx314", to({emergency_stop}), category_0, StopBy::card,
+                 "the chip ends all pulses at once, at its input emgn", milliseconds(1)},
+    StopReaction{"mcx314", to({limit_switch}), category_2, StopBy::card,
+                 "the chip decelerates the axis that moves towards it, and with it the path; no axis moves: nothing "
+                 "begins to", milliseconds(1), true},
+    StopReaction{"mcx314", to({stop_order, drive_alarm, watchdog}), category_2, StopBy::drive,
+                 "all axes decelerate along their path and hold their places", a_slice, true},
+    StopReaction{"databoard4002", to({emergency_stop}), category_0, StopBy::card,
+                 "the relay takes the voltage off the amplifier, at its input ems; the axis is braked by the amplifier",
+                 milliseconds(1), true},
+    StopReaction{"databoard4002", to({limit_switch, watchdog}), category_0, StopBy::card,
+                 "the card ends the move by itself, without a ramp: 0 V", milliseconds(1), true},
+    StopReaction{"databoard4002", to({stop_order, drive_alarm}), category_2, StopBy::drive,
+                 "the axis decelerates with its own acceleration and holds its place", a_slice, true},
+    StopReaction{"rtc5", every, category_0, StopBy::latch,
+                 "the laser goes off, lists end, and starts are no longer taken; the mirrors stay where they are",
+                 milliseconds(2), false, laser_off},
+    StopReaction{"belt", every, category_0, StopBy::latch,
+                 "belts and tables stand", milliseconds(2), false, stop_belts},
+    StopReaction{"stage", to({emergency_stop}), category_1, StopBy::latch,
+                 "stages brake on their own way; 50 ms later their loops are opened, 0 V", milliseconds(2), true,
+                 stop_stages},
+    StopReaction{"stage", but_the_button, category_2, StopBy::latch,
+                 "stages brake on their own way and hold their places", milliseconds(2), true, stop_stages},
+    StopReaction{"grating_bus", every, category_0, StopBy::latch,
+                 "analog outputs without a loop go to 0 V; frames go on", milliseconds(2), false,
+                 clear_analog_outputs},
+    StopReaction{"ioflex02", every, category_0, StopBy::latch,
+                 "its outputs go to 0; counting goes on", milliseconds(2), false, clear_outputs},
+    StopReaction{"spindle", every, category_0, StopBy::drive,
+                 "spindle and coolant go off", a_slice},
+};
+// clang-format on
+
+constexpr std::array states = {
+    StopState{"disabled", "disabled"},
+    StopState{"standstill", "standstill"},
+    StopState{"waiting_for_a_line", "waits for a sender's next line"},
+    StopState{"moving", "moves in a program"},
+    StopState{"dwell", "dwells (G4)"},
+    StopState{"hold", "stands in a feed hold"},
+    StopState{"m0", "waits at M0"},
+    StopState{"single_step", "single step: a line is done"},
+    StopState{"probing", "probes (G38)"},
+    StopState{"homing", "homes"},
+    StopState{"jog", "jogs while a key is held"},
+    StopState{"jog_along_a_line", "jogs along a sender's line"},
+};
+
+}  // namespace
+
+std::span<const StopReaction> stop_reactions() {
+    return reactions;
+}
+
+std::span<const StopState> stop_states() {
+    return states;
+}
+
+// ---- starting anew
+
+Result<void> start_part(Rack& rack, std::string_view name) {
+    if (const StopLatch& latch = rack.stop_latch(); latch.latched())
+        return fail(Trouble::refused, fmt::format("{} Nothing was started. {}", latch.sentence(), latch.advice()));
+    if (RunningTrack* track = rack.track(name); track != nullptr) {
+        track->drive->go_on(rack.kernel().now());
+        return {};
+    }
+    const RunningStage* stage = rack.stage(name);
+    if (stage == nullptr || stage->processor == nullptr)
+        return fail(Trouble::bad_input,
+                    fmt::format("There is no belt, table or stage with a loop called {}. Nothing was started.", name));
+    std::array<std::int64_t, grating_bus::output_count> counts{};
+    for (const RunningStage& one : rack.stages())
+        if (one.processor == stage->processor)
+            counts[static_cast<std::size_t>(one.config.output)] = one.scale->count(rack.kernel().now());
+    stage->processor->go_on(counts);
+    return {};
+}
+
+}  // namespace motionrack::rack

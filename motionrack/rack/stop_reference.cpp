@@ -1,0 +1,146 @@
+// The page of what a stop does, written from the tables that the latch runs by.
+#include <fmt/format.h>
+
+#include <motionrack/rack/stop_reactions.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+struct SourceText {
+    StopSource source;
+    std::string_view sets, resets;
+};
+constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
+    {StopSource::emergency_stop, "the rack's button (the wire `estop`), or a card's own input for it, however short",
+     "once it is released"},
+    {StopSource::stop_order, "STOP on the page, `POST /api/stop`, `machine.stop()`, `--at stop@TIME`", "at any time"},
+    {StopSource::drive_alarm, "the alarm input of an axis of an MCX314", "once the drive reports it no more"},
+    {StopSource::limit_switch,
+     "the switch of an axis that moves towards it, or of one that stands; not one behind the axis, nor one that "
+     "bounces "
+     "within 20 ms after it was left",
+     "at any time: the axis must be moved off it"},
+    {StopSource::watchdog,
+     "a DataBoard 4002 that was reset because its program hung; it is seen at the next slice (2 ms, of a run 50 ms)",
+     "at any time"},
+}};
+
+constexpr std::string_view begin = R"(# What a stop does
+
+<!-- written by `motionrack describe safety` -->
+
+A rack has one stop latch. Whatever must stop the machine sets it, in every state of the machine, and only a reset
+releases it:
+
+    emergency stop, drive alarm, limit switch, watchdog        STOP order
+         | edge of a wire, at its tick                             | between two slices
+         +----------------------> LATCH <--------------------------+
+                                    |---> axes stop, nothing begins to move, dwells and holds end
+                                    |---> laser off, belts stand, stages brake, outputs 0: the table of reactions
+                                    `---> error stop, with a sentence; what was under way is forgotten
+
+    LATCH -- reset, once the cause is gone --> standstill -- a new order --> motion
+
+- **No motion before a reset.** Programs, lines, jogs, homing, marking and resume are refused, with what stopped the
+  machine.
+- **A reset moves nothing.** Programs and lines that were under way are forgotten; belts and stages stay
+  where they are until the order `start_part`.
+- **A new start takes both**: the reset and a new order.
+- `motionrack run` and `motionrack home` end with exit code 4 and the sentence of the latch; by the STOP order and
+  Ctrl-C with 130.
+
+This is a simulation and its software. It is no safety function: a real machine needs an emergency stop that is
+wired without any software.
+
+)";
+
+constexpr std::string_view trust = R"(
+## Where positions are trusted
+A position is kept where no step can have been lost, and dropped where one may have been:
+
+- a ramp loses nothing: the STOP order, limit switches, an alarm of another axis;
+- without a ramp (the emergency stop) an axis keeps its position that was not faster than its start speed,
+  which it reaches and leaves at once; so do all axes in a dwell, a hold or at standstill;
+- an axis whose drive reports an alarm while it moves is not trusted: its motor may not have followed;
+- an axis that a DataBoard 4002 positions by its encoder is still counted, unless its watchdog has reset the card.
+
+)";
+
+std::string_view category_of(StopCategory category) {
+    switch (category) {
+        case StopCategory::category_0:
+            return "0";
+        case StopCategory::category_1:
+            return "1";
+        case StopCategory::category_2:
+            return "2";
+    }
+    return "";
+}
+
+std::string_view doer_of(StopBy by) {
+    switch (by) {
+        case StopBy::card:
+            return "the card";
+        case StopBy::drive:
+            return "whoever drives";
+        case StopBy::latch:
+            return "the latch";
+    }
+    return "";
+}
+
+std::string sources_of(const StopReaction& reaction) {
+    std::string out;
+    std::size_t count = 0;
+    for (const StopSource source : stop_sources)
+        if (reaction.is_to(source)) {
+            out += fmt::format("{}{}", out.empty() ? "" : ", ", name_of(source));
+            ++count;
+        }
+    return count == stop_sources.size() ? "all" : out;
+}
+
+}  // namespace
+
+std::string safety_reference() {
+    std::string out(begin);
+    out += "## Sources\n| source | what sets the latch | a reset is taken |\n|---|---|---|\n";
+    for (const SourceText& text : source_texts)
+        out += fmt::format("| {} | {} | {} |\n", name_of(text.source), text.sets, text.resets);
+    out +=
+        "\n## Reactions\nCategories after IEC 60204-1: 0, the power goes at once; 1, it stops with power, which goes "
+        "then; 2, the power stays. The code runs by this table (`motionrack/rack/stop_reactions.cpp`).\n\n| part | "
+        "source | category | what happens | by | within |\n|---|---|---|---|---|---|\n";
+    for (const StopReaction& reaction : stop_reactions())
+        out += fmt::format("| {} | {} | {} | {} | {} | {:g} ms{} |\n", reaction.part, sources_of(reaction),
+                           category_of(reaction.category), reaction.happens, doer_of(reaction.by),
+                           to_seconds(reaction.within) * 1e3, reaction.ramp ? ", then its ramp" : "");
+    out += trust;
+    out +=
+        "## States and sources\nEach cell is the end of a test's name, "
+        "`EveryState/AStopInAState.HoldsUntilAReset/..` (`motionrack/operate/test/stop_states_test.cpp`): in that "
+        "state, by that source, with a laser, a belt, a stage and outputs that are on. It expects all of the above, in "
+        "virtual time.\n\n| state |";
+    for (const StopSource source : stop_sources) out += fmt::format(" {} |", name_of(source));
+    out += "\n|---|---|---|---|---|---|\n";
+    static constexpr std::array<std::string_view, stop_sources.size()> test_names = {
+        "emergency_stop", "stop_order", "drive_alarm", "limit_switch", "watchdog"};
+    for (const StopState& state : stop_states()) {
+        out += fmt::format("| {} |", state.text);
+        for (const StopSource source : stop_sources) {
+            const bool own = state.name == "homing" && source == StopSource::limit_switch;
+            out += own ? " the search goes to them on purpose |"
+                       : fmt::format(" `{}_by_{}` |", state.name, test_names[static_cast<std::size_t>(source)]);
+        }
+        out += '\n';
+    }
+    out +=
+        "\nPrograms without an operator (`motionrack run`) are tested by `AStop.*` "
+        "(`motionrack/rack/test/stop_latch_test.cpp`), the page's orders by `AStopOnThePage.*` "
+        "(`motionrack/panel/test/stop_test.cpp`).\n";
+    return out;
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,25 @@
+// What can set the stop latch of a rack.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace motionrack::rack {
+
+enum class StopSource : std::uint8_t {
+    emergency_stop,  ///< the rack's button, or a card's input for it
+    stop_order,      ///< somebody asked
+    drive_alarm,     ///< of an axis' drive, at its card's input
+    limit_switch,    ///< of an axis that moves towards it, or stands
+    watchdog         ///< a card was reset because its program hung
+};
+
+inline constexpr std::array<StopSource, 5> stop_sources = {StopSource::emergency_stop, StopSource::stop_order,
+                                                           StopSource::drive_alarm, StopSource::limit_switch,
+                                                           StopSource::watchdog};
+
+/// "emergency stop", "STOP order", "drive alarm", "limit switch", "watchdog".
+std::string_view name_of(StopSource source);
+
+}  // namespace motionrack::rack

@@ -1,0 +1,149 @@
+// A job that something must stop: in every state, from every source, and nothing moves after it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <motionrack/rack/job_report.hpp>
+#include <motionrack/rack/recorded_job.hpp>
+#include <motionrack/rack/test/config_helpers.hpp>
+#include <motionrack/rack/test/servo_helpers.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+using ::testing::HasSubstr;
+
+const char* const stop_axes =
+    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+    "[axis.X.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\n"
+    "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n[axis.Y.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\n";
+const char* const dwelling = "G21 G90 F1200\nG1 X20\nG4 P2\nG1 X80\nM2\n";  // the dwell is from 0.52 s to 2.52 s
+const char* const one_move = "G21 G90 F1200\nG1 X80\nM2\n";
+
+struct StoppedRun {
+    JobOutcome outcome;
+    RackConfig config;
+    double x() const { return outcome.axes[0].real_end; }
+    std::string error() const { return outcome.ended ? std::string() : outcome.ended.error().message; }
+};
+
+StoppedRun run_stopped(const std::string& rack, const std::string& program, const std::vector<std::string>& faults,
+                       const std::vector<std::string>& orders = {}) {
+    JobRequest request;
+    request.config = good(rack);
+    request.program = program;
+    request.program_name = "part.ngc";
+    request.faults = *read_faults(faults);
+    request.orders = *read_orders(orders);
+    auto job = RecordedJob::create(request, {});
+    EXPECT_TRUE(job) << job.error().message;
+    return {(*job)->run(nullptr, {}), request.config};
+}
+
+void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {
+    ASSERT_FALSE(ran.outcome.ended) << "it went on";
+    EXPECT_EQ(ran.outcome.ended.error().trouble, Trouble::machine);
+    EXPECT_THAT(ran.error(), HasSubstr(words));
+    EXPECT_NEAR(ran.x(), x, 0.01) << "nothing moves after a stop";
+    EXPECT_THAT(summary_json(ran.config, ran.outcome), HasSubstr("\"ok\": false"));
+}
+
+TEST(AStop, InADwellEndsTheProgramAlsoWhereTheButtonIsReleasedBeforeItsEnd) {
+    const StoppedRun ran = run_stopped(stop_axes, dwelling, {"estop=0@1s", "estop=1@1.2s"});
+    expect_stopped(ran, 20, "The emergency stop was pressed at 1.000 s");
+    EXPECT_THAT(ran.error(), HasSubstr("in line 3"));
+    EXPECT_TRUE(ran.outcome.position_trusted) << "nothing moved, so no step can be lost";
+    EXPECT_THAT(ran.error(), HasSubstr("The positions are kept."));
+}
+
+TEST(AStop, InADwellIsSeenHoweverShortTheButtonIsPressed) {
+    expect_stopped(run_stopped(stop_axes, dwelling, {"estop=0@1s", "estop=1@1.00001s"}), 20, "emergency stop");
+}
+
+TEST(AStop, InADwellOfAJerkLimitedMachineEndsTheProgram) {
+    const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
+    expect_stopped(run_stopped(jerk, dwelling, {"estop=0@1.5s", "estop=1@1.7s"}), 20, "emergency stop");
+    expect_stopped(run_stopped(jerk, dwelling, {"estop=0@1.5s", "estop=1@1.7s"}, {"feed=1@0.1s"}), 20,
+                   "emergency stop");
+}
+
+TEST(AStop, InADwellOfAServoEndsTheProgram) {
+    const StoppedRun ran =
+        run_stopped(carriage(), "G21 G90\nG0 X200\nG4 P2\nG0 X300\nM2\n", {"estop=0@2s", "estop=1@2.2s"});
+    ASSERT_FALSE(ran.outcome.ended);
+    EXPECT_THAT(ran.error(), HasSubstr("emergency stop"));
+    EXPECT_NEAR(ran.x(), 200, 1);
+    EXPECT_TRUE(ran.outcome.position_trusted) << "its encoder counts on";
+}
+
+TEST(AStop, InAHoldEndsTheProgramAndAResumeMovesNothing) {
+    const StoppedRun moved = run_stopped(stop_axes, one_move, {}, {"hold@0.5s", "stop@2s"});
+    const StoppedRun ran =
+        run_stopped(stop_axes, one_move, {"estop=0@1.2s", "estop=1@1.5s"}, {"hold@0.5s", "resume@2s"});
+    expect_stopped(ran, moved.x(), "The emergency stop was pressed at 1.200 s");
+    EXPECT_TRUE(ran.outcome.position_trusted);
+}
+
+TEST(AStop, BetweenHoldAndResumeOfAJerkLimitedMachineEndsTheProgram) {
+    const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
+    const StoppedRun moved = run_stopped(jerk, one_move, {}, {"hold@0.5s", "stop@2s"});
+    expect_stopped(run_stopped(jerk, one_move, {"estop=0@1.2s", "estop=1@1.5s"}, {"hold@0.5s", "resume@2s"}), moved.x(),
+                   "emergency stop");
+}
+
+TEST(AStop, OfADriveAlarmBrakesAllAxesAlongThePath) {
+    const StoppedRun ran = run_stopped(stop_axes, "G21 G90 F1200\nG1 X80 Y70\nM2\n", {"m.yalarm=0@1s"});
+    ASSERT_FALSE(ran.outcome.ended);
+    EXPECT_THAT(ran.error(), HasSubstr("The drive of Y reported an alarm at 1.000 s"));
+    EXPECT_LT(ran.x(), 30);
+    EXPECT_NEAR(ran.x() - 10, ran.outcome.axes[1].real_end, 0.02) << "on the path";
+    EXPECT_FALSE(ran.outcome.position_trusted) << "a drive that gives up does not follow its pulses";
+}
+
+TEST(AStop, OfADriveAlarmInADwellKeepsThePositions) {
+    const StoppedRun ran = run_stopped(stop_axes, dwelling, {"m.xalarm=0@1s", "m.xalarm=1@1.1s"});
+    expect_stopped(ran, 20, "The drive of X reported an alarm");
+    EXPECT_TRUE(ran.outcome.position_trusted);
+}
+
+TEST(AStop, OfALimitSwitchAtStandstillEndsTheProgram) {
+    expect_stopped(run_stopped(stop_axes, dwelling, {"Y.limit_plus=0@1s", "Y.limit_plus=1@1.1s"}), 20,
+                   "The + limit switch of Y was reached at 1.000 s");
+    const StoppedRun moving = run_stopped(stop_axes, one_move, {"Y.limit_plus=0@1s"});
+    ASSERT_FALSE(moving.outcome.ended) << "that of an axis that stands while another one moves";
+    EXPECT_LT(moving.x(), 32);
+    EXPECT_TRUE(moving.outcome.position_trusted);
+}
+
+TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
+    const StoppedRun ran =
+        run_stopped(carriage(), "G21 G90\nG0 X200\nG4 P4\nG0 X300\nM2\n", {"board.watchdog.hang@2s"});
+    ASSERT_FALSE(ran.outcome.ended);
+    EXPECT_THAT(ran.error(), HasSubstr("The watchdog of card board restarted it"));
+    EXPECT_NEAR(ran.x(), 200, 1);
+    EXPECT_FALSE(ran.outcome.position_trusted) << "its counter begins anew";
+}
+
+TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {
+    const StoppedRun ran = run_stopped(stop_axes, dwelling, {}, {"stop@1s"});
+    ASSERT_FALSE(ran.outcome.ended);
+    EXPECT_EQ(ran.outcome.ended.error().trouble, Trouble::stopped);
+    EXPECT_LT(to_seconds(ran.outcome.time), 1.1);
+}
+
+TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop) {
+    const StoppedRun fast = run_stopped(stop_axes, "G21 G90 F3000\nG1 X80\nM2\n", {"estop=0@1s"});
+    EXPECT_FALSE(fast.outcome.ended);
+    EXPECT_FALSE(fast.outcome.position_trusted);
+    const StoppedRun slow = run_stopped(stop_axes, "G21 G90 F60\nG1 X80\nM2\n", {"estop=0@1s"});
+    EXPECT_FALSE(slow.outcome.ended);
+    EXPECT_TRUE(slow.outcome.position_trusted) << "1 mm/s is below its start speed: it stops within a step";
+}
+
+TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
+    const StoppedRun ran =
+        run_stopped(stop_axes, "G21 G90 F1200\nG1 X80\nM2\n", {"X.limit_minus=0@1s", "X.limit_minus=1@1.2s"});
+    EXPECT_TRUE(ran.outcome.ended) << "the way back stays free";
+}
+
+}  // namespace
+}  // namespace motionrack::rack
