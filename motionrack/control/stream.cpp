@@ -157,10 +157,11 @@ void Stream::set_overrides(double feed, double rapid) {
 
 Result<StreamState> Stream::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
-    if (wish_ != Wish::none) return path_begun_ ? finish_path() : stand();
-    if (state_ == StreamState::held || state_ == StreamState::paused) return state_;
+    const bool brakes = wish_ != Wish::none;
+    if (brakes && !path_begun_) return stand();
+    if (!brakes && (state_ == StreamState::held || state_ == StreamState::paused)) return state_;
     pull_steps();
-    if (feed_ != feed_wanted_ || rapid_ != rapid_wanted_) {
+    if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
         feed_ = feed_wanted_;
         rapid_ = rapid_wanted_;
         planner_.reopen();
@@ -170,9 +171,10 @@ Result<StreamState> Stream::drive(bool more_may_come) {
         forget();
         return tl::unexpected<Error>(filled.error());
     }
-    // A last move is kept back while there is time for the line after it: then it need not end at rest.
+    // A last move is kept back while there is time for the line after it: then it need not end at rest. Who brakes gets
+    // all the path there is: that is what it brakes along.
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
-    const bool keep_back = !rest_follows && (path_begun_ ? time_left() : planner_.size() > 0);
+    const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
     if (planner_.size() <= 1 && keep_back) return state_ = StreamState::waiting;
     if (PlannedMove planned; planner_.pull_early(planned)) return hand_over(planned);
     return path_begun_ ? finish_path() : stand();

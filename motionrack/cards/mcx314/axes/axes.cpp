@@ -173,6 +173,7 @@ Result<void> Axes::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
     if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
+    if (braking_) return stopped_by_user();  // it stands already
     notes_.push_back(
         {segment.line,
          fmt::format("line {}: the next piece came too late and the axes stopped at the joint for a moment; "
