@@ -12,6 +12,16 @@ inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise)
     return text != nullptr && *text != '\0' ? std::strtoull(text, nullptr, 0) : otherwise;
 }
 
+/// Whether tests take their time (MOTIONRACK_THOROUGH=1), as the part `seeds` of ./test --all does.
+inline bool thorough() {
+    return from_environment("MOTIONRACK_THOROUGH", 0) != 0;
+}
+
+/// How often a test tries: what the environment variable says; without it few every day, all where there is time.
+inline std::uint64_t trials(const char* name, std::uint64_t everyday, std::uint64_t all) {
+    return from_environment(name, thorough() ? all : everyday);
+}
+
 /// Where random tests begin: MOTIONRACK_SEED, or the same in every run.
 inline std::uint64_t seed_from_environment(std::uint64_t otherwise = 1) {
     return from_environment("MOTIONRACK_SEED", otherwise);

@@ -183,7 +183,10 @@ Result<StreamState> Stream::drive(bool more_may_come) {
 Result<void> Stream::fill_planner() {
     for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
         const Entry& entry = entries_[planned_];
-        if (!entry.is_move()) continue;
+        if (!entry.is_move()) {
+            planner_.keep_apart();  // it is told of where it stands in the program
+            continue;
+        }
         Move move = entry.step.move;
         if (entry.is_overridable()) move.feed *= feed_;
         if (entry.step.overridable) move.haste = rapid_;
@@ -209,15 +212,20 @@ Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
     if (!path_begun_) {
         if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
-        front_block_ = first_block_ = 0;
+        first_block_ = 0;
         block_began_ = never;
         blocks_.clear();
     }
     if (ride_) {
         blocks_.push_back(planned.number);
     } else {
-        while (!entries_[handed_].is_move()) ++handed_;
-        entries_[handed_++].seconds = seconds_of(planned);
+        blocks_.push_back(planned.moves);
+        double seconds = seconds_of(planned);
+        for (std::int32_t left = planned.moves; left > 0; ++handed_)
+            if (entries_[handed_].is_move()) {
+                entries_[handed_].seconds = std::exchange(seconds, 0.0);
+                --left;
+            }
     }
     state_ = StreamState::driving;
     const Result<void> followed = axes_->follow(planned);
@@ -277,10 +285,17 @@ void Stream::keep_rest_of_path() {
     const auto beside = [&](const Entry& entry) {
         return nearest_on(geometry_of(entry.step.move, entry.start), place);
     };
-    std::size_t next = 1;
-    while (next < handed_ && !entries_[next].is_move()) ++next;
-    if (next < handed_ && beside(entries_[next]).distance < beside(entries_.front()).distance)
-        for (; next > 0; --next) pop();
+    // A block may stand for several moves.
+    std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
+    known += blocks_.size() > 1 ? blocks_[1] : 0;
+    std::size_t nearest = 0;
+    double least = handed_ > 0 ? beside(entries_.front()).distance : 0;
+    for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
+        if (!entries_[i].is_move()) continue;
+        --known;
+        if (const double off = beside(entries_[i]).distance; off < least) least = off, nearest = i;
+    }
+    for (; nearest > 0; --nearest) pop();
     if (!entries_.empty() && handed_ > 0) {
         Entry& entry = entries_.front();
         entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place);
@@ -344,8 +359,8 @@ void Stream::take_starts() {
         if (start.block < 0) continue;
         line_driven_ = start.line;
         block_began_ = start.at;
-        if (ride_) pop_before_block(start.block);
-        while (!entries_.empty() && (!entries_.front().is_move() || (!ride_ && front_block_ < start.block))) pop();
+        pop_before_block(start.block);
+        while (!entries_.empty() && !entries_.front().is_move()) pop();
     }
 }
 
@@ -353,7 +368,6 @@ void Stream::take_starts() {
 void Stream::pop() {
     Entry& front = entries_.front();
     if (front.is_move()) {
-        ++front_block_;
         moves_ -= front.last;
     } else if (on_event_) {
         front.step.text = front.text;

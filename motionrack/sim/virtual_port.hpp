@@ -24,6 +24,8 @@ class VirtualHost : public Interrupt {
 
     /// The flag a signal handler sets (Ctrl-C); may be nullptr.
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
+    /// How long the host takes from an interrupt that wakes it to its next step; 0 at first.
+    void set_latency(Duration latency) { latency_ = latency; }
     /// Called between runs at least every `slice` of virtual time: progress, draining of recorders.
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
@@ -43,6 +45,7 @@ class VirtualHost : public Interrupt {
     WireId interrupt_;
     int active_;
     Duration access_;
+    Duration latency_{};
     InputLog* log_;
     const std::atomic<bool>* stop_ = nullptr;
     Duration slice_ = milliseconds(50);

@@ -1,6 +1,7 @@
 // What the controller must not do is found in the pulses alone, and told once with its worst.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <motionrack/rack/breaches.hpp>
 
