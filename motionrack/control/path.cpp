@@ -4,6 +4,7 @@
 #include <cmath>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/profile.hpp>
+#include <utility>
 
 namespace motionrack::control {
 namespace {
@@ -28,6 +29,9 @@ Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSetting
     mask_ = size - 1;
     slots_.resize(size);
     nodes_.resize(size);
+    if (drive_ != nullptr) least_seconds_ = drive_->least_seconds();
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        half_pulse_[i] = limits[i].pulses_per_unit > 0 ? 0.5 / limits[i].pulses_per_unit : 1e9;
 }
 
 Result<void> Planner::push(const Move& move) {
@@ -39,14 +43,11 @@ Result<void> Planner::push(const Move& move) {
     }
     if (path.shape == PathShape::nothing) return {};
 
-    const AlongPath along = limits_.along(path, move);
+    if (!std::exchange(apart_, false) && merge(move, path)) return {};
+    const AlongPath along = along_of(path, move);
     double joint = 0;
     if (tail_ != ready_) {
-        joint = limits_.joint_squared(last_, last_along_.speed, path, along.speed, last_path_, last_tolerance_mm_);
-        if (joint > 0 && drive_) {
-            const double speed = drive_->joint_speed(last_, path);
-            joint = std::min(joint, speed * speed);
-        }
+        joint = joint_of(last_, path, along);
         if (joint == 0) flush();
     }
     append(move, path, along, joint);
@@ -55,6 +56,120 @@ Result<void> Planner::push(const Move& move) {
         forward(std::max(ready_ + chunk_, settled_));
     }
     return {};
+}
+
+/// As fast as the hardware can be given such moves, at most.
+AlongPath Planner::along_of(const Geometry& path, const Move& move) const {
+    AlongPath along = limits_.along(path, move);
+    if (least_seconds_ > 0) along.speed = std::min(along.speed, path.length / least_seconds_);
+    return along;
+}
+
+/// Square of the greatest speed.
+double Planner::joint_of(const Last& before, const Geometry& path, const AlongPath& along) const {
+    const double joint =
+        limits_.joint_squared(before.path, before.along.speed, path, along.speed, before.control, before.tolerance_mm);
+    if (joint <= 0 || drive_ == nullptr) return joint;
+    const double speed = drive_->joint_speed(before.path, path);
+    return std::min(joint, speed * speed);
+}
+
+/// Along a curve in short lines the hardware's rate stands for more and more speed, or less and less: of what it can
+/// slow down a part goes into that. At corners the speed is low, and lines have room for it.
+double Planner::gain_of(const Last& before, const Geometry& path) const {
+    constexpr double least_cosine = 0.98;
+    if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return 1;
+    double cosine = 0;
+    for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
+    if (cosine < least_cosine) return 1;
+    const double ratio = drive_->speed_ratio(before.path, path);
+    return std::max(1.0, ratio * ratio);
+}
+
+double Planner::reach_of(const Geometry& path, const AlongPath& along) const {
+    return 2 * along.accel * (path.length - (drive_ != nullptr ? drive_->spent_length(path) : 0));
+}
+
+namespace {
+
+/// Two straight moves of which nobody could tell that they are two but by the corner between them.
+bool are_alike(const Move& a, const Move& b) {
+    const auto straight = [](const Move& move) {
+        return move.kind == MoveKind::feed || move.kind == MoveKind::traverse;
+    };
+    return straight(a) && a.kind == b.kind && a.path == b.path && a.path != PathControl::exact_stop &&
+           a.tolerance_mm == b.tolerance_mm && a.feed_mode == FeedMode::units_per_second &&
+           a.feed_mode == b.feed_mode && a.feed == b.feed && a.haste == b.haste;
+}
+
+}  // namespace
+
+/// The places between the moves that the line is to stand for lie in their order along it.
+bool Planner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
+    double squared = 0, reached = 0;
+    Point way = {};
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        way[i] = line.end[i] - line.start[i];
+        squared += way[i] * way[i];
+    }
+    for (std::size_t k = 0; k <= between_size_; ++k) {
+        const Point& place = k < between_size_ ? between_[k] : position_;
+        double along = 0, off = 0;
+        for (std::size_t i = 0; i < way.size(); ++i) along += (place[i] - line.start[i]) * way[i];
+        along /= squared;
+        if (along <= reached || along >= 1) return false;
+        reached = along;
+        for (std::size_t i = 0; i < way.size(); ++i) {
+            const double beside = place[i] - line.start[i] - along * way[i];
+            if (i < 3)
+                off += beside * beside;
+            else if (std::fabs(beside) > half_pulse_[i])
+                return false;
+        }
+        if (off > tolerance_mm * tolerance_mm) return false;
+    }
+    return true;
+}
+
+/// A straight move of this length takes the hardware's least time at its speed, and most of it can be used for changing
+/// the speed.
+double Planner::least_length(const Geometry& path, const Move& move) const {
+    constexpr double spent_lengths = 12;
+    return std::max(limits_.along(path, move).speed * least_seconds_, spent_lengths * drive_->spent_length(path));
+}
+
+/// A straight move that is too short for the hardware at its speed is made longer by the one behind it, where no
+/// entry speed that is final depends on it.
+bool Planner::merge(const Move& move, const Geometry& path) {
+    constexpr double part_of_tolerance = 0.25;
+    if (least_seconds_ <= 0 || tail_ == ready_ || between_size_ == most_between) return false;
+    const std::uint64_t index = tail_ - 1;
+    PlannedMove& last = slot(index);
+    if (!are_alike(last.move, move) || (index == ready_ ? committed_ != 0 : index <= settled_)) return false;
+    if (last_.path.length >= least_length(last_.path, last.move)) return false;
+    if (joint_of(last_, path, along_of(path, move)) <= 0) return false;
+    Move whole = last.move;
+    whole.end = move.end;
+    const Geometry line = geometry_of(whole, last.start);
+    double tolerance = std::min({half_pulse_[0], half_pulse_[1], half_pulse_[2]});
+    if (move.path == PathControl::continuous) tolerance = std::max(tolerance, part_of_tolerance * move.tolerance_mm);
+    if (line.shape != last_.path.shape || !is_on_the_way(line, tolerance)) return false;
+    const AlongPath along = along_of(line, whole);
+    const double joint = index == ready_ ? node(index).joint : joint_of(before_last_, line, along);
+    if (index != ready_ && joint <= 0) return false;
+    between_[between_size_++] = position_;
+    last.move = whole;
+    last.length = line.length;
+    last.accel = along.accel;
+    last.jerk = along.jerk;
+    ++last.moves;
+    ++pushed_;
+    const double gain = index == ready_ ? 1 : gain_of(before_last_, line);
+    node(index) = {joint, reach_of(line, along), along.speed * along.speed, 0, gain};
+    position_ = move.end;
+    last_.path = line;
+    last_.along = along;
+    return true;
 }
 
 void Planner::append_dwell(const Move& move) {
@@ -73,17 +188,17 @@ void Planner::append(const Move& move, const Geometry& path, const AlongPath& al
     planned.move = move;
     planned.start = position_;
     planned.number = pushed_++;
+    planned.moves = 1;
     planned.length = path.length;
     planned.accel = along.accel;
     planned.jerk = along.jerk;
-    node(tail_) = {joint, 2 * along.accel * (path.length - (drive_ ? drive_->spent_length(path) : 0)),
-                   along.speed * along.speed, 0};
+    const double gain = tail_ == ready_ ? 1 : gain_of(last_, path);
+    node(tail_) = {joint, reach_of(path, along), along.speed * along.speed, 0, gain};
     ++tail_;
     position_ = move.end;
-    last_ = path;
-    last_along_ = along;
-    last_path_ = move.path;
-    last_tolerance_mm_ = move.tolerance_mm;
+    before_last_ = last_;
+    last_ = {path, along, move.path, move.tolerance_mm};
+    between_size_ = 0;
 }
 
 void Planner::flush() {
@@ -99,8 +214,8 @@ void Planner::backward() {
         Node& here = node(--i);
         const double braked = entry + here.reach;
         if (here.joint <= braked && settled_ == last_settled) settled_ = i;
-        entry = std::min(here.joint, braked);
-        here.entry = entry;
+        here.entry = std::min(here.joint, braked);
+        entry = here.entry / here.gain;
     }
 }
 
@@ -108,7 +223,8 @@ void Planner::backward() {
 void Planner::forward(std::uint64_t until) {
     for (; ready_ < until; ++ready_) {
         const Node& here = node(ready_);
-        const double after = ready_ + 1 == tail_ ? 0 : node(ready_ + 1).entry;
+        const bool last = ready_ + 1 == tail_;
+        const double gain = last ? 1 : node(ready_ + 1).gain, after = last ? 0 : node(ready_ + 1).entry / gain;
         const double entry = committed_ * committed_;
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
@@ -119,7 +235,7 @@ void Planner::forward(std::uint64_t until) {
         planned.exit = std::sqrt(exit);
         planned.cruise = std::max({std::sqrt(top), planned.entry, planned.exit});
         if (planned.entry != 0 || planned.exit != 0) planned.jerk = 0;
-        committed_ = planned.exit;
+        committed_ = gain == 1 ? planned.exit : planned.exit * std::sqrt(gain);
     }
     settled_ = std::max(settled_, ready_);
 }
@@ -157,7 +273,7 @@ void PlanSummary::add(const PlannedMove& planned) {
         ++dwells;
         return;
     }
-    ++moves;
+    moves += planned.moves;
     if (planned.exit == 0) ++stops;
     const bool linear = planned.start[0] != planned.move.end[0] || planned.start[1] != planned.move.end[1] ||
                         planned.start[2] != planned.move.end[2] || planned.move.kind == MoveKind::arc;

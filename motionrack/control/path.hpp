@@ -7,8 +7,12 @@
 // from that rest (what can still be braked), then forwards (what can be reached). The backward pass does not run at
 // every push but when a quarter more than the window is open; it ends where nothing can change any more, which is where
 // an entry speed is limited by its joint and not by braking. So a push costs the same for any window.
+//
+// Hardware asks for moves that take their time (DriveRule::least_seconds). Straight moves that are shorter go into one
+// line with those behind them, as far as the tolerance lets them; what is left short is driven slowly.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
@@ -42,6 +46,9 @@ class Planner final : public PathPlanner {
     /// is none at all.
     bool pull_early(PlannedMove& planned);
 
+    /// The next move that is pushed stays a move of its own.
+    void keep_apart() { apart_ = true; }
+
     /// How many moves can be pulled or are open.
     std::size_t size() const { return tail_ - head_; }
 
@@ -59,12 +66,28 @@ class Planner final : public PathPlanner {
         double reach;   ///< change of the square of the speed over the move: 2 accel length
         double cruise;  ///< square of the greatest speed on the move
         double entry;   ///< square of the speed at the start from which the end of the window can be reached
+        double gain;    ///< by what the square of the speed grows at the start, at once; 1 or more
+    };
+
+    /// What the next joint needs of the last move.
+    struct Last {
+        Geometry path;
+        AlongPath along;
+        PathControl control = PathControl::exact_stop;
+        double tolerance_mm = 0;
     };
 
     Node& node(std::uint64_t index) { return nodes_[index & mask_]; }
     PlannedMove& slot(std::uint64_t index) { return slots_[index & mask_]; }
     void append_dwell(const Move& move);
     void append(const Move& move, const Geometry& path, const AlongPath& along, double joint);
+    bool merge(const Move& move, const Geometry& path);
+    double least_length(const Geometry& path, const Move& move) const;
+    bool is_on_the_way(const Geometry& line, double tolerance_mm) const;
+    AlongPath along_of(const Geometry& path, const Move& move) const;
+    double joint_of(const Last& before, const Geometry& path, const AlongPath& along) const;
+    double gain_of(const Last& before, const Geometry& path) const;
+    double reach_of(const Geometry& path, const AlongPath& along) const;
     void backward();
     void forward(std::uint64_t until);
 
@@ -82,10 +105,13 @@ class Planner final : public PathPlanner {
     double committed_ = 0;       ///< entry speed of the first open move
     std::int64_t pushed_ = 0;    ///< moves that are planned or were
     Point position_;
-    Geometry last_;  ///< of the last open move
-    AlongPath last_along_;
-    PathControl last_path_ = PathControl::exact_stop;
-    double last_tolerance_mm_ = 0;
+    Last last_, before_last_;  ///< open moves
+    double least_seconds_ = 0;
+    std::array<double, axis_count> half_pulse_ = {};
+    bool apart_ = false;
+    static constexpr std::size_t most_between = 31;
+    std::array<Point, most_between> between_ = {};  ///< where the moves meet that the last one is made of
+    std::size_t between_size_ = 0;
 };
 
 /// Seconds that a planned move takes: a dwell its seconds, a move its trapezoid, or its S-curve where it has a jerk.

@@ -17,6 +17,9 @@ struct PathNote {
     int line = 0;             ///< line of the part program
     std::string what;         ///< a sentence
     double deviation_mm = 0;  ///< greatest distance from the programmed path that it adds
+    double late_seconds =
+        -1;        ///< a piece of the path came so much too late, and the axes stopped at its start; < 0: none
+    Instant at{};  ///< and when
 };
 
 /// A planned move really began (block >= 0), or everything came to rest (block = -1).

@@ -20,6 +20,13 @@ class DriveRule {
     virtual int most_drawn() const { return axis_count; }
     /// A steered axis is told its speed no more often than after so many s.
     virtual double steering_seconds() const { return 0; }
+    /// By what the speed along the path is multiplied at the joint of two moves where the rate of the hardware goes on.
+    virtual double speed_ratio(const Geometry& before, const Geometry& after) const {
+        (void)before, (void)after;
+        return 1;
+    }
+    /// A move that takes less, s, may be over before the hardware has the next one.
+    virtual double least_seconds() const { return 0; }
 };
 
 ///     for (const Move& move : program) {

@@ -20,6 +20,7 @@ struct PlannedMove {
     std::uint8_t axes = 0;  ///< that move on the whole of a path that this is a piece of, a bit each, X the lowest; 0:
                             ///< those that move here
     std::int64_t number = 0;  ///< of the first move in it, in the order of push, from 0
+    std::int32_t moves = 1;   ///< of the path that it stands for: short ones in one line
     double jerk =
         0;  ///< along the path, per second cubed; used for S-curves where the move starts and ends at rest; 0: none
 };

@@ -161,10 +161,11 @@ void Stream::set_overrides(double feed, double rapid) {
 
 Result<StreamState> Stream::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
-    if (wish_ != Wish::none) return path_begun_ ? finish_path() : stand();
-    if (state_ == StreamState::held || state_ == StreamState::paused) return state_;
+    const bool brakes = wish_ != Wish::none;
+    if (brakes && !path_begun_) return stand();
+    if (!brakes && (state_ == StreamState::held || state_ == StreamState::paused)) return state_;
     pull_steps();
-    if (feed_ != feed_wanted_ || rapid_ != rapid_wanted_) {
+    if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
         feed_ = feed_wanted_;
         rapid_ = rapid_wanted_;
         planner_.reopen();
@@ -174,9 +175,10 @@ Result<StreamState> Stream::drive(bool more_may_come) {
         forget();
         return tl::unexpected<Error>(filled.error());
     }
-    // A last move is kept back while there is time for the line after it: then it need not end at rest.
+    // A last move is kept back while there is time for the line after it: then it need not end at rest. Who brakes gets
+    // all the path there is: that is what it brakes along.
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
-    const bool keep_back = !rest_follows && (path_begun_ ? time_left() : planner_.size() > 0);
+    const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
     if (planner_.size() <= 1 && keep_back) return state_ = StreamState::waiting;
     if (PlannedMove planned; planner_.pull_early(planned)) return hand_over(planned);
     return path_begun_ ? finish_path() : stand();
@@ -185,7 +187,10 @@ Result<StreamState> Stream::drive(bool more_may_come) {
 Result<void> Stream::fill_planner() {
     for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
         const Entry& entry = entries_[planned_];
-        if (!entry.is_move()) continue;
+        if (!entry.is_move()) {
+            planner_.keep_apart();  // it is told of where it stands in the program
+            continue;
+        }
         Move move = entry.step.move;
         if (entry.is_overridable()) move.feed *= feed_;
         if (entry.step.overridable) move.haste = rapid_;
@@ -211,15 +216,20 @@ Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
     if (!path_begun_) {
         if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
-        front_block_ = first_block_ = 0;
+        first_block_ = 0;
         block_began_ = never;
         blocks_.clear();
     }
     if (ride_) {
         blocks_.push_back(planned.number);
     } else {
-        while (!entries_[handed_].is_move()) ++handed_;
-        entries_[handed_++].seconds = seconds_of(planned);
+        blocks_.push_back(planned.moves);
+        double seconds = seconds_of(planned);
+        for (std::int32_t left = planned.moves; left > 0; ++handed_)
+            if (entries_[handed_].is_move()) {
+                entries_[handed_].seconds = std::exchange(seconds, 0.0);
+                --left;
+            }
     }
     state_ = StreamState::driving;
     const Result<void> followed = axes_->follow(planned);
@@ -279,10 +289,17 @@ void Stream::keep_rest_of_path() {
     const auto beside = [&](const Entry& entry) {
         return nearest_on(geometry_of(entry.step.move, entry.start), place);
     };
-    std::size_t next = 1;
-    while (next < handed_ && !entries_[next].is_move()) ++next;
-    if (next < handed_ && beside(entries_[next]).distance < beside(entries_.front()).distance)
-        for (; next > 0; --next) pop();
+    // A block may stand for several moves.
+    std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
+    known += blocks_.size() > 1 ? blocks_[1] : 0;
+    std::size_t nearest = 0;
+    double least = handed_ > 0 ? beside(entries_.front()).distance : 0;
+    for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
+        if (!entries_[i].is_move()) continue;
+        --known;
+        if (const double off = beside(entries_[i]).distance; off < least) least = off, nearest = i;
+    }
+    for (; nearest > 0; --nearest) pop();
     if (!entries_.empty() && handed_ > 0) {
         Entry& entry = entries_.front();
         entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place);
@@ -346,8 +363,8 @@ void Stream::take_starts() {
         if (start.block < 0) continue;
         line_driven_ = start.line;
         block_began_ = start.at;
-        if (ride_) pop_before_block(start.block);
-        while (!entries_.empty() && (!entries_.front().is_move() || (!ride_ && front_block_ < start.block))) pop();
+        pop_before_block(start.block);
+        while (!entries_.empty() && !entries_.front().is_move()) pop();
     }
 }
 
@@ -355,7 +372,6 @@ void Stream::take_starts() {
 void Stream::pop() {
     Entry& front = entries_.front();
     if (front.is_move()) {
-        ++front_block_;
         moves_ -= front.last;
     } else if (on_event_) {
         front.step.text = front.text;

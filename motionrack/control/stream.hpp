@@ -187,20 +187,20 @@ class Stream {
     gcode::Interpreter interpreter_;
     Planner planner_;
     std::optional<RideMoves> ride_;  ///< if the jerk is limited; then planner_ idles
-    std::deque<std::int64_t>
-        blocks_;                    ///< numbers of the moves of what the axes have had, from the one that they drive on
+    /// Of what the axes have had, from the one that they drive on: the numbers of its moves (ride_), or how many of
+    /// entries_ it stands for.
+    std::deque<std::int64_t> blocks_;
     std::int64_t first_block_ = 0;  ///< of blocks_, as the axes count
     bool ride_ends_ = true;         ///< it was told that its path ends
     Instant last_push_{};           ///< when it got a move last
     std::deque<Entry> entries_;     ///< front: being driven
     std::optional<Cutting> cutting_;
-    std::string text_;              ///< of the last line
-    Point read_to_ = {};            ///< where the last entry ends
-    std::size_t moves_ = 0;         ///< in entries_ and cutting_
-    std::size_t planned_ = 0;       ///< entries that the planner has had
-    std::size_t handed_ = 0;        ///< entries up to the last move that the axes have had
-    std::int64_t front_block_ = 0;  ///< of the first move in entries_, as the axes count
-    Instant block_began_ = never;   ///< of that move; never: it has not begun
+    std::string text_;             ///< of the last line
+    Point read_to_ = {};           ///< where the last entry ends
+    std::size_t moves_ = 0;        ///< in entries_ and cutting_
+    std::size_t planned_ = 0;      ///< entries that the planner has had
+    std::size_t handed_ = 0;       ///< entries up to the last move that the axes have had
+    Instant block_began_ = never;  ///< of that move; never: it has not begun
     std::int32_t line_driven_ = 0;
     bool unpulled_ = false;    ///< of the last line not everything is in entries_
     bool path_begun_ = false;  ///< the axes have moves that they were not told the end of

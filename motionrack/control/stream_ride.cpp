@@ -70,10 +70,13 @@ Result<void> Stream::fill_ride() {
     return {};
 }
 
-/// Of one move the axes get several blocks.
+/// Of one move of a ride the axes get several blocks; else a block may stand for several moves.
 void Stream::pop_before_block(std::int64_t block) {
-    for (; first_block_ < block; ++first_block_) blocks_.pop_front();
-    pop_driven(blocks_.front());
+    for (; first_block_ < block; ++first_block_) {
+        for (std::int64_t left = ride_ ? 0 : blocks_.front(); left > 0; pop()) left -= entries_.front().is_move();
+        blocks_.pop_front();
+    }
+    if (ride_) pop_driven(blocks_.front());
 }
 
 /// All up to the last move before this one.

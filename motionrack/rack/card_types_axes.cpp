@@ -61,7 +61,7 @@ constexpr std::array<std::string_view, 2> bus_widths = {"16-bit", "8-bit"};
 constexpr std::array<std::string_view, 2> slow_drives = {"at V", "at SV"};
 constexpr std::array<std::string_view, 2> software_limits = {"beyond", "at"};
 
-constexpr std::array<Field, 7> mcx314_settings = {
+constexpr std::array<Field, 8> mcx314_settings = {
     with_choices(field<&Mcx314Settings::variant>("variant", 0, 0, "",
                                                  "the chip: the original, or the one with filters, automatic home "
                                                  "search, synchronous actions and wide ranges"),
@@ -81,6 +81,9 @@ constexpr std::array<Field, 7> mcx314_settings = {
     field<&Mcx314Settings::bus_access_ns>(
         "bus_access_ns", 0, 100'000, "ns",
         "time that one access of the host takes; two of them to a register on 8 bits"),
+    field<&Mcx314Settings::host_latency_us>(
+        "host_latency_us", 0, 10'000, "us",
+        "from an interrupt of the card to the host's first access; pieces of a path are made long enough for it"),
 };
 
 // One pulse at most every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).

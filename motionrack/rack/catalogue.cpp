@@ -31,7 +31,10 @@ class Mcx314Card final : public MotionCard {
           access_(narrow_ ? 2 * byte_access_ : byte_access_),
           chip_(kernel, config.name, options_of(config.mcx314)),
           port_(kernel, registers_on_bus(), chip_.id(), chip_.interrupt_wire(), access_, &log),
-          driver_(port_, port_) {}
+          driver_(port_, port_),
+          latency_(microseconds(config.mcx314.host_latency_us)) {
+        port_.set_latency(latency_);
+    }
 
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return chip_.id(); }
@@ -76,7 +79,7 @@ class Mcx314Card final : public MotionCard {
                                          const std::optional<control::Point>& position) override {
         const Stand stand = stand_now();
         for (auto& one : single_) one.reset();
-        axes_.emplace(driver_, axis_map(config), access_);
+        axes_.emplace(driver_, axis_map(config), mcx314::HostTimes{access_, latency_});
         axes_->set_probe(probe_channels(config));
         MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
         for (int c = 0; c < mcx314::channel_count && !position; ++c)
@@ -196,6 +199,7 @@ class Mcx314Card final : public MotionCard {
     mcx314::ByteBus byte_bus_{chip_};
     sim::VirtualPort port_;
     mcx314::Driver driver_;
+    Duration latency_;
     std::optional<mcx314::Axes> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;

@@ -13,6 +13,17 @@ namespace {
 
 constexpr Duration slice = milliseconds(50);
 
+/// How far pulses may lead from the path as it is planned, mm: ends and chords are on whole pulses, and arcs that the
+/// card does not draw are as near as their chords.
+double allowed_deviation(const RackConfig& config) {
+    constexpr double pulses = 3.5, rounding_mm = 1e-4;
+    if (config.point_to_point()) return 0;
+    double longest = 0;
+    for (const RackAxis& axis : config.axes)
+        if (axis.index() < 3) longest = std::max(longest, 1 / axis.pulses_per_unit());
+    return longest > 0 ? pulses * longest + config.controller.arc_tolerance_mm + rounding_mm : 0;
+}
+
 /// What a stop at once does to a motor that was fast shows some milliseconds later.
 constexpr Duration shows_after = milliseconds(20);
 
@@ -35,6 +46,10 @@ std::vector<WatchedAxis> watched_axes(Rack& rack) {
         one.jump_hz = axis.card->jump_hz(rack.config());
         one.full_step = static_cast<double>(axis.config.microsteps);
         one.accel_hz = axis.config.max_accel * one.pulses_per_unit;
+        if (rack.config().point_to_point() || rack.config().positions_alone(axis.config))
+            one.start_hz = 0;
+        else
+            one.start_hz = axis.config.start_speed * one.pulses_per_unit;
         watched.push_back(one);
     }
     return watched;
@@ -58,6 +73,7 @@ Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(se
     monitor_ =
         std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
     monitor_->on_sample(settings_.on_sample);
+    monitor_->set_allowed_deviation(allowed_deviation(rack_.config()));
 }
 
 Job::~Job() = default;
@@ -157,10 +173,9 @@ JobOutcome Job::run() {
     out.chip_segments = rack_.axes().front().card->segments();
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();
-    for (const control::PathNote& note : (*axes)->take_notes())
-        out.warnings.push_back(
-            {began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
+    take_notes(**axes, out);
     collect_conditions(out);
+    collect_breaches(out);
     for (TrustFinding& found : trust.look(true)) {
         if (found.lost)
             out.position_trusted = false;
@@ -190,6 +205,27 @@ void Job::tell_stop(JobOutcome& out) {
                      fmt::format("{} The program was stopped in line {} and nothing after it was driven. {} {}",
                                  latch.sentence(), line_, latch.position_sentence(), "Mend the cause and start again."),
                      {line_, 1});
+}
+
+void Job::take_notes(control::PathAxes& axes, JobOutcome& out) {
+    for (const control::PathNote& note : axes.take_notes()) {
+        if (note.late_seconds >= 0)
+            out.breaches.add(
+                {BreachKind::late, -1, note.late_seconds, 0, note.at, note.line, monitor_->place_at(note.at)});
+        else
+            out.warnings.push_back(
+                {began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
+    }
+}
+
+/// What the machine itself stopped, by a switch, an alarm or a motor that could not follow, is told as that.
+void Job::collect_breaches(JobOutcome& out) {
+    if (!out.ended && out.ended.error().trouble == Trouble::machine) {
+        out.breaches = {};
+        return;
+    }
+    for (const Breach& breach : monitor_->breaches()) out.breaches.add(breach);
+    for (const Breach& breach : out.breaches.all()) out.warnings.push_back({breach.at, breach.line, text_of(breach)});
 }
 
 void Job::collect_conditions(JobOutcome& out) {

@@ -76,7 +76,11 @@ struct JobOutcome {
     int rest_axis = -1;   ///< of the servos the one that stands farthest from where it was sent; -1: no servo
     double rest_off = 0;  ///< and how far, mm or degrees
     bool position_trusted =
-        true;  ///< false once steps were lost, or an axis that positions by itself does not know where it is
+        true;           ///< false once steps were lost, or an axis that positions by itself does not know where it is
+    Breaches breaches;  ///< what the controller must not do to the machine, and did
+
+    /// It ended, and nothing was lost or broken on the way.
+    bool good() const { return ended.has_value() && position_trusted && breaches.all().empty(); }
 };
 
 /// What a monitor watches of a rack: all its axes.
@@ -106,6 +110,8 @@ class Job {
     void planned(std::int64_t block, const control::PlannedMove& move, JobOutcome& out);
     void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
+    void take_notes(control::PathAxes& axes, JobOutcome& out);
+    void collect_breaches(JobOutcome& out);
     void collect_conditions(JobOutcome& out);
     void tell_stop(JobOutcome& out);
 

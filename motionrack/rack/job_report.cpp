@@ -90,6 +90,9 @@ std::string verdict_text(const JobOutcome& outcome) {
     if (!outcome.position_trusted)
         return "The program ended, but motors lost steps: the machine is not where the controller believes it is. "
                "Lower speed or acceleration.";
+    if (const std::vector<Breach>& breaches = outcome.breaches.all(); !breaches.empty())
+        return fmt::format("The program ended, but motors may have lost steps: {}{}.", text_of(breaches.front()),
+                           breaches.size() > 1 ? ". Other limits were broken too; see the warnings" : "");
     if (outcome.rest_axis < 0) return "The program ended; every axis stands exactly where it was sent.";
     return fmt::format("The program ended; servos stand at most {:.3f} {} ({}) from where they were sent.",
                        outcome.rest_off, outcome.rest_axis < 3 ? "mm" : "deg",
@@ -109,7 +112,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.title = program_name;
     data.program_name = program_name;
     data.rack_name = rack.config().name;
-    data.verdict = {outcome.ended.has_value() && outcome.position_trusted, verdict_text(outcome)};
+    data.verdict = {outcome.good(), verdict_text(outcome)};
     data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
                     {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
                     {"Moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
@@ -195,7 +198,7 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
 
 std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     nlohmann::ordered_json json;
-    json["ok"] = outcome.ended.has_value() && outcome.position_trusted;
+    json["ok"] = outcome.good();
     json["verdict"] = verdict_text(outcome);
     if (!outcome.ended)
         json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().place.line}};
@@ -214,6 +217,17 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
     for (const control::ProgramProbe& probe : outcome.run.probes)
         json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});
+    for (const Breach& breach : outcome.breaches.all())
+        json["breaches"].push_back(
+            {{"kind", name_of(breach.kind)},
+             {"axis",
+              breach.axis < 0 ? "" : std::string(1, control::axis_letters[static_cast<std::size_t>(breach.axis)])},
+             {"value", breach.value},
+             {"limit", breach.limit},
+             {"seconds", to_seconds(breach.at)},
+             {"line", breach.line},
+             {"place", breach.place},
+             {"times", breach.times}});
     json["axes"] = nlohmann::ordered_json::array();
     for (const AxisOutcome& axis : outcome.axes)
         json["axes"].push_back({{"axis", std::string(1, control::axis_letters[static_cast<std::size_t>(axis.index)])},

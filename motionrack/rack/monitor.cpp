@@ -10,6 +10,9 @@ namespace {
 constexpr std::size_t most_blocks = 20'000;
 // Pulses: a piece begins and ends at whole pulses of its own axis and of the one that leads it.
 constexpr double most_rounding = 2;
+// The acceleration of an axis is kept but for a speed step of the card more or less within the time that it is taken
+// over.
+constexpr double accel_reserve = 1.03;
 }  // namespace
 
 void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
@@ -74,6 +77,9 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
         ears_[i].full_step = axes_[i].full_step;
         ears_[i].accel_hz = axes_[i].accel_hz;
         axes_[i].commanded->listen(ears_[i]);
+        // A servo follows a voltage in steps; a card that has none of these limits is not held to them.
+        const bool watched = axes_[i].servo == nullptr && axes_[i].start_hz > 0;
+        jump_watches_.emplace_back(axes_[i].start_hz, axes_[i].accel_hz, watched ? period : never);
     }
 }
 
@@ -179,7 +185,9 @@ void Monitor::work_off(const RawSample& raw) {
             statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
     }
     accelerations(raw, sample);
+    look_for_jumps(raw, sample);
     const double off = deviation_of(sample);
+    look_at_deviation(sample, off);
     if (off > worst_.mm)
         worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
     if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
@@ -199,8 +207,67 @@ void Monitor::accelerations(const RawSample& raw, Sample& sample) {
         const double accel = (raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds;
         const bool jumped = raw.jumps[i] != last_[4].jumps[i];
         sample.accel[axis] = jumped ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(accel);
-        if (!jumped) statistics_[axis].top_accel = std::max(statistics_[axis].top_accel, std::fabs(accel));
+        if (jumped) continue;
+        statistics_[axis].top_accel = std::max(statistics_[axis].top_accel, std::fabs(accel));
+        const double limit = axes_[i].accel_hz / axes_[i].pulses_per_unit;
+        if (axes_[i].start_hz <= 0 || std::fabs(accel) <= accel_reserve * limit) continue;
+        Breach breach = breach_here(sample);
+        breach.kind = BreachKind::accel;
+        breach.axis = axes_[i].index;
+        breach.value = std::fabs(accel);
+        breach.limit = limit;
+        breaches_.add(breach);
     }
+}
+
+Breach Monitor::breach_here(const Sample& sample) const {
+    Breach out;
+    out.at = sample.at;
+    out.line = open_block_.line;
+    out.place = {sample.position[0], sample.position[1], sample.position[2]};
+    return out;
+}
+
+void Monitor::look_for_jumps(const RawSample& raw, const Sample& sample) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const JumpWatch::Jump jump = jump_watches_[i].look(raw.commanded[i]);
+        if (jump.hz <= 0) continue;
+        Breach breach = breach_here(sample);
+        breach.kind = BreachKind::jump;
+        breach.axis = axes_[i].index;
+        breach.at = sample.at - jump_watches_[i].middle();
+        breach.value = jump.hz / axes_[i].pulses_per_unit;
+        breach.limit = axes_[i].start_hz / axes_[i].pulses_per_unit;
+        breach.times = jump.first;
+        breaches_.add(breach);
+    }
+}
+
+/// A motor that does not follow is another matter: it is the pulses that must not leave the path.
+void Monitor::look_at_deviation(const Sample& sample, double off) {
+    const bool was_beside = beside_;
+    beside_ = false;
+    if (allowed_mm_ <= 0 || off <= allowed_mm_) return;
+    Sample commanded = sample;
+    commanded.position = sample.commanded;
+    const double led = deviation_of(commanded);
+    if (led <= allowed_mm_) return;
+    beside_ = true;
+    Breach breach = breach_here(sample);
+    breach.kind = BreachKind::deviation;
+    breach.value = led;
+    breach.limit = allowed_mm_;
+    breach.times = !was_beside;
+    breaches_.add(breach);
+}
+
+std::array<double, 3> Monitor::place_at(Instant at) const {
+    const std::vector<Sample>& kept = samples();
+    if (kept.empty()) return {};
+    const auto after =
+        std::lower_bound(kept.begin(), kept.end(), at, [](const Sample& one, Instant t) { return one.at < t; });
+    const Sample& near = after == kept.end() ? kept.back() : *after;
+    return {near.position[0], near.position[1], near.position[2]};
 }
 
 double Monitor::deviation_of(const Sample& sample) {

@@ -11,6 +11,7 @@
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/plan.hpp>
+#include <motionrack/rack/breaches.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
@@ -30,6 +31,7 @@ struct WatchedAxis {
     double jump_hz = 1;     ///< rates that change by more than this at once are jumps, not ramps
     double full_step = 16;  ///< pulses: a change that is over before the axis is that far away is no jump
     double accel_hz = 0;    ///< the axis' acceleration limit, pulses/s2
+    double start_hz = 0;    ///< its start speed, pulses/s
 };
 
 struct Sample {
@@ -97,6 +99,12 @@ class Monitor final : public sim::Device {
     const std::vector<double>& deviations() const { return kept_.deviations(); }  ///< mm, one a sample
     const AxisStatistics& statistics(int index) const { return statistics_[static_cast<std::size_t>(index)]; }
     const Deviation& worst() const { return worst_; }
+    /// What the axes were asked for and must not have been.
+    const std::vector<Breach>& breaches() const { return breaches_.all(); }
+    /// Before begin(): how far from the planned path pulses may lead, mm; 0, as at first: however far.
+    void set_allowed_deviation(double mm) { allowed_mm_ = mm; }
+    /// Where the machine was at about that instant, mm.
+    std::array<double, 3> place_at(Instant at) const;
     const std::vector<DrivenBlock>& blocks() const { return blocks_; }
     std::int64_t blocks_left_out() const { return blocks_left_out_; }
     std::int64_t samples_taken() const { return taken_; }
@@ -145,6 +153,9 @@ class Monitor final : public sim::Device {
     void take(Instant now);
     void work_off(const RawSample& raw);
     void accelerations(const RawSample& raw, Sample& sample);
+    void look_for_jumps(const RawSample& raw, const Sample& sample);
+    void look_at_deviation(const Sample& sample, double off);
+    Breach breach_here(const Sample& sample) const;
     double deviation_of(const Sample& sample);
     void close_block(Instant end);
 
@@ -173,6 +184,10 @@ class Monitor final : public sim::Device {
     std::vector<DrivenBlock> blocks_;
     std::int64_t blocks_left_out_ = 0;
     Deviation worst_;
+    std::vector<JumpWatch> jump_watches_;  ///< of axes whose pulses move them; one an axis
+    Breaches breaches_;
+    double allowed_mm_ = 0;
+    bool beside_ = false;  ///< the pulses lead too far from the path
 };
 
 }  // namespace motionrack::rack

@@ -15,8 +15,11 @@ void VirtualHost::begin_access(InputKind kind, std::uint32_t offset, std::uint16
 }
 
 bool VirtualHost::wait(Duration timeout) {
+    const bool sleeps = kernel_.level(interrupt_) != active_ && !stop_requested();
     run_to(later(kernel_.now(), timeout), true);
-    return kernel_.level(interrupt_) == active_;
+    const bool woken = kernel_.level(interrupt_) == active_;
+    if (sleeps && woken && latency_ > Duration{}) run_to(kernel_.now() + latency_, false);
+    return woken;
 }
 
 void VirtualHost::pass(Duration duration) {

@@ -26,6 +26,8 @@ class VirtualHost : public Interrupt {
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
     /// The flag of the rack's stop latch, which counts as well; may be nullptr.
     void set_halted_flag(const std::atomic<bool>* halted) { halted_ = halted; }
+    /// How long the host takes from an interrupt that wakes it to its next step; 0 at first.
+    void set_latency(Duration latency) { latency_ = latency; }
     /// Called between runs at least every `slice` of virtual time: progress, draining of recorders.
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
@@ -48,6 +50,7 @@ class VirtualHost : public Interrupt {
     WireId interrupt_;
     int active_;
     Duration access_;
+    Duration latency_{};
     InputLog* log_;
     const std::atomic<bool>* stop_ = nullptr;
     const std::atomic<bool>* halted_ = nullptr;

@@ -40,7 +40,7 @@ std::string axis_column_name(std::size_t axis, const AxisColumn& column) {
 }
 
 std::string ended_text(const rack::JobOutcome& outcome) {
-    if (outcome.ended) return outcome.position_trusted ? "ok" : "lost_steps";
+    if (outcome.ended) return outcome.good() ? "ok" : outcome.position_trusted ? "limits_broken" : "lost_steps";
     switch (outcome.ended.error().trouble) {
         case Trouble::bad_input:
             return "bad_input";

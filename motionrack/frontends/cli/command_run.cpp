@@ -135,7 +135,7 @@ int run(const RunOptions& options) {
     print_outcome(**job, request, outcome, options);
     const int wrote = write_results(**job, options, done.has_value());
     if (code == exit_done) code = wrote;
-    return code == exit_done && !outcome.position_trusted ? static_cast<int>(exit_machine) : code;
+    return code == exit_done && !outcome.good() ? static_cast<int>(exit_machine) : code;
 }
 
 void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {

@@ -19,8 +19,8 @@ constexpr Duration brake_look = microseconds(50);
 
 }  // namespace
 
-Axes::Axes(Driver& driver, const AxisMap& map, Duration access)
-    : driver_(driver), map_(map), access_(access), range_(Segmenter::best_range(map)) {}
+Axes::Axes(Driver& driver, const AxisMap& map, const HostTimes& host)
+    : driver_(driver), map_(map), host_(host), rule_(map, host), range_(Segmenter::best_range(map)) {}
 
 Result<void> Axes::set_up(const control::Point& position) {
     MOTIONRACK_CHECK(prepare_chip(driver_));
@@ -36,53 +36,11 @@ Result<void> Axes::set_up(const control::Point& position) {
     return {};
 }
 
-/// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of
-/// every axis jumps by the difference, which its start speed must allow. The first chord of an arc points a little
-/// beside the arc.
-double Axes::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
-    // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one
-    // drive only.
-    const int steered = drawing_of(map_, before).companion;
-    if (steered != drawing_of(map_, after).companion) return 0;
-    // And before it turns round: its drive ends, and a new one begins.
-    for (std::size_t i = 0; steered >= 0 && i < map_.channel.size(); ++i)
-        if (map_.channel[i] == steered && before.tangent_out[i] * after.tangent_in[i] <= 0) return 0;
-    const double a = basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out);
-    const double b = basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
-    constexpr double reserve = 0.95;  // for whole speed units
-    const double turn_before = turn_of_first_chord(map_, before), turn_after = turn_of_first_chord(map_, after);
-    double speed = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
-        double jump = std::fabs(before.tangent_out[i] / a - after.tangent_in[i] / b) * std::min(a, b);
-        if (i == before.first || i == before.second) jump += turn_before;
-        if (i == after.first || i == after.second) jump += turn_after;
-        if (map_.channel[i] >= 0 && jump > 1e-9) speed = std::min(speed, reserve * map_.limits[i].start_speed / jump);
-    }
-    return speed;
-}
-
-/// The speed changes at whole pulses, and the host writes it a little after the joint; of an arc that is drawn with
-/// chords, at each of them. Along such an arc a basic pulse is another length of path from chord to chord, so that part
-/// of the chip's acceleration goes into keeping the path's speed.
-double Axes::spent_length(const control::Geometry& path) const {
-    constexpr double pulses = 2, of_chords = 0.06;
-    const Drawing drawing = drawing_of(map_, path);
-    const double in = basic_pulses_along(map_, drawing, path.tangent_in),
-                 out = basic_pulses_along(map_, drawing, path.tangent_out);
-    double spent = pulses / std::min(in, out);
-    if (turn_of_first_chord(map_, path) > 0) {
-        const double middle = basic_pulses_along(map_, drawing, control::tangent_at(path, path.length / 2));
-        const double mean = (in * in + 4 * middle * middle + out * out) / 6, most = std::max(in * in, out * out);
-        spent += path.length * (of_chords + std::max(0.0, 1 - mean / most));
-    }
-    return std::min(path.length, spent);
-}
-
 Result<void> Axes::begin() {
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
-    segmenter_.emplace(map_, range_, expected_, access_);
+    notes_ = take_notes();
+    segmenter_.emplace(map_, range_, expected_, host_);
     starts_.clear();
-    notes_.clear();
     last_block_ = -2;
     segments_ = 0;
     chain_running_ = false;
@@ -122,7 +80,7 @@ Result<void> Axes::play(const Segment& segment) {
         MOTIONRACK_CHECK(start_chain(segment));
     } else {
         MOTIONRACK_CHECK(queue(segment));
-        MOTIONRACK_CHECK(wait_for_joint());
+        MOTIONRACK_CHECK(wait_for_joint(segment));
         MOTIONRACK_CHECK(write_speed(segment));
     }
     ++segments_;
@@ -163,6 +121,7 @@ Result<void> Axes::start_chain(const Segment& segment) {
     }
     driver_.EnableDeceleration(segment.s_curve);
     written_speed_ = written_acceleration_ = 0;
+    running_speed_ = segment.initial_speed;
     MOTIONRACK_CHECK(write_speed(segment));
     return command(segment);
 }
@@ -173,13 +132,17 @@ Result<void> Axes::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
     if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
-    notes_.push_back(
-        {segment.line,
-         fmt::format("line {}: the next piece came too late and the axes stopped at the joint for a moment; "
-                     "lower the feed or bus_access_ns",
-                     segment.line),
-         0});
+    if (braking_) return stopped_by_user();  // it stands already
+    tell_late(segment);
     return command(segment);
+}
+
+/// The chip stood before it had this segment.
+void Axes::tell_late(const Segment& segment) {
+    const Instant now = driver_.interrupt().now();
+    notes_.push_back({segment.line, "", 0, to_seconds(std::max<Duration>(host_.access, now - runs_until_)),
+                      std::min(now, runs_until_)});
+    clear_interrupts();
 }
 
 Result<void> Axes::command(const Segment& segment) {
@@ -195,14 +158,20 @@ Result<void> Axes::command(const Segment& segment) {
                        segment.kind == SegmentKind::arc_cw);
 }
 
-Result<void> Axes::wait_for_joint() {
+/// Until the queued segment is driven.
+Result<void> Axes::wait_for_joint(const Segment& queued) {
     bool woken = false;
-    while (true) {
+    for (bool first = true;; first = false) {
         const MainStatus status = driver_.status();
-        if (status.can_queue()) return {};
+        if (status.can_queue()) {
+            // What is driven at once may have begun from rest: the chip may have stood when the last word came.
+            if (first && (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) != 0) tell_late(queued);
+            return {};
+        }
         if (!status.interpolating()) {
             if (status.error(xyzu)) return stopped_by_machine();
-            return {};  // too late by a hair: the segment has run and ended on its own
+            ran_alone_ = true;  // it has run and ended already
+            return {};
         }
         if (driver_.interrupt().stop_requested()) {
             MOTIONRACK_CHECK(brake());
@@ -253,6 +222,10 @@ Result<void> Axes::begin_segment(const Segment& segment) {
     if (segment.block != last_block_) starts_.push_back({segment.block, segment.line, driver_.interrupt().now()});
     last_block_ = segment.block;
     current_line_ = segment.line;
+    const Instant now = driver_.interrupt().now(),
+                  begun = std::exchange(ran_alone_, false) ? std::min(now, runs_until_) : now;
+    runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_));
+    running_speed_ = segment.speed;
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
     if (segment.companion_channel >= 0) MOTIONRACK_CHECK(steer_companion(segment));
     return {};
@@ -292,7 +265,7 @@ void Axes::stop(bool immediate) {
     else
         driver_.SlowStop(xyzu);
     chain_running_ = false;
-    if (segmenter_) segmenter_.emplace(map_, range_, expected_, access_);
+    if (segmenter_) segmenter_.emplace(map_, range_, expected_, host_);
 }
 
 void Axes::clear_interrupts() {

@@ -4,11 +4,15 @@
 //   chip  |== segment 1 ==|== segment 2 ==|== segment 3 ==|
 //   host   ^start 1, queue 2 ^INT: V of 2, queue 3 ^INT: V of 3, queue 4
 //
+// Where the next piece does not come in time the chip stands at once, and begins it from rest: it is told how late it
+// was.
+//
 // A fourth axis that moves with three others runs on its own generator: at each joint the host reads its counter and
 // gives it the speed that brings it to its place by the segment's end. Its last pulse is counted by the chip, so its
 // end is exact.
 #pragma once
 
+#include <motionrack/cards/mcx314/axes/path_rule.hpp>
 #include <motionrack/cards/mcx314/axes/segmenter.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/control/path_axes.hpp>
@@ -16,14 +20,14 @@
 
 namespace motionrack::mcx314 {
 
-class Axes final : public control::PathAxes, private control::DriveRule {
+class Axes final : public control::PathAxes {
   public:
     /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are
     /// whole numbers.
     static constexpr double kept_back = 0.03;
 
-    /// `access`: the time of one register access. The driver must outlive this.
-    Axes(Driver& driver, const AxisMap& map, Duration access);
+    /// The driver must outlive this.
+    Axes(Driver& driver, const AxisMap& map, const HostTimes& host);
 
     /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software
     /// limits at the travel, encoders x4, positions as given (mm, degrees).
@@ -32,7 +36,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> begin() override;
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
-    const control::DriveRule* drive_rule() const override { return this; }
+    const control::DriveRule* drive_rule() const override { return &rule_; }
     /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is
     /// none.
     void set_probe(unsigned channels) { probe_channels_ = channels; }
@@ -48,10 +52,6 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     std::int64_t segments() const { return segments_; }
 
   private:
-    double joint_speed(const control::Geometry& before, const control::Geometry& after) const override;
-    double spent_length(const control::Geometry& path) const override;
-    int most_drawn() const override { return 3; }
-    double steering_seconds() const override { return 0.008; }
     Result<void> check_probe(bool release);
     Result<void> arm_probe(bool release);
     Result<void> disarm_probe();
@@ -63,7 +63,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> play_pause(const Segment& segment);
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
-    Result<void> wait_for_joint();
+    Result<void> wait_for_joint(const Segment& queued);
     Result<void> brake();
     Result<void> wait_for_standstill();
     Result<void> write_speed(const Segment& segment);
@@ -78,14 +78,16 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
     Result<void> finish_companion();
     std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v) const;
-    double segment_seconds(const Segment& segment);
+    double segment_seconds(const Segment& segment, double from) const;
+    void tell_late(const Segment& segment);
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
     void clear_interrupts();
 
     Driver& driver_;
     AxisMap map_;
-    Duration access_;
+    HostTimes host_;
+    PathRule rule_;
     std::int32_t range_;
     std::optional<Segmenter> segmenter_;
     std::vector<control::BlockStart> starts_;
@@ -103,6 +105,9 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     bool braking_ = false;         ///< on a wish to stop
     bool chain_running_ = false;
     std::int64_t segments_ = 0;
+    bool ran_alone_ = false;    ///< the queued segment ended before the host knew that it had begun
+    Instant runs_until_{};      ///< about when the chip has driven the running segment
+    double running_speed_ = 1;  ///< V at its end
     unsigned probe_channels_ = 0;
     bool probing_ = false;
     std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed

@@ -29,6 +29,20 @@ double shortest_angle(const AxisMap& map, const control::Geometry& arc) {
     return std::min(greatest_angle, shortest_chord / scale / arc.radius);
 }
 
+/// How many lines a move is drawn with; none takes less than `least_seconds`.
+double chords_of(const AxisMap& map, const control::Geometry& path, double cruise, double least_seconds) {
+    if (path.shape == control::PathShape::arc) {
+        // From chord to chord the axes' speeds jump by speed * angle.
+        const double jump =
+            joint_share * std::min(map.limits[path.first].start_speed, map.limits[path.second].start_speed);
+        const double angle = std::min(tolerated_angle(map, path.radius), jump / cruise);
+        const double quickest = std::min(least_seconds * cruise / path.radius, greatest_angle);
+        return std::ceil(std::fabs(path.sweep) / std::max({angle, shortest_angle(map, path), quickest}));
+    }
+    const double seconds = path.length / cruise, count = std::clamp(std::ceil(seconds / 0.008), 8.0, 20'000.0);
+    return least_seconds > 0 ? std::min(count, std::max(1.0, std::floor(seconds / least_seconds))) : count;
+}
+
 }  // namespace
 
 double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
@@ -38,18 +52,9 @@ double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
 
 void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
-    double count = 1, deviation = 0;
-    if (arc) {
-        // From chord to chord the axes' speeds jump by speed * angle.
-        const double jump =
-            joint_share * std::min(map_.limits[work.path.first].start_speed, map_.limits[work.path.second].start_speed);
-        const double angle = std::min(tolerated_angle(map_, work.path.radius), jump / work.move.cruise);
-        count = std::ceil(std::fabs(work.path.sweep) / std::max(angle, shortest_angle(map_, work.path)));
-        const double half = std::fabs(work.path.sweep) / count / 2;
-        deviation = work.path.radius * (1 - sin_cos(half).cos);
-    } else {
-        count = std::clamp(std::ceil(work.path.length / (work.move.cruise * 0.008)), 8.0, 20'000.0);
-    }
+    const double count = chords_of(map_, work.path, work.move.cruise, least_seconds_);
+    const double half = arc ? std::fabs(work.path.sweep) / count / 2 : 0;
+    const double deviation = arc ? work.path.radius * (1 - sin_cos(half).cos) : 0;
     if (work.companion >= 0)
         note_split(
             work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator",

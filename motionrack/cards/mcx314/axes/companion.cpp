@@ -52,11 +52,10 @@ double basic_pulses(const Segment& segment) {
 
 }  // namespace
 
-/// About how long the segment takes: from the present speed to its own, then on.
-double Axes::segment_seconds(const Segment& segment) {
+/// About how long the segment takes: from a V to its own, then on.
+double Axes::segment_seconds(const Segment& segment, double from) const {
     const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
-    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed,
-                 slope = rules::rate_unit * segment.acceleration;
+    const double v0 = std::max(1.0, from), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
     if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
     const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
@@ -76,8 +75,8 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
-    const double mean =
-        std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment) * range_ / rules::clock_hz;
+    const double mean = std::max(0.0, static_cast<double>(direction * left)) /
+                        segment_seconds(segment, driver_.ReadCV(generator_)) * range_ / rules::clock_hz;
     const std::int32_t v = companion_speed(mean);
     if (!driving) return drive_companion(at, goal, v);
     // Once it brakes it goes on to the end that it had; what is left is driven from there.
@@ -106,7 +105,8 @@ Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64
     const double from = driving ? driver_.ReadCV(companion_) : start;
     const auto left = static_cast<double>(direction * (companion_target_ - at));
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
-    const double seconds = segment_seconds(segment), late = accesses_to_speed * to_seconds(access_);
+    const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
+                 late = accesses_to_speed * to_seconds(host_.access) + to_seconds(host_.latency);
     const double way = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
     const double planned = segment.companion_speed / pulses_per_v;
     double wished = planned + way / seconds - (from + planned) / 2, end = std::max(planned, start);

@@ -41,7 +41,9 @@ void Segmenter::make_even(const Work& work, Speeds& speeds) {
     std::int64_t basic = 0;
     for (const std::int64_t pulses : way) basic = std::max<std::int64_t>(basic, std::llabs(pulses));
     if (basic == 0) return;
-    const double length = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;  // V units * seconds
+    // V units * seconds. The new speed counts from the host's first accesses behind the joint on.
+    const double whole = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;
+    const double length = std::max(0.5 * whole, whole - host_seconds_ * from);
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
     const std::int32_t most = most_on(way, false).acceleration;
     speeds.acceleration =

@@ -46,7 +46,7 @@ void Axes::go_on_from_here() {
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
     notes_ = take_notes();
     const std::int32_t block = segmenter_->next_block();
-    segmenter_.emplace(map_, range_, expected_, access_);
+    segmenter_.emplace(map_, range_, expected_, host_);
     segmenter_->count_from(block);
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/base/time.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -10,6 +11,12 @@ inline constexpr int channel_count = 4;
 using Pulses4 = std::array<std::int64_t, channel_count>;
 
 enum class SegmentKind : std::uint8_t { line, arc_cw, arc_ccw, pause };
+
+/// How quick the host of a card is.
+struct HostTimes {
+    Duration access{};   ///< of one register access
+    Duration latency{};  ///< from an interrupt to the host's first access
+};
 
 /// Everything in register units. `axes[0]` is AX1; finish and centre are relative to the segment's start.
 struct Segment {

@@ -18,6 +18,8 @@ namespace {
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_write_speed = 8;
+// And until the next piece is queued behind it; with what the reserve is for: whole pulses, an access of somebody else.
+constexpr double accesses_of_piece = 28, piece_reserve = 1.5;
 
 }  // namespace
 
@@ -30,11 +32,17 @@ std::int32_t Segmenter::best_range(const AxisMap& map) {
         std::clamp(std::floor(range), static_cast<double>(param::R.least), static_cast<double>(param::R.greatest)));
 }
 
-Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access)
+double Segmenter::least_seconds(const HostTimes& host) {
+    return piece_reserve * (accesses_of_piece * to_seconds(host.access) + to_seconds(host.latency));
+}
+
+Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, const HostTimes& host)
     : map_(map),
       range_(range),
       pulses_per_v_(rules::clock_hz / range),
-      latency_seconds_(accesses_to_write_speed * to_seconds(access)),
+      host_seconds_(to_seconds(host.latency)),
+      latency_seconds_(accesses_to_write_speed * to_seconds(host.access) + host_seconds_),
+      least_seconds_(least_seconds(host)),
       at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {
@@ -113,6 +121,16 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
     return (phase / range_ + 2) / (units * pulses_per_v_);
 }
 
+/// Where a move is cut so that its second piece falls to the exit speed. Both pieces take the host's least time, or it
+/// is not cut and has the exit speed from its beginning on.
+double Segmenter::fall_from(const Work& work, double units, const Speeds& speeds) const {
+    const double fall = fall_length(units, speeds);
+    if (fall <= 0) return work.path.length;
+    const double least = least_seconds_ * speeds.top / units;
+    const double from = work.path.length - std::max(fall, least);
+    return from >= least ? from : 0;
+}
+
 // ---- moves to pieces
 
 void Segmenter::emit(const Work& work, std::optional<double> next_units) {
@@ -127,7 +145,7 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
     speeds.exit = std::min(speeds.exit, speeds.top);
     speeds.acceleration = acceleration_units(units, work.move.accel);
     if (work.move.even) make_even(work, speeds);
-    speeds.fall_from = std::max(0.0, work.path.length - fall_length(units, speeds));
+    speeds.fall_from = fall_from(work, units, speeds);
     switch (work.shape) {
         case Shape::chip_arc:
             if (speeds.fall_from > 0) emit_arcs(work, 0, speeds.fall_from, speeds.top, speeds.acceleration);

@@ -6,6 +6,8 @@
 //                  /        \              [ rise, cruise ][ fall ]
 //                 /          \___      chords of arcs that the chip cannot draw get their V one by one
 //
+// No piece is so short that the host could not write the next one while it is driven: a fall begins earlier then.
+//
 // At the joint of two moves the generator's V goes on, but a pulse of the long axis means another path speed on each
 // side; the joint's V is the lesser of both, so no limit is passed.
 #pragma once
@@ -24,9 +26,8 @@ namespace motionrack::mcx314 {
 
 class Segmenter {
   public:
-    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: where the machine stands, in pulses. `access`: time
-    /// of a register access.
-    Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access);
+    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: where the machine stands, in pulses.
+    Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, const HostTimes& host);
 
     /// Takes the next planned move; its segments come out once the move after it is known.
     void add(const control::PlannedMove& move);
@@ -50,6 +51,9 @@ class Segmenter {
 
     /// R with which the fastest axis' top pulse rate, along a diagonal of two such axes, takes all 8,000 speed units.
     static std::int32_t best_range(const AxisMap& map);
+
+    /// A piece that takes less, s, may be over before the host has written the next one.
+    static double least_seconds(const HostTimes& host);
 
   private:
     static constexpr std::int64_t longest_line = 8'000'000;  ///< pulses
@@ -102,6 +106,7 @@ class Segmenter {
     Pulses4 pulses_at(const Work& work, double s) const;
     double units_along(const Work& work, const control::Point& tangent) const;
     double fall_length(double units, const Speeds& speeds) const;
+    double fall_from(const Work& work, double units, const Speeds& speeds) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
     Most most_on(const Pulses4& way, bool constant_vector) const;
@@ -109,8 +114,10 @@ class Segmenter {
 
     AxisMap map_;
     std::int32_t range_;
-    double pulses_per_v_;  ///< pulses a second of one V unit
-    double latency_seconds_;
+    double pulses_per_v_;     ///< pulses a second of one V unit
+    double host_seconds_;     ///< its latency
+    double latency_seconds_;  ///< until a speed is written
+    double least_seconds_;
     Pulses4 at_;
     std::optional<Work> waiting_;
     std::deque<Segment> ready_;

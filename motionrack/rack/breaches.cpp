@@ -1,0 +1,99 @@
+// Finding and telling what must not happen.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/move.hpp>
+#include <motionrack/rack/breaches.hpp>
+#include <utility>
+
+namespace motionrack::rack {
+
+namespace {
+
+// A window is so long that the start speed makes some pulses in it.
+constexpr double least_window = 1e-3, longest_window = 8e-3, pulses_of_start = 2;
+constexpr Duration longest_period = milliseconds(2);
+// Pulses by which the counts at three instants may be off together: they are whole, and so are the ends of pieces.
+constexpr double counting = 3;
+// The start speed is kept but for whole speed units and whole pulses: by so much where arcs are drawn with short lines.
+constexpr double start_reserve = 1.6;
+
+std::string place_text(const Breach& breach) {
+    return fmt::format("{}at {:.6f} s and X {:.3f}, Y {:.3f}, Z {:.3f}",
+                       breach.line > 0 ? fmt::format("in line {}, ", breach.line) : "", to_seconds(breach.at),
+                       breach.place[0], breach.place[1], breach.place[2]);
+}
+
+std::string often(const Breach& breach) {
+    return breach.times > 1 ? fmt::format("; the worst of {}", breach.times) : "";
+}
+
+}  // namespace
+
+void Breaches::add(const Breach& breach) {
+    const auto same = std::find_if(all_.begin(), all_.end(), [&](const Breach& one) {
+        return one.kind == breach.kind && one.axis == breach.axis;
+    });
+    if (same == all_.end()) {
+        all_.push_back(breach);
+        return;
+    }
+    const std::int64_t times = same->times + breach.times;
+    if (breach.value > same->value) *same = breach;
+    same->times = times;
+}
+
+std::string_view name_of(BreachKind kind) {
+    static constexpr std::array<std::string_view, 4> names = {"jump", "accel", "deviation", "late"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+std::string text_of(const Breach& breach) {
+    const char axis = breach.axis >= 0 ? control::axis_letters[static_cast<std::size_t>(breach.axis)] : '-';
+    const char* unit = breach.axis < 3 ? "mm" : "deg";
+    switch (breach.kind) {
+        case BreachKind::jump:
+            return fmt::format("{} the speed of {} jumped by {:.1f} {}/s, more than its start speed of {:g} {}/s{}",
+                               place_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
+        case BreachKind::accel:
+            return fmt::format("{} the acceleration of {} was {:.1f} {}/s2, above its limit of {:g} {}/s2{}",
+                               place_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
+        case BreachKind::deviation:
+            return fmt::format(
+                "{} the machine was {:.4f} mm from the programmed path, above the tolerance of {:.4f} "
+                "mm{}",
+                place_text(breach), breach.value, breach.limit, often(breach));
+        case BreachKind::late:
+            break;
+    }
+    return fmt::format(
+        "{} a piece of the path came {:.0f} us too late, and the axes stopped at its start{}; lower the "
+        "feed, program longer moves or a wider tolerance (G64 P), or make the host quicker "
+        "(host_latency_us, bus_access_ns)",
+        place_text(breach), breach.value * 1e6, often(breach));
+}
+
+JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period) : period_(period) {
+    if (period <= Duration{} || period > longest_period || start_hz <= 0) return;
+    const double window = std::clamp(pulses_of_start / start_hz, least_window, longest_window);
+    looks_ = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
+    seconds_ = static_cast<double>(looks_) * to_seconds(period);
+    explained_ = accel_hz * seconds_ * seconds_;
+    allowed_ = start_reserve * start_hz * seconds_ + explained_ + counting;
+    counts_.resize(2 * looks_ + 1);
+}
+
+JumpWatch::Jump JumpWatch::look(std::int64_t count) {
+    if (counts_.empty()) return {};
+    const std::size_t size = counts_.size();
+    counts_[seen_ % size] = count;
+    ++seen_;
+    if (seen_ < size) return {};
+    const std::int64_t middle = counts_[(seen_ - 1 - looks_) % size], first = counts_[seen_ % size];
+    const auto change = std::fabs(static_cast<double>(count - 2 * middle + first));
+    const bool jumped = std::exchange(jumps_, change > allowed_);
+    return jumps_ ? Jump{(change - counting - explained_) / seconds_, !jumped} : Jump{};
+}
+
+}  // namespace motionrack::rack

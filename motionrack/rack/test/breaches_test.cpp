@@ -1,0 +1,75 @@
+// What the controller must not do is found in the pulses alone, and told once with its worst.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/breaches.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+constexpr double start_hz = 1280, accel_hz = 640'000;  // 2 mm/s and 1,000 mm/s2 of 640 pulses a mm
+
+/// The greatest jump that is found in a motion whose pulses at `t` s are `place(t)`, and how many.
+template <class Place>
+JumpWatch::Jump look(Place place, int& times, Duration period = milliseconds(1)) {
+    JumpWatch watch(start_hz, accel_hz, period);
+    JumpWatch::Jump worst;
+    times = 0;
+    for (double t = 0; t < 0.4; t += to_seconds(period)) {
+        const JumpWatch::Jump jump = watch.look(static_cast<std::int64_t>(std::floor(place(t))));
+        times += jump.first;
+        if (jump.hz > worst.hz) worst = jump;
+    }
+    return worst;
+}
+
+TEST(AJumpWatch, LetsRampsAndStartsPass) {
+    int times = 0;
+    const auto ramp = [](double t) {
+        const double v = start_hz / 2 + accel_hz * std::min(t, 0.1);
+        return t < 0.1 ? t * (start_hz / 2 + v) / 2 : 0.1 * (start_hz / 2 + v) / 2 + (t - 0.1) * v;
+    };
+    EXPECT_EQ(look(ramp, times).hz, 0);
+    EXPECT_EQ(times, 0);
+    EXPECT_EQ(look([](double t) { return t < 0.2 ? 0 : (t - 0.2) * start_hz; }, times).hz, 0) << "a start";
+    EXPECT_EQ(look([](double t) { return std::fabs(t - 0.2) * start_hz / 2; }, times).hz, 0) << "and a way back";
+}
+
+TEST(AJumpWatch, FindsAStopAtOnceWhateverThePeriod) {
+    for (const Duration period : {microseconds(100), microseconds(500), milliseconds(1), milliseconds(2)}) {
+        int times = 0;
+        const JumpWatch::Jump jump = look([](double t) { return std::min(t, 0.2) * 55'000; }, times, period);
+        EXPECT_NEAR(jump.hz, 55'000, 4'500);
+        EXPECT_EQ(times, 1);
+    }
+}
+
+TEST(AJumpWatch, FindsNothingInLooksThatAreTooRare) {
+    int times = 0;
+    EXPECT_EQ(look([](double t) { return std::min(t, 0.2) * 55'000; }, times, milliseconds(5)).hz, 0);
+}
+
+TEST(ABreach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {
+    Breaches breaches;
+    Breach jump;
+    jump.axis = 0;
+    jump.value = 40;
+    jump.limit = 2;
+    jump.line = 12;
+    jump.at = milliseconds(3512);
+    jump.place = {10, 0, 80};
+    breaches.add(jump);
+    jump.value = 84;
+    breaches.add(jump);
+    jump.axis = 1;
+    breaches.add(jump);
+    ASSERT_EQ(breaches.all().size(), 2u);
+    EXPECT_EQ(breaches.all()[0].times, 2);
+    EXPECT_EQ(text_of(breaches.all()[0]),
+              "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000 the speed of X jumped by 84.0 mm/s, more than "
+              "its start speed of 2 mm/s; the worst of 2");
+}
+
+}  // namespace
+}  // namespace motionrack::rack

@@ -1,0 +1,151 @@
+// The controller itself loses no step: whatever is wished while a program runs, and however short its moves are, the
+// pulses on the wires never change their rate by more than the motors can follow.
+#include "lossless_support.hpp"
+
+namespace motionrack::rack {
+namespace {
+
+Wishes holds(double first, double every, int count) {
+    Wishes out;
+    for (int i = 0; i < count; ++i) {
+        out.emplace_back(first + i * every, "hold");
+        out.emplace_back(first + (i + 0.5) * every, "resume");
+    }
+    return out;
+}
+
+struct Path {
+    std::string text;
+    double x = 0, y = 0;  ///< its end
+};
+
+/// A spiral about the middle of the table, in chords of this length.
+Path spiral(double chord, double length) {
+    Path out{"G21 G90 G64 P0.01\nG0 X170 Y100\nG1 F6000\n"};
+    double angle = 0;
+    for (double s = 0; s < length; s += chord) {
+        const double radius = 20 + s / 100;
+        angle += chord / radius;
+        out.x = 150 + radius * std::cos(angle);
+        out.y = 100 + radius * std::sin(angle);
+        out.text += fmt::format("X{:.4f} Y{:.4f}\n", out.x, out.y);
+    }
+    out.text += "M2\n";
+    return out;
+}
+
+Path collinear(double line, double length) {
+    Path out{"G21 G90 G64 P0.01\nG0 X10 Y10\nG1 F6000\n"};
+    for (double s = line; s < length; s += line) {
+        out.x = 10 + s * 0.8;
+        out.y = 10 + s * 0.6;
+        out.text += fmt::format("X{:.4f} Y{:.4f}\n", out.x, out.y);
+    }
+    out.text += "M2\n";
+    return out;
+}
+
+/// The cut through a relief, along X.
+Path relief(double chord, double length, double feed) {
+    Path out{fmt::format("G21 G90 G64 P0.005\nG0 X10 Y10 Z75\nG1 F{}\n", feed)};
+    out.y = 10;
+    for (double s = chord; s < length; s += chord) {
+        out.x = 10 + s;
+        out.text += fmt::format("X{:.4f} Z{:.4f}\n", out.x,
+                                75 - 0.4 * (1 - std::cos(0.7 * s)) - 0.25 * (1 - std::cos(2.3 * s)));
+    }
+    out.text += "M2\n";
+    return out;
+}
+
+class Lossless : public testing::TestWithParam<const char*> {};
+std::string profile_of(const testing::TestParamInfo<const char*>& param) {
+    return param.param;
+}
+INSTANTIATE_TEST_SUITE_P(With, Lossless, testing::Values("trapezoid", "jerk_limited"), profile_of);
+
+void expect_held_without_loss(const char* profile, const Path& path, double first) {
+    const Driven undisturbed = drive_with(router(profile), path.text, {}),
+                 held = drive_with(router(profile), path.text, holds(first, 0.413, 4));
+    expect_lossless(held);
+    expect_end(held, path.x, path.y);
+    EXPECT_GT(to_seconds(held.outcome.time), to_seconds(undisturbed.outcome.time) + 4 * 0.1) << "it stood";
+}
+
+TEST_P(Lossless, AHoldBrakesAlongASpiralOfChords) {
+    for (const double chord : {0.2, 0.7}) {
+        SCOPED_TRACE(chord);
+        expect_held_without_loss(GetParam(), spiral(chord, 260), 2.1);
+    }
+}
+
+TEST_P(Lossless, AHoldBrakesAlongCollinearLines) {
+    for (const double line : {0.5, 1.0, 10.0}) {
+        SCOPED_TRACE(line);
+        expect_held_without_loss(GetParam(), collinear(line, 230), 0.8);
+    }
+}
+
+void expect_undisturbed(const RackConfig& config, const Path& path, double seconds) {
+    const Driven driven = drive_with(config, path.text, {});
+    expect_lossless(driven);
+    expect_end(driven, path.x, path.y);
+    EXPECT_LT(to_seconds(driven.outcome.time), seconds);
+}
+
+TEST_P(Lossless, AReliefInFineStepsGoesThrough) {
+    RackConfig config = router(GetParam());
+    set_microsteps(config, 64);
+    expect_undisturbed(config, relief(0.05, 60, 20'000), 5.5);
+}
+
+TEST_P(Lossless, ASpiralOnASlowBusGoesThrough) {
+    RackConfig config = router(GetParam());
+    config.cards[0].mcx314.bus_access_ns = 1'000;
+    expect_undisturbed(config, spiral(0.2, 200), 5.2);
+}
+
+TEST_P(Lossless, ChordsOfMicrometresGoAsFastAsTheirCurve) {
+    const double seconds = to_seconds(drive_with(router(GetParam()), spiral(0.2, 30).text, {}).outcome.time);
+    for (const double chord : {0.002, 0.01, 0.05}) {
+        SCOPED_TRACE(chord);
+        expect_undisturbed(router(GetParam()), spiral(chord, 30), 1.05 * seconds + 0.05);
+    }
+}
+
+TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
+    for (const std::int64_t latency : {0, 400}) {
+        SCOPED_TRACE(latency);
+        RackConfig config = router(GetParam());
+        config.cards[0].mcx314.host_latency_us = latency;
+        expect_undisturbed(config, spiral(0.1, 60), 4.5);
+    }
+}
+
+TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
+    bool late = false;
+    const Path path = spiral(0.2, 200);
+    const Driven driven = drive_with(router(), path.text, {}, [&](Rack& rack) {
+        if (late || rack.kernel().now() < milliseconds(2500)) return;
+        late = true;
+        rack.cards().front()->host().pass(milliseconds(20));
+    });
+    ASSERT_TRUE(driven.outcome.ended);
+    EXPECT_FALSE(driven.outcome.good());
+    bool told = false;
+    for (const Breach& breach : driven.outcome.breaches.all()) {
+        if (breach.kind != BreachKind::late) continue;
+        told = true;
+        EXPECT_NEAR(breach.value, 0.017, 0.003) << "of the two milliseconds that each chord takes";
+        EXPECT_NEAR(to_seconds(breach.at), 2.503, 0.003);
+        EXPECT_GT(breach.line, 3);
+        EXPECT_NE(text_of(breach).find("host_latency_us"), std::string::npos);
+    }
+    EXPECT_TRUE(told);
+    EXPECT_GT(driven.worst.parts, 5) << "the referee sees that the pulses stopped at once";
+    EXPECT_EQ(driven.outcome.breaches.all().back().kind, BreachKind::jump) << "and so does the monitor";
+    expect_end(driven, path.x, path.y);
+}
+
+}  // namespace
+}  // namespace motionrack::rack

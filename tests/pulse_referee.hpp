@@ -1,0 +1,97 @@
+// Judges a motion by nothing but the instants of the pulses on an axis' wires.
+//
+//   pulses   | | | ||||||||||||      |     n(t, t + w) - n(t - w, t): what the speed changed by from one window of w to
+//            [--- w ---][--- w ---]        the next; less what the acceleration limit explains, and the two pulses by
+//                       t                  which counting may be off, it was a jump
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <vector>
+
+namespace motionrack::test {
+
+/// A change of speed at once.
+struct SpeedJump {
+    double speed = 0;    ///< of it, units a second
+    double seconds = 0;  ///< when, since the rack was started
+};
+
+/// The pulses of one axis, each with its instant and its direction.
+class PulseLog final : public sim::EdgeListener {
+  public:
+    void edges(const sim::EdgeBatch& batch) override {
+        for (std::uint32_t i = 0; i < batch.size; ++i) {
+            at_.push_back(to_seconds(batch.origin + batch.tick * batch.at[i] - Instant{}));
+            count_.push_back(batch.first_count + batch.step * static_cast<std::int64_t>(i));
+        }
+    }
+
+    std::size_t size() const { return at_.size(); }
+
+    /// The greatest jump, `window` s before and after each pulse. `accel`: pulses/s2.
+    SpeedJump greatest_jump(double window, double accel) const {
+        SpeedJump worst;
+        std::size_t before = 0, after = 0;
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            while (at_[before] < at_[i] - window) ++before;
+            while (after + 1 < at_.size() && at_[after + 1] <= at_[i] + window) ++after;
+            const double change = std::fabs(static_cast<double>(way(i, after) - way(before, i)));
+            const double jump = (change - rounding) / window - accel * window;
+            if (jump > worst.speed) worst = {jump, at_[i]};
+        }
+        return worst;
+    }
+
+  private:
+    static constexpr double rounding = 2;
+    std::int64_t way(std::size_t from, std::size_t to) const { return count_[to] - count_[from]; }
+
+    std::vector<double> at_;
+    std::vector<std::int64_t> count_;
+};
+
+/// The logs of all axes of a rack that has not been started.
+class PulseReferee {
+  public:
+    explicit PulseReferee(rack::Rack& rack) : rack_(rack), logs_(rack.axes().size()) {
+        for (std::size_t i = 0; i < logs_.size(); ++i) rack.axes()[i].turned_by().listen_edges(&logs_[i]);
+    }
+    ~PulseReferee() {
+        for (rack::RunningAxis& axis : rack_.axes()) axis.turned_by().listen_edges(nullptr);
+    }
+    PulseReferee(const PulseReferee&) = delete;
+    PulseReferee& operator=(const PulseReferee&) = delete;
+
+    /// The greatest jump of an axis over any of the windows, in parts of its start speed.
+    struct Verdict {
+        double parts = 0;
+        int axis = 0;
+        SpeedJump jump;
+    };
+    Verdict verdict() {
+        Verdict worst;
+        for (std::size_t i = 0; i < logs_.size(); ++i) {
+            const rack::RackAxis& axis = rack_.axes()[i].config;
+            rack_.axes()[i].turned_by().hand_over_edges();
+            const double pulses = axis.pulses_per_unit();
+            for (const double window : {0.002, 0.004}) {
+                SpeedJump jump = logs_[i].greatest_jump(window, axis.max_accel * pulses);
+                jump.speed /= pulses;
+                const double parts = jump.speed / axis.start_speed;
+                if (parts > worst.parts) worst = {parts, static_cast<int>(i), jump};
+            }
+        }
+        return worst;
+    }
+    const PulseLog& log(std::size_t axis) const { return logs_[axis]; }
+
+  private:
+    rack::Rack& rack_;
+    std::vector<PulseLog> logs_;
+};
+
+}  // namespace motionrack::test
