@@ -15,7 +15,7 @@ namespace {
 constexpr double least_window = 1e-3, longest_window = 8e-3, pulses_of_start = 2;
 constexpr Duration longest_period = milliseconds(2);
 // Pulses by which the counts at three instants may be off together: they are whole, and so are the ends of pieces.
-constexpr double counting = 3;
+constexpr double count_rounding = 3;
 // The start speed is kept but for whole speed units and whole pulses: by so much where arcs are drawn with short lines.
 constexpr double start_reserve = 1.6;
 
@@ -80,7 +80,7 @@ JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period) : period
     looks_ = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
     seconds_ = static_cast<double>(looks_) * to_seconds(period);
     explained_ = accel_hz * seconds_ * seconds_;
-    allowed_ = start_reserve * start_hz * seconds_ + explained_ + counting;
+    allowed_ = start_reserve * start_hz * seconds_ + explained_ + count_rounding;
     counts_.resize(2 * looks_ + 1);
 }
 
@@ -93,7 +93,7 @@ JumpWatch::Jump JumpWatch::look(std::int64_t count) {
     const std::int64_t middle = counts_[(seen_ - 1 - looks_) % size], first = counts_[seen_ % size];
     const auto change = std::fabs(static_cast<double>(count - 2 * middle + first));
     const bool jumped = std::exchange(jumps_, change > allowed_);
-    return jumps_ ? Jump{(change - counting - explained_) / seconds_, !jumped} : Jump{};
+    return jumps_ ? Jump{(change - count_rounding - explained_) / seconds_, !jumped} : Jump{};
 }
 
 }  // namespace motionrack::rack

@@ -3,7 +3,7 @@
 //
 //   a motor lost steps, was pushed or held ──────────────────────► lost, until the axis is homed or declared
 //   an axis that positions by itself does not know where it is ──► lost
-//   a card's encoder counter is off from what the motor turned ──► told; the pulses, which axes are driven by, are right
+//   a card's encoder counter is off from what the motor turned ──► told; the pulses that drive the axis are right
 #pragma once
 
 #include <cstdint>

@@ -236,7 +236,7 @@ describe('a jog key', () => {
     (await lease()).setArmed(true);
     expect(key(browser, 'keydown', 'ArrowRight')).toBe(true);
     key(browser, 'keydown', 'ArrowRight', { repeat: true });
-    expect(program.asked('jog')).toEqual([{ order: 'jog', axis: 'X', speed: 10 }]);
+    expect(program.asked('jog')).toEqual([{ order: 'jog', axis: 'X', speed: 10, sequence: 1 }]);
     key(browser, 'keyup', 'ArrowRight');
     expect(program.asked('jog_stop')).toHaveLength(1);
   });
