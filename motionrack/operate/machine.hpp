@@ -171,7 +171,6 @@ class Machine {
     void come_to_rest();
     void take_stop();
     void enter_error_stop(std::string source, std::string text);
-    std::string stop_text();
     Result<void> ready(const char* what);
     Result<const rack::RackAxis*> axis_named(const char* what, char letter) const;
     Result<void> all_enabled(const char* what, std::string_view axes) const;

@@ -115,14 +115,13 @@ std::string alarm_source(const rack::StopLatch& latch) {
     return latch.cause() == rack::StopSource::stop_order ? std::string() : std::string(rack::name_of(latch.cause()));
 }
 
-}  // namespace
-
 /// What stopped the machine, or who, and what to do.
-std::string Machine::stop_text() {
-    const rack::StopLatch& latch = rack_.stop_latch();
-    const bool ordered = latch.cause() == rack::StopSource::stop_order && !ordered_by_.empty();
-    return fmt::format("{} {}", ordered ? ordered_by_ : latch.sentence(), latch.advice());
+std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_by) {
+    const bool ordered = latch.cause() == rack::StopSource::stop_order && !ordered_by.empty();
+    return fmt::format("{} {}", ordered ? ordered_by : latch.sentence(), latch.advice());
 }
+
+}  // namespace
 
 void Machine::step() {
     if (!accesses_.empty()) return access_bus();
@@ -134,7 +133,7 @@ void Machine::step() {
     if (stop_wanted_) return come_to_rest();
     if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
         const rack::StopLatch& latch = rack_.stop_latch();
-        return enter_error_stop(alarm_source(latch), stop_text());
+        return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     }
     host().pass(settings_.slice);
 }
@@ -170,7 +169,8 @@ void Machine::come_to_rest() {
         for (Alarm& alarm : status_.alarms) alarm.active = false;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
-    if (latch.latched() && state_ != MachineState::error_stop) enter_error_stop(alarm_source(latch), stop_text());
+    if (latch.latched() && state_ != MachineState::error_stop)
+        enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.why);
     for (std::size_t i = 0; i < enabled_.size(); ++i)
         enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);

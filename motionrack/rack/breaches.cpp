@@ -49,7 +49,7 @@ std::string_view name_of(BreachKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-std::string text_of(const Breach& breach) {
+std::string sentence_of(const Breach& breach) {
     const char axis = breach.axis >= 0 ? control::axis_letters[static_cast<std::size_t>(breach.axis)] : '-';
     const char* unit = breach.axis < 3 ? "mm" : "deg";
     switch (breach.kind) {

@@ -48,7 +48,7 @@ class Breaches {
 std::string_view name_of(BreachKind kind);
 
 /// "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000, the speed of X jumped by 84.000 mm/s; ...".
-std::string text_of(const Breach& breach);
+std::string sentence_of(const Breach& breach);
 
 /// Looks for jumps in the pulses of one axis. Allocates only when it is made.
 class JumpWatch {

@@ -225,7 +225,8 @@ void Job::collect_breaches(JobOutcome& out) {
         return;
     }
     for (const Breach& breach : monitor_->breaches()) out.breaches.add(breach);
-    for (const Breach& breach : out.breaches.all()) out.warnings.push_back({breach.at, breach.line, text_of(breach)});
+    for (const Breach& breach : out.breaches.all())
+        out.warnings.push_back({breach.at, breach.line, sentence_of(breach)});
 }
 
 void Job::collect_conditions(JobOutcome& out) {

@@ -91,7 +91,7 @@ std::string verdict_text(const JobOutcome& outcome) {
         return "The program ended, but motors lost steps: the machine is not where the controller believes it is. "
                "Lower speed or acceleration.";
     if (const std::vector<Breach>& breaches = outcome.breaches.all(); !breaches.empty())
-        return fmt::format("The program ended, but motors may have lost steps: {}{}.", text_of(breaches.front()),
+        return fmt::format("The program ended, but motors may have lost steps: {}{}.", sentence_of(breaches.front()),
                            breaches.size() > 1 ? ". Other limits were broken too; see the warnings" : "");
     if (outcome.rest_axis < 0) return "The program ended; every axis stands exactly where it was sent.";
     return fmt::format("The program ended; servos stand at most {:.3f} {} ({}) from where they were sent.",

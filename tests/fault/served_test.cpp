@@ -17,7 +17,7 @@ namespace {
 using operate::Machine;
 using testing::HasSubstr;
 
-rack::RackConfig config_of(const std::string& text) {
+rack::RackConfig served_config(const std::string& text) {
     auto reading = text.find('\n') == std::string::npos ? rack::read_rack_file((source_root / text).string())
                                                         : rack::read_rack_text(text);
     if (!reading.config) throw std::runtime_error("a rack of the catalogue cannot be read");
@@ -59,7 +59,7 @@ class Served {
             if (machine) pace(now);
             return true;
         };
-        auto made = Machine::make(config_of(one.text(one.fault.setup.rack)), std::move(settings));
+        auto made = Machine::make(served_config(one.text(one.fault.setup.rack)), std::move(settings));
         if (!made) throw std::runtime_error(made.error().text());
         machine = std::move(*made);
         EXPECT_TRUE(machine->enable(true));

@@ -62,7 +62,7 @@ TEST(AJogLease, IsNotProlongedByARenewalThatIsOlderThanTheStop) {
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', 2, {"a", 1})); });
     o.at(0.2, [](Machine& m) {
         EXPECT_TRUE(m.jogs().see({"a", 4}));
-        m.stop();
+        m.cancel();
     });
     o.at(0.201, [](Machine& m) {
         EXPECT_THAT(m.jog('X', 2, {"a", 2, true}).error().message, HasSubstr("sequence 2, but 4 came before it"));
@@ -98,7 +98,7 @@ TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterAStopFromElsewhere) {
         });
     o.run(1);
     EXPECT_NEAR(o.x(), 10.2, 0.02);
-    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+    EXPECT_EQ(o.machine->state(), MachineState::error_stop) << "until a reset";
 }
 
 TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterTheEndOfTheTravel) {

@@ -114,9 +114,7 @@ TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
         EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: line 1 was stopped."));
         m.reset();
     });
-    o.at(0.8, [](Machine& m) {
-        EXPECT_TRUE(m.line("G1 X12 F600", 3));
-    });
+    o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.line("G1 X12 F600", 3)); });
     o.run(1.2);
     EXPECT_NEAR(o.x(), 12, 1e-3);
 }

@@ -34,8 +34,8 @@ std::ostream& operator<<(std::ostream& out, const BrokenJog& one) {
 constexpr const char* lost = "The position of axis X is not trusted any more.";
 
 constexpr BrokenJog broken_jogs[] = {
-    {"estop_slow", false, 20, "estop", true, false, "the positions are not trusted any more"},
-    {"estop_fast", false, 100, "estop", true, false, "the positions are not trusted any more"},
+    {"estop_slow", false, 20, "estop", true, false, "position of X is not trusted any more"},
+    {"estop_fast", false, 100, "estop", true, false, "position of X is not trusted any more"},
     {"estop_of_the_card_alone", false, 100, "m.emgn", true, false, "Its position is not trusted"},
     {"stall", false, 50, "motor.stall", false, false, lost},
     {"lost_steps", false, 50, "motor.lose_steps=64", false, false, lost},

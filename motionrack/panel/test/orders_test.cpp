@@ -141,13 +141,17 @@ TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
     a.at(0.6, bert, "stop");
     a.at(0.6, anna, "line", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
     a.at(0.8, eve, "status", json::object(), [](const Answer& answer) {
-        EXPECT_EQ(answer.body["status"]["why"], "STOP by bert: line 1 was stopped.") << answer.body.dump();
+        EXPECT_EQ(answer.body["status"]["why"],
+                  "STOP by bert: line 1 was stopped. Reset, then start anew. The positions are kept.");
     });
     a.at(1, anna, "line", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
     a.good(1.2, "take_control");
-    a.good(1.3, "stop");
-    a.good(1.4, "line", {{"text", "G1 X60 F1200"}});
+    a.good(1.3, "reset");
+    a.good(1.4, "stop");
+    a.good(1.5, "reset");
+    a.good(1.6, "line", {{"text", "G1 X60 F1200"}});
     a.run(2);
+    // A reset of what stands releases.
     EXPECT_THAT(stops, testing::ElementsAre("bert: STOP by bert: line 1 was stopped.",
                                             "anna: STOP by anna: the machine was in state 'standstill'.",
                                             testing::HasSubstr(": Shutdown")));

@@ -68,6 +68,7 @@ TEST_P(AStopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
         EXPECT_EQ(answer.status, 409);
         EXPECT_THAT(answer.body["error"]["message"].get<std::string>(), AnyOf(HasSubstr("Reset"), HasSubstr("reset")));
     };
+    a.good(1.4, "take_control");  // another's STOP has ended it
     a.at(1.5, anna, "mark", {{"card", "scan"}, {"job", slow_job}}, refused);
     a.at(1.6, anna, "start_part", {{"part", "line"}}, refused);
     a.at(1.7, anna, "inject_fault", {{"target", "line"}, {"fault", "drive.speed=50"}}, refused);

@@ -59,7 +59,7 @@ inline void set_microsteps(RackConfig& config, std::int64_t microsteps) {
 inline void expect_lossless(const Driven& driven, double jump = 1.15) {
     EXPECT_LE(driven.worst.parts, jump) << "axis " << driven.worst.axis << ": " << driven.worst.jump.speed
                                         << " units/s at " << driven.worst.jump.seconds << " s";
-    for (const Breach& breach : driven.outcome.breaches.all()) ADD_FAILURE() << text_of(breach);
+    for (const Breach& breach : driven.outcome.breaches.all()) ADD_FAILURE() << sentence_of(breach);
     EXPECT_TRUE(driven.outcome.position_trusted);
     for (const AxisOutcome& axis : driven.outcome.axes)
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start);

@@ -139,7 +139,7 @@ TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
         EXPECT_NEAR(breach.value, 0.017, 0.003) << "of the two milliseconds that each chord takes";
         EXPECT_NEAR(to_seconds(breach.at), 2.503, 0.003);
         EXPECT_GT(breach.line, 3);
-        EXPECT_NE(text_of(breach).find("host_latency_us"), std::string::npos);
+        EXPECT_NE(sentence_of(breach).find("host_latency_us"), std::string::npos);
     }
     EXPECT_TRUE(told);
     EXPECT_GT(driven.worst.parts, 5) << "the referee sees that the pulses stopped at once";
