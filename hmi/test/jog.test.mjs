@@ -1,7 +1,18 @@
 // Jogging: a lease renewed every 100 ms at most, ended by everything that could mean that nobody holds the key.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { arm, chooseStep, named, openTab, pause, state, suite, takeControl, until } from './support.mjs';
+import {
+  arm,
+  chooseStep,
+  named,
+  openTab,
+  pause,
+  state,
+  stopAndRelease,
+  suite,
+  takeControl,
+  until,
+} from './support.mjs';
 
 const all = suite(test);
 
@@ -14,9 +25,7 @@ async function armed(step = 'hold', options = {}) {
 }
 
 async function done(tab) {
-  await tab.page.keyboard.press('Escape');
-  await state(tab, 'standstill');
-  await tab.page.getByRole('button', { name: 'Release', exact: true }).click();
+  await stopAndRelease(tab);
   await tab.context.close();
 }
 

@@ -1,7 +1,18 @@
 // The keyboard, as its table says: every key, and the rules of where keys do not act.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { arm, chooseStep, named, openTab, pause, state, suite, takeControl, until } from './support.mjs';
+import {
+  arm,
+  chooseStep,
+  named,
+  openTab,
+  pause,
+  state,
+  stopAndRelease,
+  suite,
+  takeControl,
+  until,
+} from './support.mjs';
 
 const all = suite(test);
 const PROGRAM = 'G21 G90\nG1 F2000 X100\nG1 X0\nG1 X100\nG1 X0\nM2\n';
@@ -21,9 +32,7 @@ async function withProgram() {
 }
 
 async function rest(tab) {
-  await tab.page.keyboard.press('Escape');
-  await state(tab, 'standstill');
-  await tab.page.getByRole('button', { name: 'Release', exact: true }).click();
+  await stopAndRelease(tab);
   await tab.context.close();
 }
 

@@ -1,7 +1,7 @@
 // The link to the program: ages, tabs, reloads, roles, pairing, the content policy.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { named, openTab, pause, state, suite, tabOf, takeControl, until } from './support.mjs';
+import { named, openTab, pause, state, stopAndRelease, suite, tabOf, takeControl, until } from './support.mjs';
 
 const all = suite(test);
 const PROGRAM = 'G21 G90\nG1 F600 X100\nG1 X0\nG1 X100\nM2\n';
@@ -17,10 +17,7 @@ async function running() {
 }
 
 async function done(tab) {
-  await tab.page.keyboard.press('Escape');
-  await state(tab, 'standstill');
-  const release = tab.page.getByRole('button', { name: 'Release', exact: true });
-  if (await release.count()) await release.click();
+  await stopAndRelease(tab);
   await tab.context.close();
 }
 

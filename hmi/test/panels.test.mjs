@@ -2,7 +2,7 @@
 // in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { openTab, picture, RACKS, state, suite, takeControl, until } from './support.mjs';
+import { openTab, picture, RACKS, startPart, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
 
 const all = suite(test, RACKS.all);
 
@@ -13,9 +13,7 @@ async function at(view, options) {
 }
 
 async function done(tab) {
-  await tab.page.keyboard.press('Escape');
-  await state(tab, 'standstill');
-  await tab.page.getByRole('button', { name: 'Release', exact: true }).click();
+  await stopAndRelease(tab);
   assert.deepEqual(tab.troubles, []);
   await tab.context.close();
 }
@@ -111,6 +109,7 @@ test('the grating bus shows the frames of all its cards, and that they agree', a
 });
 
 test('the RTC5 marks, and the work piece is drawn', async () => {
+  await startPart(all.server, 'line');
   const tab = await at('cards/scan');
   await panel(tab, 'Mark').getByRole('button', { name: 'each part' }).click();
   await panel(tab, 'Mark').getByRole('button', { name: 'Mark', exact: true }).click();
@@ -170,6 +169,7 @@ test('a wire is driven by hand and released; a fault is made and mended', async 
 });
 
 test('the scope records numbers and edges, with two cursors and an export', async () => {
+  await startPart(all.server, 'line');
   const tab = await at('scope');
   for (const name of ['scan.enc0_a', 'X.commanded']) {
     await tab.page.getByLabel('Add a channel').fill(name);

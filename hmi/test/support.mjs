@@ -108,6 +108,41 @@ export const named = (tab, order) => tab.sent.filter((one) => one.order === orde
 export const state = (tab, ...names) =>
   until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
+/** Gives an order as a program beside the page does. */
+export async function order(server, name, fields = {}) {
+  const answer = await fetch(`${server.address}api/${name}`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify(fields),
+  });
+  assert.equal(answer.status, 200, `${name}: ${await answer.text()}`);
+}
+
+/** Lets a belt go on that a STOP has brought to rest. */
+export async function startPart(server, part) {
+  await order(server, 'take_control', { force: true });
+  await order(server, 'reset');
+  await pause(200);
+  await order(server, 'start_part', { part });
+  await order(server, 'release_control');
+}
+
+/** STOP, the reset that it takes, and control given back. STOP ends the control of another session, as of a tab before
+ * it was loaded again. */
+export async function stopAndRelease(tab) {
+  await tab.page.keyboard.press('Escape');
+  await until(() => tab.status?.state === 'error stop', 'STOP holds the machine');
+  const reset = tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' });
+  const take = tab.page.getByRole('button', { name: /Take control|Take over/ });
+  const mayReset = async () => (await reset.getAttribute('aria-disabled')) !== 'true';
+  await until(async () => (await mayReset()) || (await take.count()) > 0, 'control, or a button for it');
+  if (!(await mayReset())) await take.click();
+  await reset.click();
+  await state(tab, 'standstill', 'disabled');
+  const release = tab.page.getByRole('button', { name: 'Release', exact: true });
+  if (await release.count()) await release.click();
+}
+
 /** Takes control and enables the drives. */
 export async function takeControl(tab) {
   await tab.page.getByRole('button', { name: /Take control|Take over/ }).click();
