@@ -109,8 +109,10 @@ test('the grating bus shows the frames of all its cards, and that they agree', a
 });
 
 test('the RTC5 marks, and the work piece is drawn', async () => {
-  await startPart(all.server, 'line');
   const tab = await at('cards/scan');
+  await panel(tab, /^Work piece/)
+    .getByRole('button', { name: 'Start line' })
+    .click();
   await panel(tab, 'Mark').getByRole('button', { name: 'each part' }).click();
   await panel(tab, 'Mark').getByRole('button', { name: 'Mark', exact: true }).click();
   const piece = panel(tab, /^Work piece/);

@@ -136,7 +136,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         out["part"] = {{"name", track->config.name},
                        {"unit", track->config.unit()},
                        {"position", track->track().travel(to_seconds(machine.now()))},
-                       {"speed", track->config.speed},
+                       {"speed", track->track().speed(to_seconds(machine.now()))},
                        {"direction_deg", track->config.direction_deg}};
     return out;
 }

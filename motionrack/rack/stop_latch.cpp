@@ -114,7 +114,7 @@ void StopLatch::on_wire(int pin, int, Instant now) {
 }
 
 Instant& StopLatch::left_at(const Input& input) {
-    return state_.left[static_cast<std::size_t>(2 * input.axis + (input.direction > 0))];
+    return state_.left[2 * static_cast<std::size_t>(input.axis) + (input.direction > 0 ? 1 : 0)];
 }
 
 /// Of an input that has become active.

@@ -1,9 +1,10 @@
 // The RTC5's panel: the work piece as it was marked, the field over it, the beam, the card's flags.
 import type { JSX } from 'preact';
+import { mayOperate, order } from '../link/orders';
 import { rack, type CardInfo } from '../link/rack';
 import { fixed, unitName } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
-import { Empty, Panel } from '../parts/ui';
+import { Button, Empty, Panel } from '../parts/ui';
 import { Marking } from './marking';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 import { pathOf, sight, strokesOf, type PieceAnswer } from './piece';
@@ -39,6 +40,24 @@ function Picture({ piece }: { piece: PieceAnswer }): JSX.Element {
   );
 }
 
+/** What carries the work piece stands after a stop until somebody lets it go on. */
+function Carrier({ part }: { part: NonNullable<PieceAnswer['part']> }): JSX.Element {
+  const unit = unitName(part.unit);
+  return (
+    <div>
+      <dt>{part.name}</dt>
+      <dd class="tabular">
+        {fixed(part.position, 2)} {unit}, {fixed(part.speed, 1)} {unit}/s{' '}
+        {part.speed === 0 && (
+          <Button why={mayOperate()} icon="run" onClick={() => void order('start_part', { part: part.name })}>
+            Start {part.name}
+          </Button>
+        )}
+      </dd>
+    </div>
+  );
+}
+
 function WorkPiece({ scanner }: { scanner: string }): JSX.Element {
   const { data, why } = usePoll<PieceAnswer>('workpiece', { scanner }, 300);
   const piece = data.value;
@@ -70,15 +89,7 @@ function WorkPiece({ scanner }: { scanner: string }): JSX.Element {
               <dt>field</dt>
               <dd class="tabular">{fixed(piece.field.greatest[0] - piece.field.least[0], 1)} mm square</dd>
             </div>
-            {piece.part !== undefined && (
-              <div>
-                <dt>{piece.part.name}</dt>
-                <dd class="tabular">
-                  {fixed(piece.part.position, 2)} {unitName(piece.part.unit)}, {fixed(piece.part.speed, 1)}{' '}
-                  {unitName(piece.part.unit)}/s
-                </dd>
-              </div>
-            )}
+            {piece.part !== undefined && <Carrier part={piece.part} />}
             {piece.lost_points > 0 && (
               <div>
                 <dt>not kept</dt>

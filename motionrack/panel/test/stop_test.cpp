@@ -26,7 +26,7 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
     }
     bool by_button() const { return GetParam(); }
     struct Seen {
-        double marked_mm = 0, belt_mm_s = 0, mask_m_s = 0;
+        double marked_mm = 0, belt_mm_s = 0, shown_mm_s = 0, mask_m_s = 0;
         bool laser = false;
     };
     void look(double seconds, Seen& seen) {
@@ -37,8 +37,10 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
             seen.belt_mm_s = rack.track("line")->track().speed(to_seconds(now));
             seen.mask_m_s = std::fabs(rack.stage("mask_x")->motor->speed(now));
         });
-        a.at(seconds, eve, "workpiece", {{"scanner", "head"}},
-             [&seen](const Answer& answer) { seen.marked_mm = answer.body["marked_mm"]; });
+        a.at(seconds, eve, "workpiece", {{"scanner", "head"}}, [&seen](const Answer& answer) {
+            seen.marked_mm = answer.body["marked_mm"];
+            seen.shown_mm_s = answer.body["part"]["speed"];
+        });
     }
 
     Asked a;
@@ -57,6 +59,8 @@ TEST_P(AStopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
     EXPECT_GT(on.mask_m_s, 0.01);
     EXPECT_FALSE(off.laser);
     EXPECT_EQ(off.belt_mm_s, 0);
+    EXPECT_EQ(on.shown_mm_s, 50);
+    EXPECT_EQ(off.shown_mm_s, 0) << "what is told is what it does";
     EXPECT_FALSE(later.laser);
     EXPECT_LE(later.marked_mm - on.marked_mm, 20 * 0.012) << "mm after the stop";
     EXPECT_EQ(later.marked_mm, off.marked_mm);
