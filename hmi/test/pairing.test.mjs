@@ -1,26 +1,15 @@
 // Pairing and roles: a code in the address, a code typed, a wrong one; what one may not do is disabled and says why.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { openTab, RACKS, suite, tabOf, until } from './support.mjs';
+import { openTab, order, RACKS, suite, tabOf, until } from './support.mjs';
 
 const all = suite(test, RACKS.axes, { pairing: true });
 let token = '';
 
-async function post(path, fields) {
-  const answer = await fetch(all.server.address + path, {
-    method: 'POST',
-    headers: { 'content-type': 'application/json', ...(token && { authorization: `Bearer ${token}` }) },
-    body: JSON.stringify(fields),
-  });
-  const body = await answer.json();
-  assert.equal(answer.status, 200, JSON.stringify(body));
-  return body;
-}
-
 /** A pairing code of the program for somebody of that role. */
 async function invite(role) {
-  if (token === '') token = (await post('api/pair', { code: all.server.code, name: 'test' })).token;
-  return (await post('api/invite', { role })).code;
+  if (token === '') token = (await order(all.server, 'pair', { code: all.server.code, name: 'test' })).token;
+  return (await order(all.server, 'invite', { role }, token)).code;
 }
 
 test('a code in the address pairs by itself and is removed from the address', async () => {

@@ -108,14 +108,16 @@ export const named = (tab, order) => tab.sent.filter((one) => one.order === orde
 export const state = (tab, ...names) =>
   until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
-/** Gives an order as a program beside the page does. */
-export async function order(server, name, fields = {}) {
+/** Gives an order as a program beside the page does; the answer. `token`: '' where whoever comes may do everything. */
+export async function order(server, name, fields = {}, token = '') {
   const answer = await fetch(`${server.address}api/${name}`, {
     method: 'POST',
-    headers: { 'Content-Type': 'application/json' },
+    headers: { 'content-type': 'application/json', ...(token && { authorization: `Bearer ${token}` }) },
     body: JSON.stringify(fields),
   });
-  assert.equal(answer.status, 200, `${name}: ${await answer.text()}`);
+  const body = await answer.json();
+  assert.equal(answer.status, 200, `${name}: ${JSON.stringify(body)}`);
+  return body;
 }
 
 /** Lets a belt go on that a STOP has brought to rest. */
