@@ -40,9 +40,10 @@ StopReport stop_report(Instant at, const StopOrigin& by, MachineState state, con
     return {at, by, state, fmt::format("{}{}{}: {}.", by.kind, who, from, what), false};
 }
 
-/// The first of several says why it stands: a page sends its STOP on two ways.
+/// Of one with a source. The first of several says why it stands: a page sends its STOP on two ways.
 void tell_stop(const StopReport& report, std::string& why,
                const std::vector<std::function<void(const StopReport&)>>& listeners) {
+    if (report.source.kind.empty()) return;
     if (!idle(report.state) && (report.state != MachineState::stopping || why.empty())) why = report.text;
     for (const auto& call : listeners) call(report);
 }
@@ -213,7 +214,7 @@ void Machine::stop(const StopOrigin& by) {
     ordered_by_ = by.kind.empty() ? std::string() : report.text;
     rack_.stop_latch().order();
     take_stop();
-    if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
+    tell_stop(report, status_.why, stop_listeners_);
 }
 
 void Machine::cancel(const StopOrigin& by) {
@@ -229,7 +230,7 @@ void Machine::cancel(const StopOrigin& by) {
     if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging ||
         state_ == MachineState::hold)
         enter(MachineState::stopping);
-    if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
+    tell_stop(report, status_.why, stop_listeners_);
 }
 
 void Machine::reset(const StopOrigin& by) {
@@ -237,7 +238,7 @@ void Machine::reset(const StopOrigin& by) {
     report.releases = idle(state_);
     cancel();
     reset_wanted_ = true;
-    if (!by.kind.empty()) tell_stop(report, status_.why, stop_listeners_);
+    tell_stop(report, status_.why, stop_listeners_);
 }
 
 Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
