@@ -31,6 +31,20 @@ json half_of(const char* name, const db::SlopeTable& table, int first) {
 
 constexpr std::size_t shown_scales = 32;
 
+/// Those with a loop. One that a stop has brought to rest waits until somebody starts it.
+json looped_stages(rack::Rack& rack) {
+    const Instant now = rack.kernel().now();
+    json out = json::array();
+    for (const rack::RunningStage& stage : rack.stages())
+        if (stage.processor != nullptr)
+            out.push_back({{"name", stage.config.name},
+                           {"unit", "mm"},
+                           {"position", stage.motor->position_nm(now) * 1e-6},
+                           {"speed", stage.motor->speed(now) * 1e3},
+                           {"stopped", stage.processor->stopped()}});
+    return out;
+}
+
 }  // namespace
 
 Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
@@ -81,7 +95,8 @@ Result<json> frames_now(operate::Machine& machine) {
                 {"cards", std::move(cards)},
                 {"agree", why.empty()},
                 {"why", why}};
-    return json{{"at", to_seconds(machine.now())}, {"buses", {std::move(bus)}}};
+    return json{
+        {"at", to_seconds(machine.now())}, {"buses", {std::move(bus)}}, {"stages", looped_stages(machine.rack())}};
 }
 
 }  // namespace motionrack::panel

@@ -196,7 +196,7 @@ constexpr std::array query_rows = {
            false,
            {},
            "What the cards of the grating bus hold, and whether they agree.",
-           "buses: cards with frame, age, skew, positions, agreement"},
+           "buses: cards with frame, age, skew, positions, agreement; stages: name, unit, position, speed, stopped"},
     AskRow{"workpiece", Role::observe, false, workpiece_fields, "What a scan head has marked.",
            "marks, field, beam, laser, marked_mm, energy_j, part"},
     AskRow{"channels",

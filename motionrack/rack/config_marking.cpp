@@ -15,12 +15,14 @@ constexpr std::array<std::string_view, 3> track_tables = {"profile", "sender", "
 constexpr std::array<std::string_view, 3> scanner_tables = {"lens", "galvo", "laser"};
 constexpr std::size_t most_profile_points = 10'000;
 
-constexpr std::array<Field, 9> track_table = {
+constexpr std::array<Field, 10> track_table = {
     absent_means(field<&RackTrack::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
     field<&RackTrack::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
     field<&RackTrack::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s",
                              "how fast it goes"),
+    field<&RackTrack::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2",
+                                    "how it brakes when a stop ends its motion"),
     only_in(field<&RackTrack::direction_deg>("direction_deg", -3'600, 3'600, "deg",
                                              "where it goes, from +X counter-clockwise"),
             "mm"),

@@ -25,6 +25,7 @@ struct RackTrack {
     std::optional<std::string> card;          ///< of type rtc5: where its lines lead to unless [wires] says otherwise
     std::int64_t encoder = 0;                 ///< 0, 1: the card's encoder input
     double speed = 100;                       ///< mm/s or degrees/s
+    double deceleration = 2000;               ///< mm/s2 or degrees/s2: how it brakes when it is stopped
     double direction_deg = 0;                 ///< of a belt
     double centre_x_mm = 0, centre_y_mm = 0;  ///< of a table
     double counts_per_unit = 1000;            ///< of its encoder, four a line; 0: it has none

@@ -36,6 +36,7 @@ parts::TrackSettings RackTrack::settings() const {
     if (profile.empty()) out.profile = {{0, speed}};
     if (has_encoder()) out.counts_per_unit = counts_per_unit;
     out.slip = slip;
+    out.deceleration = deceleration;
     return out;
 }
 

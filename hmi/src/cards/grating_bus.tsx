@@ -5,6 +5,7 @@ import { Icon } from '../parts/icons';
 import { fixed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Empty, Panel } from '../parts/ui';
+import { Carrier, type CarrierState } from './carrier';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 
 interface BusCard {
@@ -31,6 +32,7 @@ interface Bus {
 }
 interface FramesAnswer {
   buses: Bus[];
+  stages: CarrierState[];
 }
 
 const MOST_SCALES = 8;
@@ -96,7 +98,18 @@ export function Frames(): JSX.Element {
       {data.value === null ? (
         <Empty>{why.value || 'Asking for the frames …'}</Empty>
       ) : (
-        data.value.buses.map((bus) => <Table key={bus.name} bus={bus} />)
+        <>
+          {data.value.buses.map((bus) => (
+            <Table key={bus.name} bus={bus} />
+          ))}
+          {data.value.stages.length > 0 && (
+            <dl class="facts-list">
+              {data.value.stages.map((stage) => (
+                <Carrier key={stage.name} part={stage} />
+              ))}
+            </dl>
+          )}
+        </>
       )}
     </Panel>
   );

@@ -1,4 +1,5 @@
 // A work piece under a scan head: the program's answer, and its drawing.
+import type { CarrierState } from './carrier';
 
 export type Place = [number, number];
 export interface PieceAnswer {
@@ -12,7 +13,7 @@ export interface PieceAnswer {
   laser: boolean;
   /** A square, mm. */
   field: { least: Place; greatest: Place };
-  part?: { name: string; unit: string; position: number; speed: number };
+  part?: CarrierState;
 }
 
 /** Left, top, width and height of the picture, y downwards: around the marks; without any, around the field. */

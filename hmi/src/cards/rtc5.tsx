@@ -1,10 +1,10 @@
 // The RTC5's panel: the work piece as it was marked, the field over it, the beam, the card's flags.
 import type { JSX } from 'preact';
-import { mayOperate, order } from '../link/orders';
 import { rack, type CardInfo } from '../link/rack';
-import { fixed, unitName } from '../parts/numbers';
+import { fixed } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
-import { Button, Empty, Panel } from '../parts/ui';
+import { Empty, Panel } from '../parts/ui';
+import { Carrier } from './carrier';
 import { Marking } from './marking';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 import { pathOf, sight, strokesOf, type PieceAnswer } from './piece';
@@ -37,24 +37,6 @@ function Picture({ piece }: { piece: PieceAnswer }): JSX.Element {
         vector-effect="non-scaling-stroke"
       />
     </svg>
-  );
-}
-
-/** What carries the work piece stands after a stop until somebody lets it go on. */
-function Carrier({ part }: { part: NonNullable<PieceAnswer['part']> }): JSX.Element {
-  const unit = unitName(part.unit);
-  return (
-    <div>
-      <dt>{part.name}</dt>
-      <dd class="tabular">
-        {fixed(part.position, 2)} {unit}, {fixed(part.speed, 1)} {unit}/s{' '}
-        {part.speed === 0 && (
-          <Button why={mayOperate()} icon="run" onClick={() => void order('start_part', { part: part.name })}>
-            Start {part.name}
-          </Button>
-        )}
-      </dd>
-    </div>
   );
 }
 

@@ -21,13 +21,13 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
             a.good(1.0, "press_estop", {{"pressed", true}});
         else
             a.at(1.0, [this] { a.panel->stop(nobody); });
-        look(1.01, off);
+        look(1.05, off);
         if (by_button()) a.good(1.2, "press_estop", {{"pressed", false}});
     }
     bool by_button() const { return GetParam(); }
     struct Seen {
         double marked_mm = 0, belt_mm_s = 0, shown_mm_s = 0, mask_m_s = 0;
-        bool laser = false;
+        bool laser = false, belt_waits = false, mask_waits = false;
     };
     void look(double seconds, Seen& seen) {
         a.at(seconds, [this, &seen] {
@@ -40,7 +40,10 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
         a.at(seconds, eve, "workpiece", {{"scanner", "head"}}, [&seen](const Answer& answer) {
             seen.marked_mm = answer.body["marked_mm"];
             seen.shown_mm_s = answer.body["part"]["speed"];
+            seen.belt_waits = answer.body["part"]["stopped"];
         });
+        a.at(seconds, eve, "frames", nlohmann::json::object(),
+             [&seen](const Answer& answer) { seen.mask_waits = answer.body["stages"][0]["stopped"]; });
     }
 
     Asked a;
@@ -65,6 +68,8 @@ TEST_P(AStopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
     EXPECT_LE(later.marked_mm - on.marked_mm, 20 * 0.012) << "mm after the stop";
     EXPECT_EQ(later.marked_mm, off.marked_mm);
     EXPECT_LT(later.mask_m_s, 0.001);
+    EXPECT_FALSE(on.belt_waits || on.mask_waits);
+    EXPECT_TRUE(later.belt_waits && later.mask_waits);
 }
 
 TEST_P(AStopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
@@ -89,6 +94,8 @@ TEST_P(AStopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
     EXPECT_LT(still.mask_m_s, 0.001);
     EXPECT_EQ(started.belt_mm_s, 50);
     EXPECT_GT(started.mask_m_s, 0.01);
+    EXPECT_TRUE(still.belt_waits && still.mask_waits);
+    EXPECT_FALSE(started.belt_waits || started.mask_waits);
 }
 
 }  // namespace

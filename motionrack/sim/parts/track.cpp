@@ -57,6 +57,8 @@ Result<Track> Track::make(const TrackSettings& s) {
     if (!within(std::abs(s.counts_per_unit), 1e-6, 1e9))
         return refuse(fmt::format("an encoder with {} counts a unit: 0.000001 to 1e9 are possible, or negative",
                                   s.counts_per_unit));
+    if (!within(s.deceleration, 1, 1e7))
+        return refuse(fmt::format("a deceleration of {}: 1 to 1e7 are possible", s.deceleration));
     if (!within(s.slip, -0.5, 0.5)) return refuse(fmt::format("a slip of {}: -0.5 to 0.5 are possible", s.slip));
     if (!within(s.jitter_counts, 0, 1000))
         return refuse(fmt::format("a jitter of {} counts: 0 to 1000 are possible", s.jitter_counts));
@@ -111,12 +113,19 @@ double Track::law_travel(double t_s) const {
 }
 
 double Track::speed(double t_s) const {
-    return driving_.by_hand ? driving_.speed : law_speed(t_s);
+    const Driving& d = driving_;
+    return d.by_hand ? d.speed - d.accel * std::max(0.0, d.since_s + d.ramp_s - t_s) : law_speed(t_s);
 }
 
 double Track::driven(double law, double t_s) const {
     const Driving& d = driving_;
-    return d.travelled + (d.by_hand ? d.speed * (t_s - d.since_s) : law - d.law);
+    return d.travelled + (d.by_hand ? travel_by_hand(t_s - d.since_s) : law - d.law);
+}
+
+double Track::travel_by_hand(double after_s) const {
+    const Driving& d = driving_;
+    const double missing_s = std::max(0.0, d.ramp_s - after_s);  // of the ramp
+    return d.speed * after_s - d.accel / 2 * (d.ramp_s * d.ramp_s - missing_s * missing_s);
 }
 
 double Track::travel(double t_s) const {
@@ -124,11 +133,16 @@ double Track::travel(double t_s) const {
 }
 
 void Track::drive(double t_s, double speed) {
-    driving_ = {travel(t_s), 0, t_s, speed, 1};
+    driving_ = {travel(t_s), 0, t_s, speed, 0, 0, 1};
+}
+
+void Track::stop(double t_s) {
+    const double now = speed(t_s), accel = now > 0 ? -settings_.deceleration : settings_.deceleration;
+    driving_ = {travel(t_s), 0, t_s, 0, accel, std::fabs(now) / settings_.deceleration, 1};
 }
 
 void Track::follow_profile(double t_s) {
-    driving_ = {travel(t_s), law_travel(t_s), t_s, 0, 0};
+    driving_ = {travel(t_s), law_travel(t_s), t_s, 0, 0, 0, 0};
 }
 
 double Track::leaves(double from_s, double low, double high) const {
@@ -137,7 +151,9 @@ double Track::leaves(double from_s, double low, double high) const {
         // One piece of even acceleration after the other.
         const auto& p = settings_.profile;
         double accel = 0, end_s = never_s;
-        if (!driving_.by_hand) {
+        if (const Driving& d = driving_; d.by_hand && from_s < d.since_s + d.ramp_s) {
+            accel = d.accel, end_s = d.since_s + d.ramp_s;
+        } else if (!d.by_hand) {
             const auto above =
                 std::upper_bound(p.begin(), p.end(), from_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
             if (above != p.end()) end_s = above->at_s;

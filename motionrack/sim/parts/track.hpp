@@ -25,6 +25,7 @@ struct TrackSettings {
     double direction_deg = 0;  ///< belt: where it goes, from +X counter-clockwise
     sim::Spot centre_mm{};     ///< rotary: about this, counter-clockwise when the speed is positive
     std::vector<SpeedPoint> profile{{0, 100}};
+    double deceleration = 2000;     ///< of stop(), a second squared, 1 .. 1e7
     double counts_per_unit = 1000;  ///< counts (x4) a mm or degree, +-1e-6 .. 1e9; negative counts the other way
     double slip = 0;                ///< of the encoder's wheel, -0.5 .. 0.5: it sees 1 - slip of the travel
     double jitter_counts = 0;       ///< 0 .. 1000: each reading is off by up to so much, evenly, the same in every run
@@ -41,8 +42,9 @@ class Track {
     /// The first time from `from_s` on at which travel() is at or beyond `low` (downwards) or `high` (upwards);
     /// infinity if never. Travel is between them at `from_s`.
     double leaves(double from_s, double low, double high) const;
-    /// From t_s on at this speed, at most greatest_track_speed; by the profile again.
+    /// From t_s on at this speed, at most greatest_track_speed; braking to a standstill; by the profile again.
     void drive(double t_s, double speed);
+    void stop(double t_s);
     void follow_profile(double t_s);
     /// The encoder's counts (wrapping) at ticks of 10 us: first, first + 1, ..
     void counts(std::int64_t first_tick, std::span<std::int32_t> out) const;
@@ -58,10 +60,13 @@ class Track {
         double travelled = 0;  ///< when it was changed last
         double law = 0;        ///< what the profile's travel was then
         double since_s = 0;
-        double speed = 0;  ///< by hand
+        double speed = 0;              ///< by hand, after the ramp
+        double accel = 0, ramp_s = 0;  ///< the ramp begins at since_s
         std::int64_t by_hand = 0;
     };
     Driving& driving() { return driving_; }
+    /// Not by its profile.
+    bool by_hand() const { return driving_.by_hand != 0; }
 
   private:
     double law_speed(double t_s) const;
@@ -70,6 +75,7 @@ class Track {
     std::ptrdiff_t point_before(double t_s) const;
     double law_travel_from(std::ptrdiff_t point, double t_s) const;
     double driven(double law, double t_s) const;
+    double travel_by_hand(double after_s) const;
 
     Driving driving_;
     TrackSettings settings_;

@@ -20,18 +20,24 @@ bool TrackDrive::fault(std::string_view name, double value, Instant now) {
     const bool by_hand = name == track_drive_faults[0];
     if (!by_hand && name != track_drive_faults[1]) return false;
     if (!(std::fabs(value) <= greatest_speed_)) return false;
-    drive(now, by_hand ? std::optional<double>(value) : std::nullopt);
+    if (!by_hand) return go_on(now), true;
+    change(now, [value](Track& track, double at_s) { track.drive(at_s, value); });
     return true;
 }
 
-/// Without a speed: by its profile.
-void TrackDrive::drive(Instant now, std::optional<double> speed) {
+void TrackDrive::stop(Instant now) {
+    change(now, [](Track& track, double at_s) { track.stop(at_s); });
+}
+
+void TrackDrive::go_on(Instant now) {
+    change(now, [](Track& track, double at_s) { track.follow_profile(at_s); });
+}
+
+template <class Change>
+void TrackDrive::change(Instant now, Change&& how) {
     for (TrackMotion* motion : motions_) motion->hand_over_edges();
     const double speed_before = track_.speed(to_seconds(now));
-    if (speed)
-        track_.drive(to_seconds(now), *speed);
-    else
-        track_.follow_profile(to_seconds(now));
+    how(track_, to_seconds(now));
     for (TrackMotion* motion : motions_) motion->changed(speed_before);
 }
 

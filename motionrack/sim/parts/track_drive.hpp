@@ -10,7 +10,6 @@
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/track.hpp>
 #include <motionrack/sim/parts/track_motion.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,16 +29,18 @@ class TrackDrive final : public sim::Device {
     static std::span<const std::string_view> fault_names();
 
     // ---- between runs
-    /// Stands from now on; `go_on`: as its profile says.
-    void stop(Instant now) { drive(now, 0.0); }
-    void go_on(Instant now) { drive(now, std::nullopt); }
+    /// Brakes to a standstill, with its deceleration; `go_on`: as its profile says.
+    void stop(Instant now);
+    void go_on(Instant now);
+    bool stopped(Instant now) const { return track_.by_hand() && track_.speed(to_seconds(now)) == 0; }
 
     void act(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(track_.driving()); }
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
-    void drive(Instant now, std::optional<double> speed);
+    template <class Change>
+    void change(Instant now, Change&& how);
 
     Track track_;
     double greatest_speed_;

@@ -43,6 +43,23 @@ TEST(Track, GoesOnFromWhereItIsWhenItsSpeedIsChanged) {
     EXPECT_DOUBLE_EQ(track.speed(3), 100);
 }
 
+TEST(Track, BrakesWithItsDecelerationWhenItIsStopped) {
+    for (const double way : {1.0, -1.0}) {
+        Track track = *Track::make({.profile = {{0, 100 * way}}, .deceleration = 200});
+        track.stop(1);  // for 0.5 s, over 25 mm
+        EXPECT_DOUBLE_EQ(track.speed(1), 100 * way);
+        EXPECT_DOUBLE_EQ(track.speed(1.25), 50 * way);
+        EXPECT_DOUBLE_EQ(track.travel(1.25), 118.75 * way);
+        EXPECT_DOUBLE_EQ(track.speed(1.5), 0);
+        EXPECT_DOUBLE_EQ(track.travel(1.5), 125 * way);
+        EXPECT_DOUBLE_EQ(track.travel(9), 125 * way);
+        EXPECT_DOUBLE_EQ(track.leaves(1, way > 0 ? -1 : -118.75, way > 0 ? 118.75 : 1), 1.25);
+        EXPECT_EQ(track.leaves(1, -126, 126), never_s);
+        track.follow_profile(2);
+        EXPECT_DOUBLE_EQ(track.travel(3), 225 * way);
+    }
+}
+
 struct Edges final : sim::EdgeListener {
     struct Edge {
         Instant at;

@@ -1,0 +1,30 @@
+// A belt, a table or a stage: where it is, and the button that lets it go on after a stop.
+import type { JSX } from 'preact';
+import { mayOperate, order } from '../link/orders';
+import { fixed, unitName } from '../parts/numbers';
+import { Button } from '../parts/ui';
+
+export interface CarrierState {
+  name: string;
+  unit: string;
+  position: number;
+  speed: number;
+  stopped: boolean;
+}
+
+export function Carrier({ part }: { part: CarrierState }): JSX.Element {
+  const unit = unitName(part.unit);
+  return (
+    <div>
+      <dt>{part.name}</dt>
+      <dd class="tabular">
+        {fixed(part.position, 2)} {unit}, {fixed(part.speed, 1)} {unit}/s{' '}
+        {part.stopped && (
+          <Button why={mayOperate()} icon="run" onClick={() => void order('start_part', { part: part.name })}>
+            Start {part.name}
+          </Button>
+        )}
+      </dd>
+    </div>
+  );
+}
