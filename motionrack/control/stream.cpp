@@ -361,10 +361,10 @@ void Stream::new_planner(const Point& place) {
 void Stream::take_starts() {
     for (const BlockStart& start : axes_->take_starts()) {
         if (start.block < 0) continue;
-        line_driven_ = start.line;
         block_began_ = start.at;
         pop_before_block(start.block);
         while (!entries_.empty() && !entries_.front().is_move()) pop();
+        line_driven_ = start.line;
     }
 }
 
@@ -373,9 +373,10 @@ void Stream::pop() {
     Entry& front = entries_.front();
     if (front.is_move()) {
         moves_ -= front.last;
-    } else if (on_event_) {
+    } else {
+        line_driven_ = front.step.line;
         front.step.text = front.text;
-        on_event_(front.step);
+        if (on_event_) on_event_(front.step);
     }
     entries_.pop_front();
     planned_ -= planned_ > 0;

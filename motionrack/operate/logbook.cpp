@@ -14,6 +14,7 @@ using nlohmann::json;
 
 constexpr const char* kept_key = "machine";
 constexpr Duration keep_every = milliseconds(100);
+constexpr Duration again_within = whole_seconds(1);
 
 std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
@@ -57,7 +58,10 @@ void Logbook::see(const Status& status) {
 }
 
 void Logbook::stopped(const StopReport& report) {
+    const std::optional<StopReport> before = std::exchange(stopped_, report);
     if (report.releases) return;  // an order like any other
+    const bool again = before && !before->releases && before->source == report.source;
+    if (again && report.at - before->at < again_within) return;
     write(report.at, "stop", report.text,
           json{{"who", report.source.who},
                {"address", report.source.address},

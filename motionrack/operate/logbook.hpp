@@ -27,7 +27,8 @@ class Logbook {
     Logbook(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
     /// Of every picture; writes what is another than in the one before.
     void see(const Status& status);
-    /// Of every stop that somebody ordered: who, from where, how.
+    /// Of every stop that somebody ordered: who, from where, how. What the same one orders again within a second is
+    /// the same stop: a page sends its STOP on two ways.
     void stopped(const StopReport& report);
 
   private:
@@ -49,6 +50,7 @@ class Logbook {
     std::int64_t last_alarm_ = 0;
     std::set<std::int64_t> active_, open_;  ///< alarms whose cause is there; that nobody has acknowledged
     Instant kept_{};
+    std::optional<StopReport> stopped_;
 };
 
 struct LastStanding {

@@ -60,6 +60,7 @@ struct StopOrigin {
     std::string who = {};      ///< "anna"; empty: nobody who is known by name
     std::string address = {};  ///< "192.168.1.5", "127.0.0.1:4711", a path; empty: this program itself
     std::string kind = {};     ///< "STOP", "Reset", "^X", "Disabling", "Shutdown"; empty: nobody needs to hear of it
+    bool operator==(const StopOrigin&) const = default;
 };
 
 /// A stop or a reset that was ordered. Who streams lines must not go on by itself afterwards: what it sends next was

@@ -1,4 +1,5 @@
 // What the journal holds of a machine, and what the next run makes of it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -103,6 +104,23 @@ TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
     EXPECT_NEAR(last.axes[0].place, 12, 1e-9);
     EXPECT_NEAR(last.axes[0].commanded, 12, 1e-9);
     EXPECT_TRUE(last.axes[0].trusted);
+}
+
+TEST_F(ALogbook, HasOneEntryOfAStopThatCameOnTwoWays) {
+    open();
+    const auto stop = [&](int ms, const char* who, const char* address, bool releases = false) {
+        book_->stopped({milliseconds(ms), {who, address, "STOP"}, {}, fmt::format("{} {}", who, ms), releases});
+    };
+    stop(1'000, "anna", "10.0.0.5");
+    stop(1'003, "anna", "10.0.0.5");
+    stop(1'004, "bert", "10.0.0.5");
+    stop(3'000, "bert", "10.0.0.5");
+    stop(3'100, "bert", "10.0.0.5", true);
+    stop(3'200, "bert", "10.0.0.5");
+    end(true);
+    open();
+    EXPECT_THAT(texts("stop"), ElementsAre("anna 1000", "bert 1004", "bert 3000", "bert 3200"))
+        << "a second later, and after a reset, it is another one";
 }
 
 TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {

@@ -22,7 +22,7 @@ TEST(AMachine, DrivesAProgramToItsEnd) {
     EXPECT_NEAR(o.x(), 40, 0.5 / 640);
     EXPECT_NEAR(o.y(), 10, 0.5 / 640);
     EXPECT_NEAR(o.machine->status().axes[0].actual, 40, 1.0 / 640);
-    EXPECT_EQ(o.machine->status().line, 4);
+    EXPECT_EQ(o.machine->status().line, 5);
     EXPECT_THAT(o.events, testing::Contains(control::gcode::StepKind::end));
 }
 
@@ -111,12 +111,24 @@ TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
         m.stop({"anna", "", "STOP"});
     });
     o.at(0.7, [](Machine& m) {
-        EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: line 1 was stopped."));
+        EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: line 2 was stopped."));
         m.reset();
     });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.line("G1 X12 F600", 3)); });
     o.run(1.2);
     EXPECT_NEAR(o.x(), 12, 1e-3);
+}
+
+TEST(AMachine, TellsTheLineAtWhichItWaits) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("(cold)\nM0\nG1 X11 F600\n", "cold.nc")); });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        EXPECT_EQ(m.status().line, 2);
+        m.stop({"anna", "", "STOP"});
+    });
+    o.at(0.7, [](Machine& m) { EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: cold.nc, line 2 was stopped.")); });
+    o.run(0.8);
 }
 
 TEST(AMachine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
