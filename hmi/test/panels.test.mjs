@@ -108,6 +108,18 @@ test('the grating bus shows the frames of all its cards, and that they agree', a
   await done(tab);
 });
 
+test('a stage that a stop has brought to rest goes on from the page of the bus', async () => {
+  const tab = await at('cards/host');
+  const start = tab.page.getByRole('button', { name: 'Start mask_x' });
+  await stopAndRelease(tab);
+  await start.waitFor();
+  await picture(tab, 'card_grating_bus_stopped', 960);
+  await takeControl(tab);
+  await start.click();
+  await start.waitFor({ state: 'detached' });
+  await done(tab);
+});
+
 test('the RTC5 marks, and the work piece is drawn', async () => {
   const tab = await at('cards/scan');
   await panel(tab, /^Work piece/)
