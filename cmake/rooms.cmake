@@ -18,7 +18,9 @@ if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   endif()
 endif()
 set(shadow $<TARGET_PROPERTY:MOTIONRACK_SHADOW>)
-set(own_flags -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
+# Assertions name a source by its place in the tree: what is built does not depend on the folder it was built in.
+set(own_flags -fno-semantic-interposition -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
+    -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
     $<IF:$<BOOL:${shadow}>,${shadow},${room_shadow}>)
 if(MOTIONRACK_WERROR)
   list(APPEND own_flags -Werror)
@@ -75,6 +77,13 @@ function(motionrack_room name)
   endif()
 endfunction()
 
+# The tree's name, for the tests alone.
+if(MOTIONRACK_TESTS)
+  add_library(motionrack_source_dir STATIC ${PROJECT_SOURCE_DIR}/tests/source_root.cpp)
+  target_include_directories(motionrack_source_dir PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(motionrack_source_dir PRIVATE MOTIONRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endif()
+
 # motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]): the test
 # program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take
 # long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are filters of GoogleTest: those that rows of the
@@ -96,10 +105,9 @@ function(motionrack_test name)
     endif()
   endforeach()
   add_executable(test_${name} ${T_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${T_DEPS} rapidcheck GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE ${T_DEPS} motionrack_source_dir rapidcheck GTest::gmock GTest::gtest_main)
   motionrack_compile_quickly(test_${name})
   set_target_properties(test_${name} PROPERTIES MOTIONRACK_SHADOW ${local_shadow})
-  target_compile_definitions(test_${name} PRIVATE MOTIONRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   if(T_ALONE)
     gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
     return()

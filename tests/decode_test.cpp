@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <tests/ran.hpp>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack {
@@ -123,7 +124,7 @@ std::vector<std::string> blocks_of(const std::string& page, const std::string& l
 }
 
 TEST_F(Decode, PageShowsWhatItsCommandsPrint) {
-    const std::string page = text_of(fs::path(MOTIONRACK_SOURCE_DIR) / "docs/howto/decode.md");
+    const std::string page = text_of(source_root / "docs/howto/decode.md");
     ASSERT_EQ(blocks_of(page, "gcode").size(), 1u);
     ASSERT_EQ(blocks_of(page, "csv").size(), 1u);
     write("move.ngc", blocks_of(page, "gcode")[0]);

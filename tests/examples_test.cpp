@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 #include <tests/ran.hpp>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
 using motionrack::Ran;
@@ -21,7 +22,7 @@ Ran run(const std::filesystem::path& folder, const std::string& command) {
     return run_in(folder, command, "/dev/null");
 }
 
-const std::filesystem::path examples = std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "examples";
+const std::filesystem::path examples = source_root / "examples";
 
 class Example : public testing::TestWithParam<std::string> {};
 

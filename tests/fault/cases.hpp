@@ -6,13 +6,14 @@
 #include <stdexcept>
 #include <string>
 #include <tests/fault/catalogue.hpp>
+#include <tests/source_root.hpp>
 #include <vector>
 
 namespace motionrack::faults {
 
 inline const std::vector<Group>& catalogue() {
     static const std::vector<Group> groups = [] {
-        auto read = read_catalogue(MOTIONRACK_SOURCE_DIR "/tests/fault/catalogue.toml");
+        auto read = read_catalogue(source_dir() + "/tests/fault/catalogue.toml");
         if (!read) throw std::runtime_error(read.error().text());
         return *read;
     }();

@@ -88,7 +88,7 @@ TEST(FaultCatalogue, HasEveryFaultOfEveryPartAndCard) {
 std::string tests_labelled(const std::string& label) {
     std::string out;
     std::FILE* pipe = ::popen(
-        ("'" MOTIONRACK_SOURCE_DIR "/tests/programs' '" MOTIONRACK_BUILD_DIR "' list " + label + " 2>&1").c_str(), "r");
+        ("'" + source_dir() + "/tests/programs' '" MOTIONRACK_BUILD_DIR "' list " + label + " 2>&1").c_str(), "r");
     if (pipe == nullptr) return out;
     std::array<char, 4096> buffer{};
     for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)

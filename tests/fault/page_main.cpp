@@ -2,9 +2,10 @@
 #include <fmt/format.h>
 
 #include <tests/fault/catalogue.hpp>
+#include <tests/source_root.hpp>
 
 int main() {
-    const auto groups = motionrack::faults::read_catalogue(MOTIONRACK_SOURCE_DIR "/tests/fault/catalogue.toml");
+    const auto groups = motionrack::faults::read_catalogue(source_dir() + "/tests/fault/catalogue.toml");
     if (!groups) {
         fmt::print(stderr, "{}\n", groups.error().text());
         return 2;

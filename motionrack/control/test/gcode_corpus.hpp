@@ -9,13 +9,14 @@
 #include <fstream>
 #include <motionrack/control/gcode/canon.hpp>
 #include <sstream>
+#include <tests/source_root.hpp>
 
 #include "gcode_support.hpp"
 
 namespace motionrack::control::gcode::testing::corpus {
 
 inline std::string folder() {
-    return std::string(MOTIONRACK_SOURCE_DIR) + "/tests/golden/canon/";
+    return source_dir() + "/tests/golden/canon/";
 }
 
 inline std::string file_text(const std::string& path) {

@@ -10,6 +10,7 @@
 #include <motionrack/mark/test/mark_fuzz.hpp>
 #include <motionrack/sim/test/fuzz_feed.hpp>
 #include <tests/environment.hpp>
+#include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 #include <vector>
 
@@ -18,8 +19,7 @@ namespace {
 
 std::vector<std::string> corpus(const char* name) {
     std::vector<std::filesystem::path> paths;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "tests/fuzz/corpus" / name))
+    for (const auto& entry : std::filesystem::directory_iterator(source_root / "tests/fuzz/corpus" / name))
         paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     std::vector<std::string> out;

@@ -13,6 +13,7 @@
 #include <motionrack/rack/config.hpp>
 #include <sstream>
 #include <string>
+#include <tests/source_root.hpp>
 #include <thread>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace motionrack::panel {
 using nlohmann::json;
 
 inline std::string text_of_file(const std::string& path) {
-    std::ifstream in(std::string(MOTIONRACK_SOURCE_DIR) + "/" + path);
+    std::ifstream in(source_dir() + "/" + path);
     std::ostringstream out;
     out << in.rdbuf();
     return out.str();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <motionrack/panel/test/panel_fuzz.hpp>
 #include <set>
+#include <tests/source_root.hpp>
 
 #include "asked.hpp"
 
@@ -238,8 +239,7 @@ TEST(TheTables, AreThePageOfTheReference) {
 
 TEST(TheFuzzer, FindsNothingInItsSeeds) {
     int seeds = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(MOTIONRACK_SOURCE_DIR) + "/tests/fuzz/corpus/panel")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/tests/fuzz/corpus/panel")) {
         EXPECT_EQ(fuzz::check_orders(text_of_file("tests/fuzz/corpus/panel/" + entry.path().filename().string())), "")
             << entry.path();
         ++seeds;

@@ -15,6 +15,7 @@
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 #include <set>
+#include <tests/source_root.hpp>
 
 namespace motionrack::rack {
 namespace {
@@ -211,8 +212,7 @@ TEST(RackTemplate, ItsCommentedDefaultsAreThoseOfAnEmptySection) {
 
 TEST(RackTemplate, TheExamplesAreItsOutput) {
     for (const TemplateVariant& variant : template_variants()) {
-        const std::filesystem::path path =
-            std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "examples/racks" / (std::string(variant.name) + ".toml");
+        const std::filesystem::path path = source_root / "examples/racks" / (std::string(variant.name) + ".toml");
         std::ifstream in(path, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(in), {}};
         EXPECT_EQ(text, *rack_template(variant.name)) << path << " is not what 'motionrack new' writes; write it anew";

@@ -6,6 +6,7 @@
 #include <motionrack/cards/databoard4002/test/host.hpp>
 #include <set>
 #include <sstream>
+#include <tests/source_root.hpp>
 
 namespace motionrack::databoard4002 {
 namespace {
@@ -58,7 +59,7 @@ TEST(Databoard4002Map, TheCardHasThePinsOfTheMap) {
 }
 
 TEST(Databoard4002Map, TheReferencePageIsCurrent) {
-    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/databoard4002.md");
+    std::ifstream file(source_dir() + "/docs/reference/databoard4002.md");
     std::stringstream stored;
     stored << file.rdbuf();
     EXPECT_EQ(stored.str(), describe_markdown(card_map()))

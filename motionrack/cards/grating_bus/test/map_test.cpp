@@ -5,12 +5,13 @@
 #include <motionrack/base/describe.hpp>
 #include <motionrack/cards/grating_bus/model/moment.hpp>
 #include <sstream>
+#include <tests/source_root.hpp>
 
 namespace motionrack::grating_bus {
 namespace {
 
 std::string stored(const std::string& page) {
-    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/" + page);
+    std::ifstream file(source_dir() + "/docs/reference/" + page);
     std::stringstream out;
     out << file.rdbuf();
     return out.str();

@@ -13,12 +13,13 @@
 #include <motionrack/cards/grating_bus/test/twin.hpp>
 #include <sstream>
 #include <string>
+#include <tests/source_root.hpp>
 
 namespace motionrack::grating_bus::twin {
 namespace {
 
 constexpr Ticks clock_ticks = 100, first_s1 = 2;
-const std::string folder = std::string(MOTIONRACK_SOURCE_DIR) + "/tests/verilog/grating/";
+const std::string folder = source_dir() + "/tests/verilog/grating/";
 
 struct System {
     int words = 4, cards = 3, period = 2000, frames = 4, hosts = 1, apart = 0;  ///< period and apart in clocks

@@ -5,6 +5,7 @@
 #include <motionrack/base/describe.hpp>
 #include <motionrack/cards/ioflex02/test/rig.hpp>
 #include <sstream>
+#include <tests/source_root.hpp>
 
 namespace motionrack::ioflex02 {
 namespace {
@@ -62,7 +63,7 @@ TEST(Ioflex02Map, TheStateTableIsTheDeclaredMachine) {
 }
 
 TEST(Ioflex02Map, TheReferencePageIsCurrent) {
-    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/ioflex02.md");
+    std::ifstream file(source_dir() + "/docs/reference/ioflex02.md");
     std::stringstream stored;
     stored << file.rdbuf();
     EXPECT_EQ(stored.str(), describe_markdown(card_map()))

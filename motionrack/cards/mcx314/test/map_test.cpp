@@ -8,6 +8,7 @@
 #include <motionrack/cards/mcx314/map.hpp>
 #include <set>
 #include <sstream>
+#include <tests/source_root.hpp>
 
 namespace motionrack::mcx314 {
 namespace {
@@ -112,7 +113,7 @@ TEST(Mcx314Map, ReadingClearsTheRegistersThatSaySoAndNoOthers) {
 }
 
 TEST(Mcx314Map, TheReferencePageIsCurrent) {
-    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/mcx314.md");
+    std::ifstream file(source_dir() + "/docs/reference/mcx314.md");
     std::stringstream stored;
     stored << file.rdbuf();
     EXPECT_EQ(stored.str(), describe_markdown(card_map()))

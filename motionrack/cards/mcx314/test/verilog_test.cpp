@@ -11,6 +11,7 @@
 #include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <string>
 #include <tests/environment.hpp>
+#include <tests/source_root.hpp>
 #include <vector>
 
 namespace motionrack::mcx314::twin {
@@ -102,7 +103,7 @@ Course run_verilog(const std::string& program, const VerilogDrive& drive) {
 TEST(Mcx314Verilog, MakesTheSamePulsesInTheSameTicksAsTheTwinAndTheChip) {
     if (std::system("command -v iverilog >/dev/null && command -v vvp >/dev/null") != 0)
         GTEST_SKIP() << "iverilog is not installed (Debian package iverilog); the Verilog referee did not run";
-    const std::string folder = std::string(MOTIONRACK_SOURCE_DIR) + "/tests/verilog/";
+    const std::string folder = source_dir() + "/tests/verilog/";
     const std::string program =
         (std::filesystem::temp_directory_path() / ("mcx314_axis_" + std::to_string(getpid()))).string();
     ASSERT_EQ(

@@ -5,12 +5,13 @@
 #include <motionrack/base/describe.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <sstream>
+#include <tests/source_root.hpp>
 
 namespace motionrack::rtc5 {
 namespace {
 
 TEST(Rtc5Map, TheReferencePageIsCurrent) {
-    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/rtc5.md");
+    std::ifstream file(source_dir() + "/docs/reference/rtc5.md");
     std::stringstream stored;
     stored << file.rdbuf();
     EXPECT_EQ(stored.str(), describe_markdown(card_map()))

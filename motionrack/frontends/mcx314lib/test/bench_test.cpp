@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
+#include <tests/source_root.hpp>
 #include <thread>
 
 namespace motionrack::mcx314lib_test {
@@ -47,7 +48,7 @@ TEST(Mcx314libChips, WithoutARackTheFirstFunctionSaysWhatToSet) {
 }
 
 TEST(Mcx314libChips, TheFirstFunctionOpensTheRackOfTheEnvironment) {
-    ::setenv("MOTIONRACK_RACK", MOTIONRACK_SOURCE_DIR "/examples/racks/single.toml", 1);
+    ::setenv("MOTIONRACK_RACK", (source_dir() + "/examples/racks/single.toml").c_str(), 1);
     mcx314_clear_error();
     SetRange(400'000);
     EXPECT_STREQ(mcx314_last_error(), "");

@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <tests/source_root.hpp>
 
 namespace motionrack::mcx314lib_test {
 
@@ -35,7 +36,7 @@ class Open {
 
 /// The functions of mcx314lib.h.
 inline std::set<std::string> declared_functions() {
-    std::ifstream file(MOTIONRACK_SOURCE_DIR "/motionrack/frontends/mcx314lib/mcx314lib.h");
+    std::ifstream file(source_dir() + "/motionrack/frontends/mcx314lib/mcx314lib.h");
     std::set<std::string> declared;
     const std::regex function(R"(^MCX314_API [^(]*\b(\w+)\()");
     std::smatch match;

@@ -12,6 +12,7 @@
 #include <motionrack/frontends/rtc5sim/test/session.hpp>
 #include <regex>
 #include <set>
+#include <tests/source_root.hpp>
 #include <thread>
 
 namespace motionrack::rtc5sim_test {
@@ -283,9 +284,9 @@ TEST(Rtc5simInputs, FlagsHaveWords) {
 
 // ---- names
 
-constexpr const char* header = MOTIONRACK_SOURCE_DIR "/motionrack/frontends/rtc5sim/rtc5sim.h";
+const std::string header = source_dir() + "/motionrack/frontends/rtc5sim/rtc5sim.h";
 
-std::set<std::string> declared_functions(const char* path) {
+std::set<std::string> declared_functions(const std::string& path) {
     std::ifstream file(path);
     std::set<std::string> out;
     const std::regex function(R"(^RTC5_API [^(]*\b(\w+)\()");
@@ -298,7 +299,7 @@ std::set<std::string> declared_functions(const char* path) {
 TEST(Rtc5simNames, ShowsTheFunctionsOfItsHeadersAndNothingElse) {
     std::set<std::string> all = declared_functions(header);
     EXPECT_GT(all.size(), 130u);
-    all.merge(declared_functions(MOTIONRACK_SOURCE_DIR "/motionrack/frontends/rtc5sim/rtc5sim_virtual.h"));
+    all.merge(declared_functions(source_dir() + "/motionrack/frontends/rtc5sim/rtc5sim_virtual.h"));
     all.merge(declared_functions(RTC5SIM_CARDS));
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" RTC5SIM_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);
