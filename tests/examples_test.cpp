@@ -22,7 +22,7 @@ Ran run(const std::filesystem::path& folder, const std::string& command) {
     return run_in(folder, command, "/dev/null");
 }
 
-const std::filesystem::path examples = source_root / "examples";
+const std::filesystem::path examples = motionrack::source_root / "examples";
 
 class Example : public testing::TestWithParam<std::string> {};
 

@@ -5,7 +5,7 @@
 #include <tests/source_root.hpp>
 
 int main() {
-    const auto groups = motionrack::faults::read_catalogue(source_dir() + "/tests/fault/catalogue.toml");
+    const auto groups = motionrack::faults::read_catalogue(motionrack::source_dir() + "/tests/fault/catalogue.toml");
     if (!groups) {
         fmt::print(stderr, "{}\n", groups.error().text());
         return 2;
