@@ -32,6 +32,22 @@ endif()
 target_compile_options(motionrack_flags INTERFACE -ffp-contract=off "$<BUILD_INTERFACE:${own_flags}>")
 set_target_properties(motionrack_flags PROPERTIES EXPORT_NAME flags)
 
+# Addresses differ from start to start, and what the loader has bound cannot be overwritten (tests/hardened).
+include(CheckPIESupported)
+check_pie_supported(LANGUAGES CXX)
+add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
+
+# motionrack_harden(TARGET): code that takes what strangers send checks its stack, its copies and its containers while
+# it runs. Builds for sanitizers have their own checks.
+function(motionrack_harden target)
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
+    return()
+  endif()
+  set(checks -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2 -D_GLIBCXX_ASSERTIONS -fstack-protector-strong
+      -fstack-clash-protection)
+  target_compile_options(${target} PRIVATE "$<$<CONFIG:Release,RelWithDebInfo>:${checks}>")
+endfunction()
+
 # The sources of a target are compiled together, some tens at a time: headers and templates are paid once, which makes
 # a build several times as quick. So names in their anonymous namespaces are unique within a target. Without it
 # (MOTIONRACK_UNITY=OFF, a part of ./test --all) each source is compiled alone and has to include all that it uses.

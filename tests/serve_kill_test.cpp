@@ -1,106 +1,18 @@
 // What is left of a run that was killed: nothing that was acknowledged is lost, and the next run knows what ran, where,
 // and that no position is to be trusted.
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
-#include <csignal>
 #include <motionrack/journal/journal.hpp>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <tests/environment.hpp>
 #include <tests/ran.hpp>
+#include <tests/served_program.hpp>
 
 namespace motionrack {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-/// `motionrack serve`, until it is killed.
-class Served {
-  public:
-    explicit Served(const std::vector<std::string>& arguments) {
-        int ends[2];
-        if (::pipe(ends) != 0) return;
-        child_ = ::fork();
-        if (child_ == 0) {
-            ::dup2(ends[1], 1);
-            ::dup2(ends[1], 2);
-            ::close(ends[0]);
-            ::close(ends[1]);
-            std::vector<char*> words{const_cast<char*>(MOTIONRACK_PROGRAM), const_cast<char*>("serve")};
-            for (const std::string& one : arguments) words.push_back(const_cast<char*>(one.c_str()));
-            words.push_back(nullptr);
-            ::execv(MOTIONRACK_PROGRAM, words.data());
-            ::_exit(127);
-        }
-        ::close(ends[1]);
-        output_ = ends[0];
-        read_until("Ctrl-C");
-        const std::size_t at = said.find("http://127.0.0.1:");
-        if (at != std::string::npos) port_ = std::stoi(said.substr(at + 17));
-        connect();
-    }
-    ~Served() { end(SIGKILL); }
-    Served(const Served&) = delete;
-    Served& operator=(const Served&) = delete;
-
-    /// The exit code, or minus the signal.
-    int end(int signal) {
-        if (child_ <= 0) return 0;
-        ::kill(child_, signal);
-        int status = 0;
-        ::waitpid(child_, &status, 0);
-        child_ = 0;
-        ::close(socket_);
-        ::close(output_);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    }
-    bool send(const std::string& method, const std::string& name, const std::string& body) const {
-        const std::string text =
-            method + " /api/" + name + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
-            "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
-        return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
-    }
-    /// The body of the next answer; discarded if the server is gone.
-    json answer() {
-        std::string text;
-        for (char c; text.size() < 4 || text.compare(text.size() - 4, 4, "\r\n\r\n") != 0; text += c)
-            if (::recv(socket_, &c, 1, 0) != 1) return json(json::value_t::discarded);
-        const std::size_t at = text.find("Content-Length: ");
-        std::string body(at == std::string::npos ? 0 : std::stoul(text.substr(at + 16)), '\0');
-        if (::recv(socket_, body.data(), body.size(), MSG_WAITALL) != static_cast<ssize_t>(body.size()))
-            return json(json::value_t::discarded);
-        return json::parse(body, nullptr, false);
-    }
-    json post(const std::string& name, const json& fields = json::object()) {
-        return send("POST", name, fields.dump()) ? answer() : json(json::value_t::discarded);
-    }
-    json status() {
-        const json all = send("GET", "status", "") ? answer() : json(json::value_t::discarded);
-        return all.is_object() ? all.value("status", json()) : json();
-    }
-
-    std::string said;
-
-  private:
-    void read_until(const std::string& word) {
-        for (char c; said.find(word) == std::string::npos && ::read(output_, &c, 1) == 1;) said += c;
-    }
-    void connect() {
-        socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port_));
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0) << said;
-    }
-
-    pid_t child_ = 0;
-    int output_ = -1, socket_ = -1, port_ = 0;
-};
 
 class AServedRack : public InFolder {
   protected:

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/authority/private_files.hpp>
 #include <nlohmann/json.hpp>
 
 namespace motionrack::authority {
@@ -42,23 +43,9 @@ Result<void> Doorkeeper::read() {
     const std::string path = settings_.users_file.string();
     struct stat about {};
     if (path.empty()) return {};
-    if (::stat(path.c_str(), &about) != 0) {
-        if (errno == ENOENT) return {};
-        return fail(Trouble::io,
-                    fmt::format("The users file cannot be looked at: {}. Nothing was started; name another file, or "
-                                "put right what is in the way.",
-                                std::strerror(errno)),
-                    {}, path);
-    }
+    MOTIONRACK_CHECK(check_writers(path, "The users file"));
+    if (::stat(path.c_str(), &about) != 0) return {};
     if (!S_ISREG(about.st_mode)) return fail(Trouble::bad_input, "This is no file: users are kept in one.", {}, path);
-    if ((about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-        return fail(
-            Trouble::bad_input,
-            fmt::format(
-                "Others may write the users file (mode {:o}); whoever can, can let himself in. Nothing was started; "
-                "look who is in it, then chmod 600 it.",
-                about.st_mode & 0777),
-            {}, path);
     std::ifstream in(path, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(in)), {});
     if (!in) return fail(Trouble::io, "The users file could not be read. Nothing was started.", {}, path);

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -51,6 +52,20 @@ Result<void> make_tables(const Database& database, const std::string& path) {
     return {};
 }
 
+/// Positions, names and addresses are its owner's; the files that SQLite makes beside it have the same rights.
+Result<void> make_private(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0600);
+    if (file < 0)
+        return fail(Trouble::io, fmt::format("The journal '{}' cannot be opened: {}. Name another file.", path,
+                                             std::strerror(errno)));
+    struct stat about {};
+    const bool is_file = ::fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+    if (is_file && (about.st_mode & 0077) != 0 && about.st_uid == ::geteuid()) ::fchmod(file, 0600);
+    ::close(file);
+    if (is_file) return {};
+    return fail(Trouble::io, fmt::format("The journal '{}' is not a file. Name another one.", path));
+}
+
 }  // namespace
 
 /// Beside the journal, so that it ends with the program however that ends.
@@ -85,6 +100,7 @@ Journal::Journal(std::unique_ptr<FileLock> lock, std::unique_ptr<Database> write
 
 Result<std::unique_ptr<Journal>> Journal::open(const std::string& path) {
     MOTIONRACK_TRY(auto lock, FileLock::take(path));
+    MOTIONRACK_CHECK(make_private(path));
     MOTIONRACK_TRY(Database writer, Database::open(path, Database::Use::write));
     if (Result<void> made = make_tables(writer, path); !made) {
         if (made.error().message.find(path) != std::string::npos) return tl::unexpected<Error>(made.error());

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/authority/private_files.hpp>
 #include <motionrack/authority/secrets.hpp>
 
 namespace motionrack::authority {
@@ -170,7 +171,31 @@ TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     write(R"({"users":[]})");
     EXPECT_TRUE(try_open());
     ::chmod(file().c_str(), 0620);
-    EXPECT_THAT(try_open().error().message, HasSubstr("Others may write"));
+    EXPECT_THAT(try_open().error().message, HasSubstr("Others may write the users file (mode 620)"));
+    ::chmod(file().c_str(), 0600);
+    EXPECT_TRUE(try_open());
+    ::chmod(folder.c_str(), 0777);
+    EXPECT_THAT(try_open().error().message, HasSubstr("Others may replace the users file: its folder"));
+    ::chmod(folder.c_str(), 01777);
+    EXPECT_TRUE(try_open()) << "sticky, as /tmp";
+}
+
+TEST_F(ADoorkeeper, ChecksTheFolderBeforeTheFirstUserIsWritten) {
+    fs::remove(file());
+    ::chmod(folder.c_str(), 0777);
+    EXPECT_THAT(try_open().error().message, HasSubstr("(mode 777)"));
+}
+
+TEST_F(ADoorkeeper, HasKeysCheckedThatOthersMayRead) {
+    write("key");
+    EXPECT_TRUE(check_readers(file().string(), "The key"));
+    ::chmod(file().c_str(), 0644);
+    EXPECT_THAT(check_readers(file().string(), "The key").error().message, HasSubstr("Others may read the key"));
+    if (::geteuid() != 0) return;
+    ::chmod(file().c_str(), 0640);
+    EXPECT_TRUE(check_readers(file().string(), "The key")) << "root's, for a group";
+    ASSERT_EQ(::chown(file().c_str(), 12345, static_cast<gid_t>(-1)), 0);
+    EXPECT_FALSE(check_readers(file().string(), "The key"));
 }
 
 TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {

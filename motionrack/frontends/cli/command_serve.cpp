@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <memory>
+#include <motionrack/authority/private_files.hpp>
 #include <motionrack/authority/secrets.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/line_output.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/system_service.hpp>
@@ -50,11 +51,6 @@ Result<server::Page> load_page(const std::string& folder) {
     return server::Page::read(beside);
 }
 
-void say(const std::string& line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
-}
-
 /// A rack, its clock, its journal and everybody who may work on it, in the order in which they need each other.
 class Serving {
   public:
@@ -64,9 +60,9 @@ class Serving {
         int code = exit_done;
         const auto config = load_rack(options_.rack, code, BuiltInRack::demonstration);
         if (!config) return code;
+        stop_on_signals();
         if (const Result<void> begun = begin(*config); !begun) return report(begun.error());
         greet(*config);
-        stop_on_signals();
         tell_service_manager("READY=1");
         served_->run();
         return end();
@@ -98,6 +94,7 @@ class Serving {
     }
 
     Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
+        MOTIONRACK_CHECK(authority::check_writers(options_.journal, "The journal"));
         MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal));
         if (!journal_->before()) return {};
         operate::LastStanding last = operate::read_last(*journal_->before(), config);
@@ -141,6 +138,8 @@ class Serving {
         settings.resets_stop_all = options_.grbl_resets_stop_all;
         return settings;
     }
+
+    void say(std::string line) { output_.say(std::move(line)); }
 
     /// On the motion thread, again and again.
     void stop_if_asked() {
@@ -188,6 +187,7 @@ class Serving {
     }
 
     const ServeOptions& options_;
+    LineOutput output_;
     std::string users_file_;
     std::unique_ptr<journal::Journal> journal_;
     std::unique_ptr<server::ServedRack> served_;

@@ -11,6 +11,9 @@ void stop_on_signals() {
     const auto ask = [](int) { stop_asked.store(true); };
     std::signal(SIGINT, ask);
     std::signal(SIGTERM, ask);
+    // nohup: a program that was started with SIGHUP ignored outlives its terminal.
+    if (std::signal(SIGHUP, ask) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace motionrack::cli

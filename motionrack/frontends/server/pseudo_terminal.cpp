@@ -1,15 +1,19 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/inotify.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <utility>
 
@@ -39,14 +43,49 @@ tl::unexpected<Error> failed(const std::string& what) {
     return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {}: {}.", what, std::strerror(errno)));
 }
 
+/// One program at a time leads a link: a name that ends with the program, however that ends.
+Result<OpenFile> reserve(const std::string& link) {
+    std::error_code trouble;
+    const fs::path path =
+        fs::weakly_canonical(fs::absolute(link, trouble).parent_path(), trouble) / fs::path(link).filename();
+    const std::string name =
+        fmt::format("motionrack-pty-{}-{:x}", ::geteuid(), std::hash<std::string>()(path.string()));
+    sockaddr_un address = {};
+    address.sun_family = AF_UNIX;
+    name.copy(address.sun_path + 1, sizeof address.sun_path - 1);
+    OpenFile out(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    if (out.number() < 0) return failed("socket");
+    if (::bind(out.number(), reinterpret_cast<const sockaddr*>(&address),
+               static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size())) == 0)
+        return out;
+    if (errno != EADDRINUSE) return failed("bind");
+    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: another program that runs has the link {}. "
+                                         "Give another path, or end that program.",
+                                         link));
+}
+
+/// What is in the place of the link: nothing, or a link that a run of ours has left.
+Result<void> check_place(const std::string& link) {
+    struct stat about {};
+    if (::lstat(link.c_str(), &about) != 0) return {};
+    const auto refused = [&](const std::string& why) {
+        return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {} {}. It was left as it is; give "
+                                             "another path, or take it away.",
+                                             link, why));
+    };
+    if (!S_ISLNK(about.st_mode)) return refused("is there and is not a symbolic link");
+    std::error_code trouble;
+    const std::string target = fs::read_symlink(link, trouble).string();
+    if (target.compare(0, 9, "/dev/pts/") != 0)
+        return refused(fmt::format("leads to {}, which is not a pseudo-terminal", target));
+    if (about.st_uid != ::geteuid()) return refused("is the link of another user");
+    return {};
+}
+
 /// The link is there or not at every instant, never half.
 Result<void> lead(const std::string& link, const std::string& target) {
+    MOTIONRACK_CHECK(check_place(link));
     std::error_code trouble;
-    const fs::file_status there = fs::symlink_status(link, trouble);
-    if (fs::exists(there) && !fs::is_symlink(there))
-        return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {} is there and no symbolic link. Give "
-                                             "another path, or take it away.",
-                                             link));
     const std::string beside = fmt::format("{}.{}", link, ::getpid());
     fs::remove(beside, trouble);
     fs::create_symlink(target, beside, trouble);
@@ -62,6 +101,7 @@ Result<void> lead(const std::string& link, const std::string& target) {
 
 Result<PseudoTerminal> PseudoTerminal::open(const std::string& link) {
     PseudoTerminal out;
+    MOTIONRACK_TRY(out.reserved_, reserve(link));
     out.master_ = OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
     if (out.master_.number() < 0 || ::grantpt(out.master_.number()) != 0 || ::unlockpt(out.master_.number()) != 0)
         return failed("posix_openpt");

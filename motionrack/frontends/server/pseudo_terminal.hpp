@@ -24,8 +24,8 @@ class OpenFile {
 /// up. It is raw: no echo, no line ends changed; a baud rate that is set means nothing. Only its owner may open it.
 class PseudoTerminal {
   public:
-    /// `link`: a symbolic link to the other end, replaced if there is one. Errors: io, also where something else is in
-    /// its place.
+    /// `link`: a symbolic link to the other end; one that an earlier run of this user has left is replaced. Errors: io,
+    /// also where anything else is in its place, or another program that runs has the link.
     static Result<PseudoTerminal> open(const std::string& link);
     PseudoTerminal(PseudoTerminal&&) = default;
     PseudoTerminal& operator=(PseudoTerminal&&) = default;
@@ -47,7 +47,7 @@ class PseudoTerminal {
 
   private:
     PseudoTerminal() = default;
-    OpenFile master_, slave_, watch_;
+    OpenFile reserved_, master_, slave_, watch_;
     std::string name_, link_;
     int clients_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
+#include <motionrack/authority/private_files.hpp>
 #include <motionrack/frontends/server/listener.hpp>
 #include <motionrack/frontends/server/server.hpp>
 #include <thread>
@@ -20,6 +21,7 @@ namespace {
 constexpr std::chrono::seconds longest_goodbye{1};
 
 Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
+    MOTIONRACK_CHECK(authority::check_readers(files.key, "The key"));
     auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
     error_code error;
     ::SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_2_VERSION);

@@ -1,6 +1,7 @@
 // What a journal promises: in order, on disk when it says so, whole after any end of the program.
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,6 +127,28 @@ TEST_F(AJournal, LeavesFilesThatAreNoJournalAsTheyAre) {
     sqlite3_close(other);
     EXPECT_NE(Journal::open(path_).error().message.find("no journal"), std::string::npos);
     EXPECT_NE(Journal::open("/proc/nowhere/journal.db").error().message.find("cannot be made"), std::string::npos);
+}
+
+TEST_F(AJournal, IsForItsOwnerOnly) {
+    const auto rights = [this](const char* end) { return fs::status(path_ + end).permissions(); };
+    const mode_t before = ::umask(0);
+    auto journal = open();
+    write(*journal, "state", "moving");
+    for (const char* end : {"", "-wal", "-shm", ".lock"})
+        EXPECT_EQ(rights(end), fs::perms::owner_read | fs::perms::owner_write) << end;
+    journal.reset();
+    fs::permissions(path_, fs::perms::others_read | fs::perms::group_read, fs::perm_options::add);
+    open();
+    EXPECT_EQ(rights(""), fs::perms::owner_read | fs::perms::owner_write) << "made by a version before this one";
+    ::umask(before);
+}
+
+TEST_F(AJournal, IsAFile) {
+    fs::create_directory(path_);
+    EXPECT_NE(Journal::open(path_).error().message.find("Is a directory"), std::string::npos);
+    fs::remove(path_);
+    ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+    EXPECT_NE(Journal::open(path_).error().message.find("is not a file"), std::string::npos);
 }
 
 TEST_F(AJournal, RefusesAVersionThatItDoesNotKnow) {

@@ -347,7 +347,28 @@ TEST_F(SenderPorts, DoNotOverwriteAFile) {
     std::ofstream(settings_.link) << "mine";
     const auto opened = GrblPorts::open(settings_, *machine_, lease_);
     ASSERT_FALSE(opened);
-    EXPECT_THAT(opened.error().message, HasSubstr("no symbolic link"));
+    EXPECT_THAT(opened.error().message, HasSubstr("is not a symbolic link"));
+}
+
+TEST_F(SenderPorts, DoNotReplaceALinkThatLeadsElsewhere) {
+    std::filesystem::create_symlink("/etc/passwd", settings_.link);
+    const auto opened = GrblPorts::open(settings_, *machine_, lease_);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, HasSubstr("leads to /etc/passwd"));
+    EXPECT_EQ(std::filesystem::read_symlink(settings_.link), "/etc/passwd");
+}
+
+TEST_F(SenderPorts, LeaveTheLinkToTheProgramThatHasIt) {
+    start();
+    const std::filesystem::path leads_to = std::filesystem::read_symlink(settings_.link);
+    auto machine = *operate::Machine::make(
+        *rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n").config, {});
+    GrblPortSettings same;
+    same.link = settings_.link;
+    const auto opened = GrblPorts::open(same, *machine, lease_);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, HasSubstr("another program that runs has the link"));
+    EXPECT_EQ(std::filesystem::read_symlink(settings_.link), leads_to);
 }
 
 TEST_F(SenderPorts, ReplaceAnOldLinkAndTakeTheirOwnAway) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
+#include <sys/stat.h>
 
 #include <motionrack/frontends/server/service.hpp>
 
@@ -30,7 +31,10 @@ void make_certificate(const fs::path& certificate_file, const fs::path& key_file
     FILE* file = std::fopen(certificate_file.c_str(), "w");
     ::PEM_write_X509(file, certificate);
     std::fclose(file);
+    fs::remove(key_file);
+    const mode_t before = ::umask(077);
     file = std::fopen(key_file.c_str(), "w");
+    ::umask(before);
     ::PEM_write_PrivateKey(file, key, nullptr, nullptr, 0, nullptr, nullptr);
     std::fclose(file);
     ::X509_free(certificate);
@@ -90,6 +94,17 @@ TEST_F(ATlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
     EXPECT_THAT(why(tls("cert.pem", "other_key.pem")), HasSubstr("is not that of the certificate"));
     EXPECT_THAT(why(tls("missing.pem", "key.pem")), HasSubstr("The certificate cannot be used"));
     EXPECT_THAT(why(tls("key.pem", "key.pem")), HasSubstr("The certificate cannot be used"));
+}
+
+TEST_F(ATlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
+    fs::permissions(folder / "key.pem", fs::perms::others_read, fs::perm_options::add);
+    try {
+        Running running(tls());
+        FAIL() << "it was started";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(HasSubstr("key.pem"), HasSubstr("Others may read the key (mode 604)")));
+    }
 }
 
 /// Who comes from another computer: its address is none of loopback.

@@ -1,0 +1,61 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <motionrack/frontends/cli/line_output.hpp>
+#include <mutex>
+#include <thread>
+
+namespace motionrack::cli {
+
+struct LineOutput::Queue {
+    std::mutex lock;
+    std::condition_variable changed;
+    std::deque<std::string> lines;
+    bool quit = false, ended = false;
+};
+
+LineOutput::LineOutput() : queue_(std::make_shared<Queue>()) {
+    std::thread([queue = queue_] { print(*queue); }).detach();
+}
+
+LineOutput::~LineOutput() {
+    std::unique_lock<std::mutex> guard(queue_->lock);
+    queue_->quit = true;
+    queue_->changed.notify_all();
+    queue_->changed.wait_for(guard, std::chrono::seconds(1), [this] { return queue_->ended; });
+}
+
+void LineOutput::say(std::string line) {
+    {
+        const std::lock_guard<std::mutex> guard(queue_->lock);
+        if (queue_->lines.size() >= max_lines) queue_->lines.pop_front();
+        queue_->lines.push_back(std::move(line) + "\n");
+    }
+    queue_->changed.notify_all();
+}
+
+/// Past the buffer of stdio, whose lock a reader that stands would keep.
+void LineOutput::print(Queue& queue) {
+    std::unique_lock<std::mutex> guard(queue.lock);
+    for (;;) {
+        queue.changed.wait(guard, [&queue] { return queue.quit || !queue.lines.empty(); });
+        if (queue.lines.empty()) break;
+        const std::string line = std::move(queue.lines.front());
+        queue.lines.pop_front();
+        guard.unlock();
+        for (std::size_t done = 0; done < line.size();) {
+            const ssize_t some = ::write(STDOUT_FILENO, line.data() + done, line.size() - done);
+            if (some < 0 && errno == EINTR) continue;
+            if (some <= 0) break;
+            done += static_cast<std::size_t>(some);
+        }
+        guard.lock();
+    }
+    queue.ended = true;
+    queue.changed.notify_all();
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,77 @@
+// The served program as a process: signals, and an output that stands or is closed.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <tests/ran.hpp>
+#include <tests/served_program.hpp>
+
+namespace motionrack {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class AServedProcess : public InFolder {
+  protected:
+    void SetUp() override {
+        InFolder::SetUp();
+        write("one.toml", "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n");
+    }
+    std::vector<std::string> arguments() const {
+        return {(folder / "one.toml").string(), "--port", "0", "--users", (folder / "users.json").string()};
+    }
+    /// By the code that was printed, whose successor is printed then.
+    static json pair(Served& served) {
+        const std::size_t at = served.said.find("#pair=");
+        return served.post("pair", {{"code", served.said.substr(at + 6, 9)}, {"name", "anna"}});
+    }
+};
+
+TEST_F(AServedProcess, ServesOnWhileItsOutputIsNotRead) {
+    Served served(arguments());
+    served.fill_output();
+    EXPECT_TRUE(pair(served).contains("token"));
+    EXPECT_TRUE(served.status().contains("axes"));
+    EXPECT_TRUE(served.post("stop").contains("done"));
+    EXPECT_EQ(served.end(SIGTERM), 0);
+}
+
+TEST_F(AServedProcess, ServesOnWhenTheReaderOfItsOutputGoes) {
+    Served served(arguments());
+    served.close_output();
+    EXPECT_TRUE(pair(served).contains("token"));
+    EXPECT_TRUE(served.status().contains("axes"));
+    EXPECT_EQ(served.end(SIGTERM), 0);
+}
+
+TEST_F(AServedProcess, BringsTheAxesToRestWhenItsTerminalIsClosed) {
+    Served served(arguments());
+    EXPECT_EQ(served.end(SIGHUP), 0);
+}
+
+TEST_F(AServedProcess, OutlivesItsTerminalUnderNohup) {
+    ::signal(SIGHUP, SIG_IGN);
+    Served served(arguments());
+    ::signal(SIGHUP, SIG_DFL);
+    ::kill(served.process(), SIGHUP);
+    EXPECT_TRUE(served.status().contains("axes"));
+    EXPECT_EQ(served.end(SIGTERM), 0);
+}
+
+TEST_F(AServedProcess, IsNotStartedWithAJournalThatOthersMayWriteOrReplace) {
+    const std::string command = "serve one.toml --port 0 --users users.json --journal ";
+    write("open.journal", "");
+    ::chmod((folder / "open.journal").c_str(), 0666);
+    Ran ran = motionrack(command + "open.journal");
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.out, HasSubstr("Others may write the journal (mode 666)"));
+    std::filesystem::create_directory(folder / "open");
+    ::chmod((folder / "open").c_str(), 0777);
+    ran = motionrack(command + "open/rack.journal");
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.out, HasSubstr("Others may replace the journal: its folder open is open to them"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "open/rack.journal"));
+}
+
+}  // namespace
+}  // namespace motionrack
