@@ -135,6 +135,16 @@ Result<void> Doorkeeper::unpair(std::string_view name) {
     return written;
 }
 
+Result<void> Doorkeeper::forget(std::string_view id) {
+    const std::lock_guard<std::mutex> alone(lock_);
+    std::vector<Token> before = tokens_;
+    if (std::erase_if(tokens_, [&](const Token& token) { return token.identity.id == id; }) == 0)
+        return fail(Trouble::refused, "This token is not known. Nothing was changed.");
+    const Result<void> written = write();
+    if (!written) tokens_ = std::move(before);
+    return written;
+}
+
 Admitted<Identity> Doorkeeper::who(std::string_view token, WallTime now) const {
     const std::string hash = hash_of(token);
     const std::lock_guard<std::mutex> alone(lock_);

@@ -78,6 +78,8 @@ class Doorkeeper {
     Result<std::string> invite(Role role, Now now);
     /// Forgets all tokens of this name. Refused: there is none.
     Result<void> unpair(std::string_view name);
+    /// Forgets one token, by its id. Refused: there is none.
+    Result<void> forget(std::string_view id);
 
     Admitted<Identity> who(std::string_view token, WallTime now) const;
     /// Whether the token of this id still holds: role nobody if it was revoked or has expired.

@@ -1,6 +1,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <motionrack/operate/logbook.hpp>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,8 @@ using nlohmann::json;
 constexpr const char* kept_key = "machine";
 constexpr Duration keep_every = milliseconds(100);
 constexpr Duration again_within = whole_seconds(1);
+constexpr Duration repeat_every = whole_seconds(10);
+constexpr std::int64_t max_repeats = 20;
 
 std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
@@ -62,12 +65,22 @@ void Logbook::stopped(const StopReport& report) {
     if (report.releases) return;  // an order like any other
     const bool again = before && !before->releases && before->source == report.source;
     if (again && report.at - before->at < again_within) return;
+    if (idle(report.state) && !may_repeat(report.at)) return;
     write(report.at, "stop", report.text,
           json{{"who", report.source.who},
                {"address", report.source.address},
                {"kind", report.source.kind},
                {"state", name_of(report.state)}}
               .dump());
+}
+
+bool Logbook::may_repeat(Instant at) {
+    if (repeats_ > 0 && at - repeated_ >= repeat_every) {
+        repeats_ -= std::min<std::int64_t>(repeats_, (at - repeated_) / repeat_every);
+        repeated_ = at;
+    }
+    if (repeats_ == 0) repeated_ = at;
+    return repeats_ < max_repeats && ++repeats_ > 0;
 }
 
 void Logbook::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {

@@ -28,10 +28,12 @@ class Logbook {
     /// Of every picture; writes what is another than in the one before.
     void see(const Status& status);
     /// Of every stop that somebody ordered: who, from where, how. What the same one orders again within a second is
-    /// the same stop: a page sends its STOP on two ways.
+    /// the same stop: a page sends its STOP on two ways. Orders to stop a machine that is idle change nothing: of
+    /// them 20 at once are written, then one in 10 s of the rack, whoever gives them.
     void stopped(const StopReport& report);
 
   private:
+    bool may_repeat(Instant at);
     void see_state(const Status& status);
     void see_job(const Status& status);
     void see_alarms(const Status& status);
@@ -51,6 +53,8 @@ class Logbook {
     std::set<std::int64_t> active_, open_;  ///< alarms whose cause is there; that nobody has acknowledged
     Instant kept_{};
     std::optional<StopReport> stopped_;
+    std::int64_t repeats_ = 0;  ///< orders to stop an idle machine
+    Instant repeated_{};
 };
 
 struct LastStanding {

@@ -33,8 +33,15 @@ export async function pair(code: string, name: string): Promise<void> {
   await showToken();
 }
 
-export function forget(): void {
+/** Gives the token back, which is void from then on. A program that does not answer keeps it until it expires. */
+export async function forget(): Promise<void> {
+  const token = localStorage.getItem(TOKEN_KEY);
   localStorage.removeItem(TOKEN_KEY);
+  try {
+    await fetch('api/forget', { method: 'POST', headers: { authorization: `Bearer ${token ?? ''}` }, body: '{}' });
+  } catch {
+    // There is no program to tell.
+  }
   location.reload();
 }
 

@@ -59,7 +59,7 @@ function User(): JSX.Element {
           Pair
         </Button>
       ) : (
-        <Button kind="quiet" onClick={forget} label="Forget this browser's pairing">
+        <Button kind="quiet" onClick={() => void forget()} label="Forget this browser's pairing">
           Forget
         </Button>
       )}

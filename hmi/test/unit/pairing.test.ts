@@ -76,7 +76,17 @@ test('an address without a code pairs nothing and stays as it is', async () => {
 
 test('a browser that is forgotten has no token after the reload', async () => {
   const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
-  (await pairing()).forget();
+  browser.http = { ok: true, status: 200, body: { done: true } };
+  await (await pairing()).forget();
+  expect(browser.store.has('motionrack.token')).toBe(false);
+  expect(browser.posts).toEqual([{ path: 'api/forget', body: {}, authorization: 'Bearer T1' }]);
+  expect(browser.location.reload).toHaveBeenCalledOnce();
+});
+
+test('a browser that is forgotten without the program has no token either', async () => {
+  const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
+  browser.http = new Error('offline');
+  await (await pairing()).forget();
   expect(browser.store.has('motionrack.token')).toBe(false);
   expect(browser.location.reload).toHaveBeenCalledOnce();
 });

@@ -46,7 +46,8 @@ Role Client::role() const {
 
 void Client::allow_for(Role role) {
     const Limits& limits = service_.settings().limits;
-    if (wire_ != nullptr) wire_->allow(role >= Role::operate ? limits.big_body : limits.frame);
+    if (wire_ == nullptr) return;
+    wire_->allow(role >= Role::operate ? limits.big_body : role >= Role::observe ? limits.frame : limits.strange_frame);
 }
 
 void Client::opened() {
@@ -204,7 +205,9 @@ void Client::refuse(const json& id, int status, std::string_view trouble, std::s
 
 void Client::send(Outgoing message) {
     if (leaving_ || wire_ == nullptr) return;
-    if (!message.picture && queue_.size() - pictures_ >= service_.settings().limits.texts_waiting)
+    const Limits& limits = service_.settings().limits;
+    if (!message.picture &&
+        queue_.size() - pictures_ >= (token_id_.empty() ? limits.strange_texts_waiting : limits.texts_waiting))
         return goodbye(try_again, "Answers and events were not read; connect again.");
     pictures_ += message.picture;
     queue_.push_back(std::move(message));

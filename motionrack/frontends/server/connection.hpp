@@ -31,12 +31,9 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
     Connection(Stream stream, Peer peer, std::shared_ptr<Hall> hall)
         : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
-        if (peer_.spare)
-            hall_->spare.push_back(this);
-        else
-            hall_->seats.insert(this);
+        hall_->seats.arrive(this, peer_.network);
     }
-    ~Connection() override { hall_->leave(this); }
+    ~Connection() override { hall_->seats.leave(this); }
 
     void begin() {
         if constexpr (secure) {
@@ -52,11 +49,11 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
     void end(std::string_view why) override {
         const auto self = keep_ ? std::move(keep_) : this->shared_from_this();
-        hall_->leave(this);
+        hall_->seats.leave(this);
         if (std::exchange(ended_, true)) return;
         auto& socket = beast::get_lowest_layer(stream_);
         if (!secure && !busy_) {  // it waits for a request: there is room for a last word
-            const std::string text = line_text(http_error(503, "limit", std::string(why)));
+            const std::string& text = last_word(why);
             error_code error;
             socket.socket().non_blocking(true, error);
             socket.socket().send(asio::buffer(text), 0, error);
@@ -96,12 +93,12 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
                            fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())),
                 false);
         if (error) return;
+        peer_.spare = !hall_->seats.take_seat(this, peer_.network);
         head_ = head_of(parser_->get(), peer_);
         if (head_.upgrade) {
             if (auto refused = hall_->service->refuse_stream(head_)) return answer(std::move(*refused), false);
-            hall_->leave(this);
             expire_never();
-            return serve_stream(std::move(stream_), parser_->release(), std::move(peer_), hall_);
+            return serve_stream(std::move(stream_), parser_->release(), std::move(peer_), hall_, this);
         }
         admission_ = hall_->service->admit(head_);
         const bool has_body = !parser_->is_done();

@@ -1,7 +1,9 @@
 // Names are compared without regard to case.
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <motionrack/frontends/server/guard.hpp>
 
@@ -16,14 +18,21 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-/// For a sentence: what came in, without what could disturb a terminal or a journal.
+}  // namespace
+
 std::string shown(std::string_view text) {
     std::string out;
     for (const char c : text.substr(0, 80)) out += c >= ' ' && c < 127 ? c : '?';
     return out;
 }
 
-}  // namespace
+std::string network_of(const std::string& address) {
+    in6_addr six{};
+    if (::inet_pton(AF_INET6, address.c_str(), &six) != 1) return address;
+    for (int i = 8; i < 16; ++i) six.s6_addr[i] = 0;
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    return fmt::format("{}/64", ::inet_ntop(AF_INET6, &six, text.data(), text.size()));
+}
 
 std::string host_name(std::string_view host) {
     if (!host.empty() && host.front() == '[') {

@@ -12,6 +12,13 @@ namespace motionrack::server {
 /// "Rack.local:8080" -> "rack.local", "[::1]:80" -> "::1"; empty: no name.
 std::string host_name(std::string_view host);
 
+/// What limits are counted for: an IPv4 address, or the 64 bits of an IPv6 address that one customer has,
+/// "2001:db8:0:1::/64".
+std::string network_of(const std::string& address);
+
+/// Of what a stranger sent, for a sentence: its beginning, without what could disturb a terminal or a journal.
+std::string shown(std::string_view text);
+
 class Guard {
   public:
     Guard(std::vector<std::string> hosts, std::vector<std::string> origins);

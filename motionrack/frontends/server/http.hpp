@@ -14,7 +14,9 @@ namespace motionrack::server {
 struct Peer {
     std::string address;  ///< "127.0.0.1"
     std::string local;    ///< the address that it reached
-    bool loopback = false, secure = false, spare = false;
+    bool loopback = false, secure = false;
+    bool spare = false;        ///< there is no seat for it: it may ask for STOP only
+    std::string network = {};  ///< what limits count: network_of(address)
 };
 
 struct Head {

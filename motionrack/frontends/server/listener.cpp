@@ -1,6 +1,8 @@
 // Taking connections.
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <unistd.h>
 
 #include <boost/asio/post.hpp>
 #include <motionrack/frontends/server/listener.hpp>
@@ -14,6 +16,7 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::chrono::milliseconds tick_every{5};
+constexpr int max_taken_at_once = 32;  ///< then those that were taken are heard
 
 /// An IPv4 address that came in over IPv6 is told as one.
 asio::ip::address plain(const asio::ip::address& address) {
@@ -31,6 +34,25 @@ void keep_little_in_the_kernel(tcp::socket& socket) {
 
 }  // namespace
 
+Reserve::~Reserve() {
+    while (give()) continue;
+}
+
+bool Reserve::give() {
+    if (files_.empty()) return false;
+    ::close(files_.back());
+    files_.pop_back();
+    return true;
+}
+
+void Reserve::refill() {
+    while (files_.size() < size) {
+        const int file = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+        if (file < 0) return;
+        files_.push_back(file);
+    }
+}
+
 Listener::Listener(asio::io_context& io, std::shared_ptr<Hall> hall, tcp::acceptor acceptor,
                    std::unique_ptr<asio::ssl::context> tls)
     : io_(io), acceptor_(std::move(acceptor)), tls_(std::move(tls)), pause_(io), timer_(io), hall_(std::move(hall)) {}
@@ -44,24 +66,43 @@ void Listener::tick() {
     timer_.expires_after(tick_every);
     timer_.async_wait([this](error_code error) {
         if (error || ended_) return;
+        reserve_.refill();
+        hall_->service->tick();
         hall_->clients.tick();
         tick();
     });
 }
 
 void Listener::accept() {
-    acceptor_.async_accept(io_, [this](error_code error, tcp::socket socket) {
-        if (ended_ || error == asio::error::operation_aborted) return;
+    acceptor_.async_wait(tcp::acceptor::wait_read, [this](error_code error) {
+        if (!error && !ended_) take_some();
+    });
+}
+
+void Listener::take_some() {
+    for (int taken = 0; taken < max_taken_at_once; ++taken) {
+        error_code error;
+        tcp::socket socket(io_);
+        acceptor_.accept(socket, error);
         if (!error) {
             take(std::move(socket));
-            return accept();
+            continue;
         }
-        // Most likely no file descriptors are left: some will come back.
-        pause_.expires_after(std::chrono::milliseconds(50));
+        if (error == asio::error::would_block) break;
+        const bool is_full = error == asio::error::no_descriptors || error == asio::error::no_buffer_space ||
+                             error == asio::error::no_memory || error.value() == ENFILE;
+        if (!is_full || make_room()) continue;  // one that is gone again, or there is a place now
+        pause_.expires_after(tick_every);
         pause_.async_wait([this](error_code stopped) {
             if (!stopped && !ended_) accept();
         });
-    });
+        return;
+    }
+    accept();
+}
+
+bool Listener::make_room() {
+    return reserve_.give() || hall_->seats.end_a_caller();
 }
 
 void Listener::take(tcp::socket socket) {
@@ -71,15 +112,12 @@ void Listener::take(tcp::socket socket) {
     if (error) return;  // gone already
     socket.set_option(tcp::no_delay(true), error);
     keep_little_in_the_kernel(socket);
-    const Limits& limits = hall_->service->settings().limits;
     Peer peer;
     peer.address = plain(remote.address()).to_string();
     peer.local = plain(local.address()).to_string();
     peer.loopback = plain(remote.address()).is_loopback();
     peer.secure = tls_ != nullptr;
-    peer.spare = hall_->seats.size() >= limits.connections;
-    if (peer.spare && hall_->spare.size() >= limits.spare)
-        hall_->spare.front()->end("Too many connections are open; this one was let go for another.");
+    peer.network = network_of(peer.address);
     if (tls_)
         serve_tls(std::move(socket), *tls_, std::move(peer), hall_);
     else
@@ -92,10 +130,7 @@ void Listener::end() {
     acceptor_.close(error);
     timer_.cancel();
     pause_.cancel();
-    const std::set<Open*> seats = hall_->seats;  // an open one leaves the set when it ends
-    const std::list<Open*> spare = hall_->spare;
-    for (Open* open : seats) open->end("The server was stopped.");
-    for (Open* open : spare) open->end("The server was stopped.");
+    hall_->seats.end_all("The server was stopped.");
 }
 
 }  // namespace motionrack::server

@@ -1,44 +1,32 @@
-// The doors of a server: it takes connections, counts them and ends them. Only these files know Boost.
-//
-//   accept ─► seats left: a connection of 500 ─► HTTP ─► perhaps a WebSocket
-//        └──► none left: one of 32 spare ones, for STOP only, for 3 s; when they are all taken the oldest goes
+// The port of a server: it takes connections as fast as they come, also where no descriptors are left.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <list>
 #include <memory>
-#include <motionrack/frontends/server/clients.hpp>
-#include <motionrack/frontends/server/service.hpp>
-#include <set>
-#include <string>
+#include <motionrack/frontends/server/hall.hpp>
+#include <vector>
 
 namespace motionrack::server {
 
-/// An open connection, as the listener sees it.
-class Open {
+/// Descriptors that are kept back: where the process or the computer has no other one, a connection that may ask for
+/// STOP gets one of these.
+class Reserve {
   public:
-    virtual ~Open() = default;
-    /// Ends it; `why` goes to the other end where there is still a place for it.
-    virtual void end(std::string_view why) = 0;
-};
+    static constexpr std::size_t size = 16;
+    Reserve() { refill(); }
+    ~Reserve();
+    Reserve(const Reserve&) = delete;
+    Reserve& operator=(const Reserve&) = delete;
+    /// Frees one. False: none is left.
+    bool give();
+    /// Takes back what is free again.
+    void refill();
 
-/// What the connections of a server share; it lives as long as the last of them.
-struct Hall {
-    explicit Hall(std::shared_ptr<Service> all) : service(std::move(all)), clients(*service) {}
-
-    std::shared_ptr<Service> service;
-    Clients clients;
-    std::set<Open*> seats;
-    std::list<Open*> spare;  ///< oldest first
-    std::int64_t next_session = 1;
-
-    void leave(Open* open) {
-        seats.erase(open);
-        spare.remove(open);
-    }
+  private:
+    std::vector<int> files_;
 };
 
 /// Begins to serve a connection that was taken.
@@ -48,15 +36,18 @@ void serve_tls(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context& t
 
 class Listener {
   public:
+    /// `acceptor` does not block.
     Listener(boost::asio::io_context& io, std::shared_ptr<Hall> hall, boost::asio::ip::tcp::acceptor acceptor,
              std::unique_ptr<boost::asio::ssl::context> tls);
     void begin();
     /// Takes no more, says goodbye to all.
     void end();
-    bool empty() const { return hall_->seats.empty() && hall_->spare.empty(); }
+    bool empty() const { return hall_->seats.empty(); }
 
   private:
     void accept();
+    void take_some();
+    bool make_room();
     void take(boost::asio::ip::tcp::socket socket);
     void tick();
 
@@ -65,6 +56,7 @@ class Listener {
     std::unique_ptr<boost::asio::ssl::context> tls_;
     boost::asio::steady_timer pause_, timer_;
     std::shared_ptr<Hall> hall_;
+    Reserve reserve_;
     bool ended_ = false;
 };
 

@@ -7,6 +7,19 @@
 
 namespace motionrack::server {
 
+namespace {
+
+/// At most so many bytes, whole letters of UTF-8.
+std::string cut(std::string text, std::size_t max_bytes) {
+    if (text.size() <= max_bytes) return text;
+    std::size_t end = max_bytes - 2;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+    text.resize(end);
+    return text + "..";
+}
+
+}  // namespace
+
 Result<std::unique_ptr<ServedRack>> ServedRack::open(const rack::RackConfig& config, ServedSettings settings) {
     std::unique_ptr<ServedRack> served(new ServedRack());
     MOTIONRACK_CHECK(served->make(config, std::move(settings)));
@@ -26,6 +39,7 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
     if (settings.grbl) {
         if (journal_ != nullptr) {
             settings.grbl->on_setting = [this](const std::string& sender, const std::string& text) {
+                if (!settings_of_senders_.take("", std::chrono::steady_clock::now())) return;
                 journal_->write(machine_->now(), "setting", fmt::format("{}: {}", sender, text));
             };
             settings.grbl->on_stranger = [this](const std::string& address) {
@@ -64,10 +78,9 @@ void ServedRack::stop() {
 void ServedRack::write_down(const AuditEntry& entry) {
     const nlohmann::json data = {
         {"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
-    journal_->write(panel_->picture()->at(), "audit",
-                    fmt::format("{} from {}: {}: {}", entry.user.empty() ? "somebody" : entry.user, entry.address,
-                                entry.what, entry.outcome),
-                    panel::text_of(data));
+    std::string text = fmt::format("{} from {}: {}: {}", entry.user.empty() ? "a stranger" : entry.user, entry.address,
+                                   entry.what, entry.outcome);
+    journal_->write(panel_->picture()->at(), "audit", cut(std::move(text), max_audit_bytes), panel::text_of(data));
 }
 
 }  // namespace motionrack::server

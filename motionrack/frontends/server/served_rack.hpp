@@ -10,6 +10,7 @@
 #include <memory>
 #include <motionrack/authority/control_lease.hpp>
 #include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/authority/rate_limit.hpp>
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/page.hpp>
 #include <motionrack/frontends/server/server.hpp>
@@ -68,6 +69,7 @@ class ServedRack {
     operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
     authority::ControlLease lease_;
     journal::Journal* journal_ = nullptr;
+    authority::RateLimit settings_of_senders_{20, 1};  ///< in the journal; a sender needs no token
     std::unique_ptr<operate::Machine> machine_;
     std::unique_ptr<authority::Doorkeeper> door_;
     std::unique_ptr<panel::Panel> panel_;

@@ -25,6 +25,9 @@ Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
     auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
     error_code error;
     ::SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_2_VERSION);
+    // Strangers fill no memory: sessions are with the clients (tickets), buffers go while a connection is silent.
+    ::SSL_CTX_set_session_cache_mode(tls->native_handle(), SSL_SESS_CACHE_OFF);
+    ::SSL_CTX_set_mode(tls->native_handle(), SSL_MODE_RELEASE_BUFFERS);
     tls->use_certificate_chain_file(files.certificate, error);
     if (error)
         return fail(
@@ -50,6 +53,7 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (!error) acceptor.non_blocking(true, error);
     if (error == asio::error::address_in_use)
         return fail(Trouble::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose "
                                              "another with --port, or 0 for any free one.",

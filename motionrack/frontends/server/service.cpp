@@ -40,6 +40,9 @@ Service::Service(ServerSettings settings, panel::Panel& panel, authority::Doorke
       post_(std::move(post)),
       requests_(settings_.limits.requests_at_once, settings_.limits.requests_per_second),
       told_(1, 1),
+      strangers_([this](const AuditEntry& entry) {
+          if (settings_.audit) settings_.audit(entry);
+      }),
       openapi_(panel::Panel::openapi().dump(2) + "\n") {}
 
 // ---- before the body
@@ -49,9 +52,10 @@ std::optional<HttpAnswer> Service::refuse(const Head& head) {
     if (head.peer.spare)
         return http_error(
             503, "limit",
-            fmt::format("{} connections are open, which is the most. Only STOP is heard; close some, or try again.",
-                        settings_.limits.connections));
-    if (!requests_.take(head.peer.address, now().steady))
+            fmt::format("All connections are taken: {} in all, or {} of {}. Only STOP is heard; close some, or try "
+                        "again.",
+                        settings_.limits.connections, settings_.limits.of_a_network, head.peer.network));
+    if (!requests_.take(head.peer.network, now().steady))
         return http_error(
             429, "limit",
             fmt::format("More than {:g} requests a second came from this address. Nothing was done; ask less often.",
@@ -106,8 +110,12 @@ Admission Service::admit_api(const Head& head, const Target& target) {
     if (name == "pair") {
         if (!post)
             return answer(with(http_error(405, "bad_input", "Pairing is asked for with POST."), "Allow", "POST"));
-        out.body_limit = settings_.limits.small_body;
+        out.body_limit = settings_.limits.strange_body;
         return out;
+    }
+    if (name == "forget") {
+        if (post) return answer(forget(head));
+        return answer(with(http_error(405, "bad_input", "Forgetting is asked for with POST."), "Allow", "POST"));
     }
     if (name == "stream")
         return answer(with(http_error(426, "bad_input", "This address is for WebSockets."), "Upgrade", "websocket"));
@@ -141,9 +149,10 @@ Admission Service::admit_api(const Head& head, const Target& target) {
         std::any_of(out.row->fields.begin(), out.row->fields.end(), [&](const panel::FieldRow& field) {
             return field.greatest > static_cast<double>(settings_.limits.small_body) / 2;
         });
-    out.body_limit = query                                            ? 0
-                     : long_texts && out.caller.role >= out.row->role ? settings_.limits.big_body
-                                                                      : settings_.limits.small_body;
+    out.body_limit = query                             ? 0
+                     : out.caller.role < out.row->role ? settings_.limits.strange_body
+                     : long_texts                      ? settings_.limits.big_body
+                                                       : settings_.limits.small_body;
     return out;
 }
 
@@ -194,13 +203,23 @@ HttpAnswer Service::pair(const Head& head, const std::string& body) {
                  : why == Why::failed ? panel::refused_answer(500, "io", paired.error().sentence)
                                       : panel::refused_answer(403, "denied", paired.error().sentence);
     }
-    audit(name, head.peer.address, "pair", answer);
+    audit(authority::name_problem(name).empty() ? name : "", head.peer.address, "pair", answer, paired.has_value());
+    return http_answer(answer);
+}
+
+/// A browser gives its token back.
+HttpAnswer Service::forget(const Head& head) {
+    const auto who = this->who(token_of(head), head.peer);
+    if (!who) return http_error(401, "denied", who.error().sentence);
+    const Result<void> gone = door_.forget(who->id);
+    const panel::Answer answer = gone ? panel::done() : panel::error_answer(gone.error());
+    audit(who->user, head.peer.address, "forget", answer, true);
     return http_answer(answer);
 }
 
 authority::Admitted<authority::Identity> Service::who(const std::string& token, const Peer& peer) {
     auto who = door_.who(token, now().wall);
-    if (!who) audit("", peer.address, "token", panel::refused_answer(401, "denied", who.error().sentence));
+    if (!who) audit("", peer.address, "token", panel::refused_answer(401, "denied", who.error().sentence), false);
     return who;
 }
 
@@ -209,18 +228,19 @@ authority::Admitted<authority::Identity> Service::who(const std::string& token, 
 void Service::ask(panel::Caller caller, const std::string& address, const panel::AskRow& row, const json& fields,
                   std::function<void(panel::Answer)> reply) {
     // The motion thread answers queries: many connections together must not keep it from its work.
-    if (is_query(row) && !requests_.take(fmt::format("queries of {}", address), now().steady))
+    if (is_query(row) && !requests_.take("queries of " + network_of(address), now().steady))
         return reply(panel::refused_answer(
             429, "limit",
             fmt::format(
                 "More than {:g} queries a second came from this address. Nothing was looked up; ask less often.",
                 settings_.limits.requests_per_second)));
     caller.address = address;
+    const bool is_known = !caller.user.empty() || caller.role >= row.role;
     panel_.ask(caller, row.name, fields,
                [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address,
-                passing = row.passing, what = std::string(row.name)](panel::Answer answer) {
-                   (*post)([this, reply, query, user, address, passing, what, answer = std::move(answer)] {
-                       if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer);
+                passing = row.passing, is_known, what = std::string(row.name)](panel::Answer answer) {
+                   (*post)([this, reply, query, user, address, passing, is_known, what, answer = std::move(answer)] {
+                       if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer, is_known);
                        reply(answer);
                    });
                });
@@ -229,7 +249,7 @@ void Service::ask(panel::Caller caller, const std::string& address, const panel:
 void Service::stop(panel::Caller caller, const std::string& address) {
     caller.address = address;
     panel_.stop(caller);
-    audit(caller.user, address, "stop", panel::done());
+    audit(caller.user, address, "stop", panel::done(), !caller.user.empty());
 }
 
 void Service::left(const std::string& session) {
@@ -237,15 +257,17 @@ void Service::left(const std::string& session) {
     lease_.left(session);
 }
 
-/// The same a second time within a second is not told again.
-void Service::audit(const std::string& user, const std::string& address, std::string what,
-                    const panel::Answer& answer) {
-    if (!settings_.audit || !told_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), now().steady))
-        return;
+/// The same of one user a second time within a second is not told again.
+void Service::audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
+                    bool is_known) {
+    if (!settings_.audit) return;
+    const auto at = now().steady;
+    if (is_known && !told_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), at)) return;
     AuditEntry entry{user, address, std::move(what), answer.status, "done"};
     if (answer.status != 200 && answer.body.contains("error"))
         entry.outcome = answer.body["error"].value("message", "");
-    settings_.audit(entry);
+    if (is_known) return settings_.audit(entry);
+    strangers_.tell(std::move(entry), network_of(address), at);
 }
 
 }  // namespace motionrack::server

@@ -16,6 +16,7 @@
 #include <motionrack/frontends/server/http.hpp>
 #include <motionrack/frontends/server/page.hpp>
 #include <motionrack/frontends/server/settings.hpp>
+#include <motionrack/frontends/server/stranger_log.hpp>
 #include <motionrack/panel/panel.hpp>
 #include <motionrack/panel/tables.hpp>
 #include <mutex>
@@ -79,7 +80,11 @@ class Service {
     }
     authority::Admitted<authority::Identity> who(const std::string& token, const Peer& peer);
 
-    void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer);
+    /// `is_known`: asked by who may; else by a stranger, who may not fill the audit.
+    void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
+               bool is_known);
+    /// What time brings; every few ms.
+    void tick() { strangers_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
     authority::Now now() const { return settings_.clock(); }
     panel::Panel& panel() { return panel_; }
@@ -92,6 +97,7 @@ class Service {
     Admission admit_api(const Head& head, const Target& target);
     HttpAnswer page_answer(const Head& head, const std::string& path) const;
     HttpAnswer pair(const Head& head, const std::string& body);
+    HttpAnswer forget(const Head& head);
 
     ServerSettings settings_;
     panel::Panel& panel_;
@@ -101,6 +107,7 @@ class Service {
     Guard guard_;
     std::shared_ptr<Post> post_;
     authority::RateLimit requests_, told_;
+    StrangerLog strangers_;
     std::string openapi_;
 };
 

@@ -2,6 +2,8 @@
 #include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <functional>
+#include <map>
 #include <motionrack/frontends/server/socket.hpp>
 #include <sstream>
 
@@ -48,10 +50,12 @@ Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive) 
     return response;
 }
 
-std::string line_text(const HttpAnswer& answer) {
+const std::string& last_word(std::string_view why) {
+    thread_local std::map<std::string, std::string, std::less<>> words;
+    if (const auto found = words.find(why); found != words.end()) return found->second;
     std::ostringstream out;
-    out << response_of(answer, false, false);
-    return out.str();
+    out << response_of(http_error(503, "limit", std::string(why)), false, false);
+    return words.emplace(why, out.str()).first->second;
 }
 
 }  // namespace motionrack::server

@@ -11,6 +11,7 @@
 #include <memory>
 #include <motionrack/frontends/server/listener.hpp>
 #include <string>
+#include <string_view>
 
 namespace motionrack::server {
 
@@ -27,11 +28,11 @@ using TlsStream = beast::ssl_stream<beast::tcp_stream>;
 Head head_of(const Request& request, const Peer& peer);
 /// Points to the answer's body, which must stay.
 Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive);
-/// The whole answer as it goes over the line.
-std::string line_text(const HttpAnswer& answer);
+/// 503 with this sentence, as it goes over the line; the same sentence again costs nothing.
+const std::string& last_word(std::string_view why);
 
 /// Becomes a WebSocket. A template's two uses are compiled in files of their own: each takes half a minute.
-void serve_stream(PlainStream stream, Request request, Peer peer, std::shared_ptr<Hall> hall);
-void serve_stream(TlsStream stream, Request request, Peer peer, std::shared_ptr<Hall> hall);
+void serve_stream(PlainStream stream, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before);
+void serve_stream(TlsStream stream, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before);
 
 }  // namespace motionrack::server

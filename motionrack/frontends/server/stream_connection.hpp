@@ -17,13 +17,14 @@ namespace websocket = boost::beast::websocket;
 template <class Stream>
 class StreamConnection final : public Open, public Wire, public std::enable_shared_from_this<StreamConnection<Stream>> {
   public:
-    StreamConnection(Stream stream, Request request, Peer peer, std::shared_ptr<Hall> hall)
+    /// Takes the seat of `before`.
+    StreamConnection(Stream stream, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before)
         : socket_(std::move(stream)),
           request_(std::move(request)),
           hall_(std::move(hall)),
           client_(std::make_shared<Client>(*hall_->service, std::move(peer), fmt::format("w{}", hall_->next_session++),
                                            *this)) {
-        hall_->seats.insert(this);
+        hall_->seats.replace(before, this);
     }
     ~StreamConnection() override { leave(); }
 
@@ -88,7 +89,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         if (std::exchange(left_, true)) return;
         client_->closed();
         hall_->clients.remove(client_.get());
-        hall_->leave(this);
+        hall_->seats.leave(this);
     }
 
     websocket::stream<Stream> socket_;

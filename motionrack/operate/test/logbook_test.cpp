@@ -123,6 +123,21 @@ TEST_F(ALogbook, HasOneEntryOfAStopThatCameOnTwoWays) {
         << "a second later, and after a reset, it is another one";
 }
 
+TEST_F(ALogbook, IsNotFilledByStopsOfAMachineThatIsIdle) {
+    open();
+    const auto stop = [&](int ms, MachineState state) {
+        const std::string who = ms % 2 == 0 ? "even" : "odd";
+        book_->stopped({milliseconds(ms), {who, "10.0.0.5", "STOP"}, state, std::to_string(ms), false});
+    };
+    for (int ms = 0; ms < 100'000; ++ms) stop(ms, MachineState::error_stop);
+    stop(100'000, MachineState::moving);
+    end(true);
+    open();
+    const std::vector<std::string> stops = texts("stop");
+    EXPECT_EQ(stops.size(), 30u) << "20 at once, then one in 10 s";
+    EXPECT_EQ(stops.back(), "100000") << "one that stops something is always written";
+}
+
 TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
     open();
     run(

@@ -1,0 +1,72 @@
+// Who may stay.
+#include <algorithm>
+#include <iterator>
+#include <motionrack/frontends/server/seats.hpp>
+#include <vector>
+
+namespace motionrack::server {
+
+void Seats::take_one(Counts& counts, const std::string& network) {
+    const auto found = counts.find(network);
+    if (found != counts.end() && --found->second == 0) counts.erase(found);
+}
+
+void Seats::arrive(Open* open, const std::string& network) {
+    if (callers_.size() >= limits_.callers) end_a_caller();
+    callers_.push_back({open, network});
+    caller_of_[open] = std::prev(callers_.end());
+    ++callers_of_[network];
+}
+
+bool Seats::take_seat(Open* open, const std::string& network) {
+    if (seats_.count(open) != 0) return true;
+    const auto there = seats_of_.find(network);
+    if (seats_.size() >= limits_.connections || (there != seats_of_.end() && there->second >= limits_.of_a_network))
+        return false;
+    leave(open);
+    seats_[open] = network;
+    ++seats_of_[network];
+    return true;
+}
+
+void Seats::replace(Open* before, Open* open) {
+    const auto seat = seats_.find(before);
+    if (seat == seats_.end()) return;
+    const std::string network = seat->second;
+    seats_.erase(seat);
+    seats_[open] = network;
+}
+
+void Seats::leave(Open* open) {
+    if (const auto caller = caller_of_.find(open); caller != caller_of_.end()) {
+        take_one(callers_of_, caller->second->network);
+        callers_.erase(caller->second);
+        caller_of_.erase(caller);
+    }
+    if (const auto seat = seats_.find(open); seat != seats_.end()) {
+        take_one(seats_of_, seat->second);
+        seats_.erase(seat);
+    }
+}
+
+bool Seats::end_a_caller() {
+    if (callers_.empty()) return false;
+    const auto most = std::max_element(callers_of_.begin(), callers_of_.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto oldest = std::find_if(callers_.begin(), callers_.end(), [&](const Caller& caller) {
+        return callers_of_.find(caller.network)->second == most->second;
+    });
+    Open* const open = oldest->open;
+    open->end("Too many connections are open; this one was let go for another.");
+    leave(open);
+    return true;
+}
+
+void Seats::end_all(std::string_view why) {
+    std::vector<Open*> all;  // each leaves when it ends
+    for (const auto& [open, network] : seats_) all.push_back(open);
+    for (const Caller& caller : callers_) all.push_back(caller.open);
+    for (Open* open : all) open->end(why);
+}
+
+}  // namespace motionrack::server

@@ -1,0 +1,42 @@
+// What strangers may write into the audit: some lines at once, then one in ten seconds of a network and one a second of
+// all. The others are counted, and told in one line a minute of each network.
+//
+//   pair 403 ─► in the budget: a line of its own
+//          └──► beyond it: counted ── a minute ──► "pair: 2840 more within 60 s; the last: Not paired: .."
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <motionrack/authority/rate_limit.hpp>
+#include <motionrack/frontends/server/settings.hpp>
+#include <string>
+
+namespace motionrack::server {
+
+class StrangerLog {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+    using Write = std::function<void(const AuditEntry&)>;
+    static constexpr std::chrono::seconds period{60};
+    /// Networks that are counted one by one; those beyond them together.
+    static constexpr std::size_t max_networks = 16;
+
+    explicit StrangerLog(Write write) : write_(std::move(write)) {}
+
+    void tell(AuditEntry entry, const std::string& network, Time now);
+    /// Again and again: tells what was counted.
+    void tick(Time now);
+
+  private:
+    struct Counted {
+        std::int64_t count = 0;
+        AuditEntry last;
+    };
+    Write write_;
+    authority::RateLimit of_a_network_{20, 0.1}, of_all_{100, 1};
+    std::map<std::string, Counted> counted_;
+    Time begun_{};  ///< of the period
+};
+
+}  // namespace motionrack::server

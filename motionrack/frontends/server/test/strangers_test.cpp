@@ -1,0 +1,258 @@
+// Those who have no token: what they may take and write, and that STOP is heard beside all of it.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <list>
+#include <motionrack/frontends/server/guard.hpp>
+#include <motionrack/frontends/server/seats.hpp>
+#include <motionrack/frontends/server/stranger_log.hpp>
+
+#include "running.hpp"
+
+namespace motionrack::server {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+// ---- seats
+
+struct Someone final : Open {
+    void end(std::string_view) override { ended = true; }
+    bool ended = false;
+};
+
+Limits few() {
+    Limits limits;
+    limits.callers = 4;
+    limits.connections = 5;
+    limits.of_a_network = 3;
+    return limits;
+}
+
+TEST(Seats, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
+    const Limits limits = few();
+    Seats seats(limits);
+    Someone lone;
+    std::list<Someone> flood;
+    seats.arrive(&lone, "lone");
+    for (int i = 0; i < 10; ++i) seats.arrive(&flood.emplace_back(), "flood");
+    EXPECT_FALSE(lone.ended);
+    EXPECT_EQ(seats.callers(), limits.callers);
+    int at = 0;
+    for (const Someone& one : flood) EXPECT_EQ(one.ended, at++ < 7) << at;
+}
+
+TEST(Seats, EndTheOldestCallerWhereEachNetworkHasOne) {
+    const Limits limits = few();
+    Seats seats(limits);
+    std::list<Someone> all;
+    for (int i = 9; i >= 0; --i) seats.arrive(&all.emplace_back(), std::to_string(i));
+    int at = 0;
+    for (const Someone& one : all) EXPECT_EQ(one.ended, at++ < 6) << at;
+}
+
+TEST(Seats, AreSharedByNetworks) {
+    const Limits limits = few();
+    Seats seats(limits);
+    std::list<Someone> all;
+    const auto come = [&](const std::string& network) {
+        Someone& one = all.emplace_back();
+        seats.arrive(&one, network);
+        return seats.take_seat(&one, network);
+    };
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(come("a"));
+    EXPECT_FALSE(come("a")) << "its share";
+    EXPECT_TRUE(come("b"));
+    EXPECT_TRUE(come("b"));
+    EXPECT_FALSE(come("c")) << "all are taken";
+    EXPECT_EQ(seats.callers(), 2u) << "they go on as callers";
+    EXPECT_TRUE(seats.take_seat(&all.front(), "a")) << "it has one";
+    Someone stream;
+    seats.replace(&all.front(), &stream);
+    seats.leave(&all.front());
+    EXPECT_FALSE(come("a"));
+    seats.leave(&stream);
+    EXPECT_TRUE(come("a"));
+}
+
+TEST(Networks, AreAnIpv4AddressOr64BitsOfIpv6) {
+    EXPECT_EQ(network_of("192.0.2.7"), "192.0.2.7");
+    EXPECT_EQ(network_of("2001:db8:0:1:2:3:4:5"), "2001:db8:0:1::/64");
+    EXPECT_EQ(network_of("::1"), "::/64");
+}
+
+// ---- the audit
+
+TEST(AStrangerLog, TellsSomeLinesAndCountsTheOthers) {
+    std::vector<AuditEntry> lines;
+    StrangerLog log([&](const AuditEntry& entry) { lines.push_back(entry); });
+    StrangerLog::Time now{};
+    for (int i = 0; i < 60'000; ++i, now += 1ms) {
+        log.tell({"", "192.0.2.7", "pair", 403, "Not paired."}, "192.0.2.7", now);
+        log.tick(now);
+    }
+    EXPECT_LE(lines.size(), 27u);
+    log.tick(now);
+    log.tick(now += 60s);
+    EXPECT_LE(lines.size(), 28u);
+    EXPECT_THAT(lines.back().outcome, testing::AllOf(HasSubstr("more within 60 s"), HasSubstr("Not paired.")));
+}
+
+TEST(AStrangerLog, IsNotFilledByManyNetworksEither) {
+    std::size_t lines = 0;
+    StrangerLog log([&](const AuditEntry&) { ++lines; });
+    StrangerLog::Time now{};
+    for (int i = 0; i < 3'600'000; i += 10, now += 10ms) {
+        const std::string address = "2001:db8:0:" + std::to_string(i % 9999) + "::/64";
+        log.tell({"", address, "pair", 403, "Not paired."}, address, now);
+        log.tick(now);
+    }
+    EXPECT_LT(lines, 5'000u) << "within an hour";
+    EXPECT_GT(lines, 3'000u);
+}
+
+// ---- requests
+
+TEST(AStranger, PairsWithAShortNameOnly) {
+    Running running;
+    const WebAnswer answer =
+        running.client().ask("POST", "/api/pair", "{\"code\":\"A\",\"name\":\"" + std::string(60'000, 'x') + "\"}");
+    EXPECT_EQ(answer.status, 413);
+    EXPECT_THAT(answer.message(), HasSubstr("1024 bytes"));
+    EXPECT_EQ(
+        running.client().ask("POST", "/api/pair", "{\"code\":\"A\",\"name\":\"" + std::string(900, 'x') + "\"}").status,
+        403);
+    const std::lock_guard<std::mutex> alone(running.lock);
+    ASSERT_EQ(running.audit.size(), 1u);
+    EXPECT_EQ(running.audit[0].user, "");
+}
+
+TEST(AStranger, SendsShortMessagesOnly) {
+    Running running([](ServerSettings& settings) { settings.loopback_role = authority::Role::nobody; });
+    WebClient client = running.client();
+    ASSERT_EQ(client.upgrade().status, 101);
+    client.send_frame(1, std::string(5'000, 'x'));
+    for (;;) {
+        const WebFrame frame = client.receive();
+        if (frame.kind == 1) continue;
+        EXPECT_EQ(frame.code, 1009);
+        break;
+    }
+}
+
+TEST(AToken, IsVoidOnceItsBrowserWasForgotten) {
+    Running running;
+    const std::string bearer = "Authorization: Bearer " + running.token("anna") + "\r\n";
+    EXPECT_EQ(running.client().ask("GET", "/api/forget", "", bearer).status, 405);
+    EXPECT_EQ(running.client().ask("POST", "/api/forget").status, 401);
+    EXPECT_EQ(running.client().ask("GET", "/api/users", "", bearer).status, 200);
+    EXPECT_EQ(running.client().ask("POST", "/api/forget", "{}", bearer).status, 200);
+    EXPECT_EQ(running.client().ask("GET", "/api/users", "", bearer).status, 401);
+    EXPECT_EQ(running.client().ask("POST", "/api/forget", "{}", bearer).status, 401);
+    EXPECT_TRUE(running.audited("forget", 200));
+    EXPECT_TRUE(running.served->door().users().empty());
+}
+
+// ---- STOP
+
+/// Connects from 127.0.0.2 and goes, or stays silent, as often as it can.
+class Flood {
+  public:
+    Flood(std::uint16_t port, std::size_t held) : port_(port), held_(held), thread_([this] { work(); }) {}
+    ~Flood() {
+        quit_ = true;
+        thread_.join();
+    }
+    std::int64_t count() const { return count_; }
+
+  private:
+    void work() {
+        std::list<int> open;
+        while (!quit_) {
+            open.push_back(connect());
+            ++count_;
+            while (open.size() > held_) {
+                ::close(open.front());
+                open.pop_front();
+            }
+        }
+        for (const int one : open) ::close(one);
+    }
+    int connect() const {
+        const int out = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_in from{}, to{};
+        from.sin_family = to.sin_family = AF_INET;
+        from.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        to.sin_port = htons(port_);
+        const int on = 1;
+        ::setsockopt(out, SOL_IP, IP_BIND_ADDRESS_NO_PORT, &on, sizeof on);
+        ::bind(out, reinterpret_cast<const sockaddr*>(&from), sizeof from);
+        const linger at_once{1, 0};
+        ::setsockopt(out, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+        (void)::connect(out, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+        return out;
+    }
+    const std::uint16_t port_;
+    const std::size_t held_;
+    std::atomic<bool> quit_{false};
+    std::atomic<std::int64_t> count_{0};
+    std::thread thread_;
+};
+
+TEST(Stop, IsHeardInAFloodOfConnections) {
+    Running running;
+    for (const std::size_t held : {0u, 400u}) {
+        const Flood flood(running.port(), held);
+        while (flood.count() < 500) std::this_thread::yield();
+        auto longest = 0ms;
+        for (int i = 0; i < 30; ++i) {
+            const auto begun = std::chrono::steady_clock::now();
+            EXPECT_EQ(running.client().ask("POST", "/api/stop").status, 200) << held << " held, STOP " << i;
+            longest = std::max(longest, std::chrono::duration_cast<std::chrono::milliseconds>(
+                                            std::chrono::steady_clock::now() - begun));
+        }
+        RecordProperty("longest_ms_" + std::to_string(held), static_cast<int>(longest.count()));
+        std::printf("%zu connections held: the slowest of 30 STOPs took %d ms, beside %lld connections\n", held,
+                    static_cast<int>(longest.count()), static_cast<long long>(flood.count()));
+    }
+}
+
+TEST(Stop, HasADescriptorWhenAllOthersAreUsedUp) {
+    Running running;
+    EXPECT_EQ(running.client().ask("GET", "/api/status").status, 200);
+    const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const timeval half_a_minute{30, 0};
+    ::setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &half_a_minute, sizeof half_a_minute);
+    rlimit before = {};
+    ::getrlimit(RLIMIT_NOFILE, &before);
+    const rlimit now{400, before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &now);
+    std::vector<int> files;
+    for (int file = 0; (file = ::open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0;) files.push_back(file);
+    EXPECT_EQ(errno, EMFILE);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    to.sin_port = htons(running.port());
+    EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+    const std::string request = "POST /api/stop HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    EXPECT_EQ(::send(client, request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size()));
+    std::array<char, 12> answer{};
+    EXPECT_EQ(::recv(client, answer.data(), answer.size(), MSG_WAITALL), static_cast<ssize_t>(answer.size()));
+    EXPECT_EQ(std::string(answer.data(), answer.size()), "HTTP/1.1 200");
+    for (const int file : files) ::close(file);
+    ::close(client);
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_TRUE(running.audited("stop", 200));
+}
+
+}  // namespace
+}  // namespace motionrack::server
