@@ -6,10 +6,9 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <motionrack/authority/doorkeeper.hpp>
 #include <motionrack/authority/private_files.hpp>
+#include <motionrack/base/read_whole_file.hpp>
 #include <nlohmann/json.hpp>
 
 namespace motionrack::authority {
@@ -46,9 +45,7 @@ Result<void> Doorkeeper::read() {
     MOTIONRACK_CHECK(check_writers(path, "The users file"));
     if (::stat(path.c_str(), &about) != 0) return {};
     if (!S_ISREG(about.st_mode)) return fail(Trouble::bad_input, "This is no file: users are kept in one.", {}, path);
-    std::ifstream in(path, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(in)), {});
-    if (!in) return fail(Trouble::io, "The users file could not be read. Nothing was started.", {}, path);
+    MOTIONRACK_TRY(const std::string text, read_whole_file(path, read_limits::users));
     const auto damaged = [&](const std::string& why) {
         return fail(Trouble::bad_input,
                     fmt::format("The users file is damaged: {}. Nothing was started; put it right, or take it away and "

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
+#include <motionrack/base/read_whole_file.hpp>
 #include <motionrack/rack/config_parts.hpp>
 
 namespace motionrack::rack {
@@ -301,21 +301,9 @@ RackReading read_rack_file(const std::filesystem::path& path) {
     if (!std::filesystem::status_known(status))
         return fail_io(fmt::format("The rack file cannot be reached: {}.", code.message()));
     if (std::filesystem::is_directory(status)) return fail_io("This is a folder, not a rack file.");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return fail_io("The rack file cannot be opened for reading; look at its permissions.");
-    std::string text(max_toml_bytes + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (in.bad()) return fail_io("The rack file could not be read to its end.");
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    if (text.size() > max_toml_bytes) {
-        return only_error(Error{Trouble::bad_input,
-                                fmt::format("The file has more than {} bytes, the most that a rack file may have. "
-                                            "Nothing was read.",
-                                            max_toml_bytes),
-                                name,
-                                {}});
-    }
-    return read_rack_text(text, name);
+    const Result<std::string> text = read_whole_file(name, {max_toml_bytes, "a rack file"});
+    if (!text) return only_error(Error{text.error().trouble, text.error().message, name, {}});
+    return read_rack_text(*text, name);
 }
 
 RackReading read_rack(std::string_view path_or_text) {

@@ -1,8 +1,7 @@
 // Reading them when they are called.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
+#include <motionrack/base/read_whole_file.hpp>
 #include <motionrack/rack/subprograms.hpp>
 
 namespace motionrack::rack {
@@ -14,12 +13,11 @@ constexpr std::uintmax_t largest = 64 << 20;
 Result<std::string> read(const std::filesystem::path& file) {
     std::error_code missing;
     const std::uintmax_t size = std::filesystem::file_size(file, missing);
-    std::ifstream in(file, std::ios::binary);
-    if (missing || !in)
+    if (missing)
         return fail(Trouble::bad_input, fmt::format("{} beside it is not there or cannot be read", file.string()));
     if (size > largest)
         return fail(Trouble::bad_input, fmt::format("{} beside it is larger than 64 MiB", file.string()));
-    return std::string(std::istreambuf_iterator<char>(in), {});
+    return read_whole_file(file.string(), {largest, "a subprogram"});
 }
 
 }  // namespace

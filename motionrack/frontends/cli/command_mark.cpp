@@ -125,7 +125,7 @@ Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<
 }
 
 int run_mark(const MarkOptions& options) {
-    const Result<std::string> text = read_text(options.job);
+    const Result<std::string> text = read_text(options.job, read_limits::toml);
     if (!text) return report(text.error());
     const mark::JobRead read = mark::read_job(*text, options.job);
     for (const Error& error : read.errors) print_error(error.text());
@@ -135,7 +135,7 @@ int run_mark(const MarkOptions& options) {
     std::vector<std::string> inputs = {options.job};
     const auto load = [&](const std::string& path) {
         inputs.push_back(!path.empty() && path[0] == '/' ? path : folder + path);
-        return read_text(inputs.back());
+        return read_text(inputs.back(), read_limits::drawing);
     };
     const Result<mark::Prepared> prepared = mark::prepare(*read.job, load);
     if (!prepared) return report(prepared.error());

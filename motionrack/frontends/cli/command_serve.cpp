@@ -85,8 +85,8 @@ class Serving {
         settings.server = server_settings();
         settings.grbl = grbl_settings();
         MOTIONRACK_TRY(settings.page, load_page(options_.page));
-        MOTIONRACK_TRY(settings.panel.rack_text,
-                       options_.rack.empty() ? Result<std::string>(demonstration_rack()) : read_text(options_.rack));
+        MOTIONRACK_TRY(settings.panel.rack_text, options_.rack.empty() ? Result<std::string>(demonstration_rack())
+                                                                       : read_text(options_.rack, read_limits::toml));
         if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings.machine));
         settings.journal = journal_.get();
         MOTIONRACK_TRY(served_, server::ServedRack::open(config, std::move(settings)));

@@ -68,7 +68,7 @@ int print_errors(const std::vector<Error>& errors) {
 Loaded load(const std::string& file) {
     Loaded out;
     out.inputs.push_back(file);
-    const Result<std::string> text = read_text(file);
+    const Result<std::string> text = read_text(file, read_limits::toml);
     if (!text) return out.code = report(text.error()), std::move(out);
     sweep::SweepFileReading read = sweep::read_sweep_file(*text, file);
     if (out.code = print_errors(read.errors); out.code != exit_done) return out;

@@ -62,7 +62,7 @@ void add_bus_options(CLI::App& command, BusOptions& options) {
 
 Result<void> use_config(const BusOptions& options) {
     if (options.config.empty()) return {};
-    MOTIONRACK_TRY([[maybe_unused]] const std::string readable, read_text(options.config));
+    MOTIONRACK_TRY([[maybe_unused]] const std::string readable, read_text(options.config, read_limits::toml));
     const std::string path = std::filesystem::absolute(options.config).string();
     ::setenv("CYCLONEDDS_URI", ("file://" + path).c_str(), 1);
     return {};

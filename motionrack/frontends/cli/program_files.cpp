@@ -22,7 +22,7 @@ Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in
     if (path.empty() && built_in == BuiltInRack::router)
         return ProgramText{*rack::rack_template("router"), "built-in router"};
     if (path.empty()) return ProgramText{demonstration_rack(), "built-in demonstration"};
-    MOTIONRACK_TRY(std::string text, read_text(path));
+    MOTIONRACK_TRY(std::string text, read_text(path, read_limits::toml));
     return ProgramText{std::move(text), path};
 }
 
@@ -62,7 +62,7 @@ std::optional<control::gcode::Settings> program_settings(const rack::RackConfig&
                                                          const ReadingOptions& options, int& exit_code_out) {
     control::gcode::Settings settings = program_settings(config, path, options.block_delete);
     if (options.tools.empty()) return settings;
-    const Result<std::string> text = read_text(options.tools);
+    const Result<std::string> text = read_text(options.tools, read_limits::table);
     Result<control::gcode::ToolTable> tools =
         text ? control::gcode::read_tool_table(*text, options.tools) : tl::unexpected<Error>(text.error());
     if (!tools) {

@@ -38,28 +38,8 @@ void print_warning(std::string_view sentence) {
     print("warning:", "\033[1;33m", sentence);
 }
 
-Result<std::string> read_text(const std::string& path) {
-    std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
-    if (!file)
-        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was done; check the name and the rights.",
-                                             path, std::strerror(errno)));
-    std::string text;
-    std::size_t got = 0;
-    static constexpr std::size_t piece = 1 << 20;
-    do {
-        const std::size_t old = text.size();
-        text.resize(old + piece);
-        got = std::fread(text.data() + old, 1, piece, file);
-        text.resize(old + got);
-    } while (got == piece);
-    const bool bad = std::ferror(file) != 0;
-    const int why = errno;
-    if (file != stdin) std::fclose(file);
-    if (bad)
-        return fail(Trouble::io,
-                    fmt::format("{} cannot be read: {}. Nothing was done; a program is a file, not a folder.", path,
-                                std::strerror(why)));
-    return text;
+Result<std::string> read_text(const std::string& path, const ReadLimit& limit) {
+    return path == "-" ? read_descriptor(STDIN_FILENO, "standard input", limit) : read_whole_file(path, limit);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // What the person at the terminal sees: colours only on a terminal, progress on one line, files whole or an error.
 #pragma once
 
+#include <motionrack/base/read_whole_file.hpp>
 #include <motionrack/base/result.hpp>
 #include <string>
 #include <string_view>
@@ -15,8 +16,8 @@ bool is_terminal(int descriptor);
 void print_error(std::string_view sentence);
 void print_warning(std::string_view sentence);
 
-/// Reads a whole file, "-" is standard input. Errors: io, with what to do.
-Result<std::string> read_text(const std::string& path);
+/// Reads a whole file, "-" is standard input. Errors: as read_whole_file.
+Result<std::string> read_text(const std::string& path, const ReadLimit& limit = read_limits::program);
 /// Whether a file can be written there, before the work that it is to hold; changes nothing. Errors: io.
 Result<void> check_writable(const std::string& path);
 /// Writes a whole file. Errors: io.
