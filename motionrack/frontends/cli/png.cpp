@@ -1,63 +1,47 @@
-// librsvg draws on a cairo surface.
-#include <cairo.h>
+// Pictures as PNG are drawn by a module, which is loaded for the first of them.
+#include <dlfcn.h>
 #include <fmt/format.h>
-#include <librsvg/rsvg.h>
+#include <motionrack/frontends/png/png.h>
 
-#include <cmath>
-#include <memory>
+#include <filesystem>
 #include <motionrack/frontends/cli/png.hpp>
+#include <vector>
 
 namespace motionrack::cli {
 
 namespace {
 
-template <auto Function>
-struct By {
-    template <class T>
-    void operator()(T* p) const {
-        Function(p);
-    }
-};
-
 tl::unexpected<Error> not_drawn(std::string_view why) {
     return fail(Trouble::io, fmt::format("The picture could not be drawn as PNG: {}. Write it as SVG.", why));
 }
 
-std::string taken(GError* error) {
-    std::string text = error != nullptr ? error->message : "unknown error";
-    g_clear_error(&error);
-    return text;
-}
-
-cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) {
-    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
-    return CAIRO_STATUS_SUCCESS;
+/// The module beside this program, as it was installed or built; it stays loaded.
+Result<decltype(&motionrack_png_of)> load_module() {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+    std::string why = "its module png.so is not there";
+    for (const char* place : {MOTIONRACK_MODULES, "../lib/motionrack"}) {
+        const fs::path path = folder / place / "png.so";
+        if (error || !fs::exists(path, error)) continue;
+        if (void* const module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); module != nullptr)
+            if (void* const found = ::dlsym(module, "motionrack_png_of"); found != nullptr)
+                return reinterpret_cast<decltype(&motionrack_png_of)>(found);
+        if (const char* const said = ::dlerror(); said != nullptr) why = said;
+    }
+    return not_drawn(why);
 }
 
 }  // namespace
 
 Result<std::string> png_of(std::string_view svg, double scale) {
-    GError* error = nullptr;
-    const std::unique_ptr<GInputStream, By<g_object_unref>> stream(
-        g_memory_input_stream_new_from_data(svg.data(), static_cast<gssize>(svg.size()), nullptr));
-    // Unlimited: long paths are long attributes.
-    const std::unique_ptr<RsvgHandle, By<g_object_unref>> handle(
-        rsvg_handle_new_from_stream_sync(stream.get(), nullptr, RSVG_HANDLE_FLAG_UNLIMITED, nullptr, &error));
-    if (!handle) return not_drawn(taken(error));
-    gboolean has_width = 0, has_height = 0, has_box = 0;
-    RsvgLength width, height;
-    RsvgRectangle box{};
-    rsvg_handle_get_intrinsic_dimensions(handle.get(), &has_width, &width, &has_height, &height, &has_box, &box);
-    if (!has_box) return not_drawn("it has no viewBox");
-    const RsvgRectangle whole{0, 0, box.width * scale, box.height * scale};
-    const std::unique_ptr<cairo_surface_t, By<cairo_surface_destroy>> surface(cairo_image_surface_create(
-        CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(whole.width)), static_cast<int>(std::ceil(whole.height))));
-    const std::unique_ptr<cairo_t, By<cairo_destroy>> pen(cairo_create(surface.get()));
-    if (!rsvg_handle_render_document(handle.get(), pen.get(), &whole, &error)) return not_drawn(taken(error));
-    std::string bytes;
-    const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
-    if (status != CAIRO_STATUS_SUCCESS) return not_drawn(cairo_status_to_string(status));
-    return bytes;
+    MOTIONRACK_TRY(const auto draw, load_module());
+    std::string out;
+    const auto take = [](void* to, const char* bytes, std::size_t size) {
+        static_cast<std::string*>(to)->assign(bytes, size);
+    };
+    if (draw(svg.data(), svg.size(), scale, take, &out) == 0) return not_drawn(out);
+    return out;
 }
 
 }  // namespace motionrack::cli
