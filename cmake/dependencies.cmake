@@ -6,8 +6,8 @@
 set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLIB 1.2")
 # Those of them that are libraries, as a linker calls them.
 set(motionrack_linked_libraries fmt tomlplusplus z)
-# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI. Linked by its name, so that an
-# installed room has no paths in it.
+# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI. Loaded by its name with the first
+# recording (motionrack/trace/hdf5_library.hpp).
 set(motionrack_hdf5_names hdf5_serial hdf5)
 # Headers that only our own sources include.
 set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40"
@@ -28,7 +28,7 @@ macro(motionrack_find_packages)
   pkg_check_modules(NATS REQUIRED IMPORTED_TARGET ${motionrack_nats_module})
   find_path(MOTIONRACK_HDF5_HEADERS hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
   find_library(MOTIONRACK_HDF5_LIBRARY NAMES ${motionrack_hdf5_names} REQUIRED)
-  get_filename_component(motionrack_hdf5 "${MOTIONRACK_HDF5_LIBRARY}" NAME_WE)
-  string(REGEX REPLACE "^lib" "" motionrack_hdf5 "${motionrack_hdf5}")
-  list(APPEND motionrack_linked_libraries ${motionrack_hdf5})
+  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${MOTIONRACK_HDF5_LIBRARY} OUTPUT_VARIABLE motionrack_hdf5_soname
+                  COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE ".*SONAME +([^ \n]+).*" "\\1" motionrack_hdf5_soname "${motionrack_hdf5_soname}")
 endmacro()

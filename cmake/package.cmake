@@ -50,14 +50,15 @@ function(motionrack_package component name section sentence)
             COMPONENT ${component})
   endif()
 endfunction()
-motionrack_package(program motionrack science "the program, the page of its operator panel, examples" ""
+set(loaded libhdf5-103-1)  # by its name: no file asks for it
+motionrack_package(program motionrack science "the program, the page of its operator panel, examples" "${loaded}"
                    "fonts-dejavu-core, cyclonedds-tools")
-motionrack_package(library libmotionrack0 libs "shared C libraries")
+motionrack_package(library libmotionrack0 libs "shared C libraries" "${loaded}")
 motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, C++ and Pascal"
                    "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev, libhdf5-dev"
                    "cyclonedds-dev, libpugixml-dev")
 motionrack_package(python python3-motionrack python "the Python package"
-                   "python3 (>= 3.11), python3 (<< 3.12), python3-numpy" "python3-matplotlib")
+                   "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, ${loaded}" "python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python/postinst
     ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
 include(CPack)

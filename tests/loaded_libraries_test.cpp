@@ -33,10 +33,16 @@ TEST_F(ACommand, LoadsOnlyTheLibrariesThatItNeeds) {
     for (const char* arguments :
          {"check examples/02_part/part.ngc", "run examples/01_first_move/first_move.ngc --no-report"}) {
         const std::set<std::string> libraries = libraries_of(arguments);
-        EXPECT_LE(libraries.size(), 52u) << arguments;
-        for (const char* part : {"librsvg", "libcairo", "libpango", "libglib"})
+        EXPECT_LE(libraries.size(), 24u) << arguments;
+        for (const char* part : {"librsvg", "libcairo", "libpango", "libglib", "libhdf5", "libcurl"})
             EXPECT_FALSE(has(libraries, part)) << part;
     }
+}
+
+TEST_F(ACommand, LoadsThatForRecordingsOnceOneIsMade) {
+    EXPECT_TRUE(
+        has(libraries_of("run examples/01_first_move/first_move.ngc --no-report --record first.h5"), "libhdf5"));
+    EXPECT_TRUE(has(libraries_of("report first.h5"), "libhdf5"));
 }
 
 TEST_F(ACommand, LoadsThatForPicturesOnceOneIsAskedFor) {

@@ -1,12 +1,12 @@
 // The library's C interface, with its handles closed and its errors told as sentences.
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <motionrack/trace/hdf5.hpp>
+#include <motionrack/trace/hdf5_library.hpp>
 #include <motionrack/trace/hdf5_parts.hpp>
 #include <system_error>
 
@@ -146,6 +146,7 @@ bool File::good(std::int64_t code, const char* what) {
 }
 
 Result<File> File::create(const std::string& path) {
+    MOTIONRACK_CHECK(load_library());
     be_quiet();
     // The library says less than the system about a place where nothing can be made.
     std::FILE* made = std::fopen(path.c_str(), "wb");
@@ -168,6 +169,7 @@ Result<File> File::create(const std::string& path) {
 }
 
 Result<File> File::reopen(const std::string& path) {
+    MOTIONRACK_CHECK(load_library());
     be_quiet();
     File out;
     out.path_ = path;
@@ -266,6 +268,7 @@ Result<void> check_signature(const std::string& path) {
 }  // namespace
 
 Result<File> File::open(const std::string& path) {
+    MOTIONRACK_CHECK(load_library());
     be_quiet();
     MOTIONRACK_CHECK(check_signature(path));
     File out;

@@ -1,9 +1,9 @@
 // Reading columns, texts and attributes: nothing that a file says is believed before it was checked.
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <motionrack/trace/hdf5.hpp>
+#include <motionrack/trace/hdf5_library.hpp>
 #include <motionrack/trace/hdf5_parts.hpp>
 
 namespace motionrack::trace::hdf5 {
