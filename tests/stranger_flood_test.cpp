@@ -175,6 +175,7 @@ TEST_F(AFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
     EXPECT_GT(audit->size(), 0u);
     EXPECT_LT(audit->size(), 200u);
     for (const journal::Entry& entry : *audit) EXPECT_LE(entry.text.size(), 200u) << entry.text;
+    EXPECT_LT((*book)->read({0, "", 10000})->size(), 400u);
 }
 
 TEST_F(AFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsHeard) {
