@@ -72,14 +72,15 @@ class PulseReferee {
         int axis = 0;
         SpeedJump jump;
     };
-    Verdict verdict() {
+    /// `accel_parts`: of each axis' acceleration limit, what explains a change of its speed.
+    Verdict verdict(double accel_parts = 1) {
         Verdict worst;
         for (std::size_t i = 0; i < logs_.size(); ++i) {
             const rack::RackAxis& axis = rack_.axes()[i].config;
             rack_.axes()[i].turned_by().hand_over_edges();
             const double pulses = axis.pulses_per_unit();
             for (const double window : {0.002, 0.004}) {
-                SpeedJump jump = logs_[i].greatest_jump(window, axis.max_accel * pulses);
+                SpeedJump jump = logs_[i].greatest_jump(window, accel_parts * axis.max_accel * pulses);
                 jump.speed /= pulses;
                 const double parts = jump.speed / axis.start_speed;
                 if (parts > worst.parts) worst = {parts, static_cast<int>(i), jump};

@@ -29,7 +29,7 @@ Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSetting
     mask_ = size - 1;
     slots_.resize(size);
     nodes_.resize(size);
-    if (drive_ != nullptr) least_seconds_ = drive_->least_seconds();
+    if (drive_ != nullptr) least_seconds_ = drive_->least_seconds(), late_seconds_ = drive_->late_seconds();
     for (std::size_t i = 0; i < limits.size(); ++i)
         half_pulse_[i] = limits[i].pulses_per_unit > 0 ? 0.5 / limits[i].pulses_per_unit : 1e9;
 }
@@ -86,8 +86,21 @@ double Planner::gain_of(const Last& before, const Geometry& path) const {
     return std::max(1.0, ratio * ratio);
 }
 
-double Planner::reach_of(const Geometry& path, const AlongPath& along) const {
-    return 2 * along.accel * (path.length - (drive_ != nullptr ? drive_->spent_length(path) : 0));
+Planner::Node Planner::node_of(const Geometry& path, const AlongPath& along, double joint, double gain) const {
+    const double usable = path.length - (drive_ != nullptr ? drive_->spent_length(path) : 0);
+    return {joint, 2 * along.accel * usable, along.speed * along.speed, 0, gain, along.accel * late_seconds_};
+}
+
+/// Square of the speed from which a move can brake to the square `exit`: v^2 + 2 lag v = exit + reach.
+double Planner::braked(const Node& node, double exit) {
+    if (node.lag == 0) return exit + node.reach;
+    const double speed = std::sqrt(node.lag * node.lag + exit + node.reach) - node.lag;
+    return speed * speed;
+}
+
+/// Square of the least speed at the end of a move that begins with the square `entry`.
+double Planner::slowest_exit(const Node& node, double entry) {
+    return node.lag == 0 ? entry - node.reach : entry - std::max(0.0, node.reach - 2 * node.lag * std::sqrt(entry));
 }
 
 namespace {
@@ -165,7 +178,7 @@ bool Planner::merge(const Move& move, const Geometry& path) {
     ++last.moves;
     ++pushed_;
     const double gain = index == ready_ ? 1 : gain_of(before_last_, line);
-    node(index) = {joint, reach_of(line, along), along.speed * along.speed, 0, gain};
+    node(index) = node_of(line, along, joint, gain);
     position_ = move.end;
     last_.path = line;
     last_.along = along;
@@ -180,6 +193,7 @@ void Planner::append_dwell(const Move& move) {
     planned.move.end = position_;
     planned.start = position_;
     planned.number = pushed_++;
+    node(tail_) = {0, 0, 0, 0, 1, 0};
     ready_ = settled_ = ++tail_;
 }
 
@@ -193,7 +207,7 @@ void Planner::append(const Move& move, const Geometry& path, const AlongPath& al
     planned.accel = along.accel;
     planned.jerk = along.jerk;
     const double gain = tail_ == ready_ ? 1 : gain_of(last_, path);
-    node(tail_) = {joint, reach_of(path, along), along.speed * along.speed, 0, gain};
+    node(tail_) = node_of(path, along, joint, gain);
     ++tail_;
     position_ = move.end;
     before_last_ = last_;
@@ -212,9 +226,9 @@ void Planner::backward() {
     double entry = 0;
     for (std::uint64_t i = tail_; i > last_settled + 1;) {
         Node& here = node(--i);
-        const double braked = entry + here.reach;
-        if (here.joint <= braked && settled_ == last_settled) settled_ = i;
-        here.entry = std::min(here.joint, braked);
+        const double from = braked(here, entry);
+        if (here.joint <= from && settled_ == last_settled) settled_ = i;
+        here.entry = std::min(here.joint, from);
         entry = here.entry / here.gain;
     }
 }
@@ -228,8 +242,8 @@ void Planner::forward(std::uint64_t until) {
         const double entry = committed_ * committed_;
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
-        // After reopen() a joint may want to be slower than can be braked to.
-        if (entry - here.reach - exit > path_rounding * entry) exit = entry - here.reach;
+        // After change_feeds() a joint may want to be slower than can be braked to.
+        if (const double slowest = slowest_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
         const double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         planned.entry = committed_;
         planned.exit = std::sqrt(exit);
@@ -254,11 +268,24 @@ bool Planner::pull_early(PlannedMove& planned) {
     return pull(planned);
 }
 
-void Planner::reopen() {
+void Planner::change_feeds(const std::function<void(PlannedMove&)>& change) {
     if (head_ == tail_) return;
-    committed_ = head_ == ready_ ? committed_ : slot(head_).entry;
-    position_ = slot(head_).start;
-    ready_ = settled_ = tail_ = head_;
+    if (head_ != ready_) committed_ = slot(head_).entry;
+    ready_ = settled_ = head_;
+    Last before;
+    for (std::uint64_t i = head_; i < tail_; ++i) {
+        PlannedMove& planned = slot(i);
+        change(planned);
+        if (planned.move.kind == MoveKind::dwell) continue;
+        const Geometry path = geometry_of(planned.move, planned.start);
+        const AlongPath along = along_of(path, planned.move);
+        planned.accel = along.accel;
+        planned.jerk = along.jerk;
+        const double joint = i != head_ && node(i).joint > 0 ? joint_of(before, path, along) : 0;
+        node(i) = node_of(path, along, joint, node(i).gain);
+        before_last_ = std::exchange(before, {path, along, planned.move.path, planned.move.tolerance_mm});
+    }
+    last_ = before;
 }
 
 double seconds_of(const PlannedMove& planned) {

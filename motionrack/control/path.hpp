@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/control/path_limits.hpp>
@@ -52,9 +53,10 @@ class Planner final : public PathPlanner {
     /// How many moves can be pulled or are open.
     std::size_t size() const { return tail_ - head_; }
 
-    /// Forgets the moves that were not pulled, for they are to be pushed again with other feeds. The path goes on where
-    /// the last pulled move ends, at its speed there, from which all that follows must allow to brake.
-    void reopen();
+    /// Plans the moves that were not pulled once more, with other feeds: `change` gets each of them, in order, and sets
+    /// the feed and the haste of its move. They stay cut and merged as they are, so what could be braked before still
+    /// can be, whatever the speed with which the last pulled move ends.
+    void change_feeds(const std::function<void(PlannedMove&)>& change);
 
     /// Where the path ends so far.
     const Point& position() const { return position_; }
@@ -67,6 +69,7 @@ class Planner final : public PathPlanner {
         double cruise;  ///< square of the greatest speed on the move
         double entry;   ///< square of the speed at the start from which the end of the window can be reached
         double gain;    ///< by what the square of the speed grows at the start, at once; 1 or more
+        double lag;     ///< speed that could be taken off before a new one counts: accel late_seconds
     };
 
     /// What the next joint needs of the last move.
@@ -87,7 +90,9 @@ class Planner final : public PathPlanner {
     AlongPath along_of(const Geometry& path, const Move& move) const;
     double joint_of(const Last& before, const Geometry& path, const AlongPath& along) const;
     double gain_of(const Last& before, const Geometry& path) const;
-    double reach_of(const Geometry& path, const AlongPath& along) const;
+    Node node_of(const Geometry& path, const AlongPath& along, double joint, double gain) const;
+    static double braked(const Node& node, double exit);
+    static double slowest_exit(const Node& node, double entry);
     void backward();
     void forward(std::uint64_t until);
 
@@ -106,7 +111,7 @@ class Planner final : public PathPlanner {
     std::int64_t pushed_ = 0;    ///< moves that are planned or were
     Point position_;
     Last last_, before_last_;  ///< open moves
-    double least_seconds_ = 0;
+    double least_seconds_ = 0, late_seconds_ = 0;
     std::array<double, axis_count> half_pulse_ = {};
     bool apart_ = false;
     static constexpr std::size_t most_between = 31;

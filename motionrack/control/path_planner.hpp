@@ -27,6 +27,8 @@ class DriveRule {
     }
     /// A move that takes less, s, may be over before the hardware has the next one.
     virtual double least_seconds() const { return 0; }
+    /// A new speed counts so long after the joint of two moves, s: until then the old one goes on.
+    virtual double late_seconds() const { return 0; }
 };
 
 ///     for (const Move& move : program) {

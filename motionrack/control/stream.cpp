@@ -168,8 +168,12 @@ Result<StreamState> Stream::drive(bool more_may_come) {
     if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
         feed_ = feed_wanted_;
         rapid_ = rapid_wanted_;
-        planner_.reopen();
-        planned_ = handed_;
+        std::size_t at = handed_;
+        planner_.change_feeds([&](PlannedMove& planned) {
+            while (!entries_[at].is_move()) ++at;
+            entries_[at].override_feed(planned.move, feed_, rapid_);
+            for (std::int32_t left = planned.moves; left > 0; ++at) left -= entries_[at].is_move();
+        });
     }
     if (Result<void> filled = fill_planner(); !filled) {
         forget();
@@ -192,8 +196,7 @@ Result<void> Stream::fill_planner() {
             continue;
         }
         Move move = entry.step.move;
-        if (entry.is_overridable()) move.feed *= feed_;
-        if (entry.step.overridable) move.haste = rapid_;
+        entry.override_feed(move, feed_, rapid_);
         MOTIONRACK_CHECK(planner_.push(move));
     }
     return {};

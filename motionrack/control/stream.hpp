@@ -146,6 +146,11 @@ class Stream {
         bool is_probe() const { return step.probe != gcode::Probe::none; }
         bool is_overridable() const { return !by_hand && step.overridable; }
         bool is_move() const { return step.kind == gcode::StepKind::move && !is_probe(); }
+        /// What the overrides make of its move.
+        void override_feed(Move& move, double feed, double rapid) const {
+            if (is_overridable()) move.feed = step.move.feed * feed;
+            if (step.overridable) move.haste = rapid;
+        }
     };
     /// A move that is being cut.
     struct Cutting {

@@ -22,9 +22,9 @@ struct Driven {
 /// Seconds since the start, and what is wished then.
 using Wishes = std::vector<std::pair<double, std::string>>;
 
-/// `slice`: called all the time while it runs.
+/// `slice`: called all the time while it runs. `accel_parts`: see PulseReferee.
 inline Driven drive_with(const RackConfig& config, const std::string& program, const Wishes& wishes,
-                         const std::function<void(Rack&)>& slice = {}) {
+                         const std::function<void(Rack&)>& slice = {}, double accel_parts = 1) {
     Rack rack(config);
     std::vector<TimedText> texts;
     for (const auto& [seconds, action] : wishes) texts.push_back({Instant{} + from_seconds(seconds), action, action});
@@ -41,7 +41,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     (*plan)->begin();
     Driven out;
     out.outcome = job.run();
-    out.worst = referee.verdict();
+    out.worst = referee.verdict(accel_parts);
     return out;
 }
 

@@ -173,12 +173,11 @@ Result<void> Axes::wait_for_joint(const Segment& queued) {
             ran_alone_ = true;  // it has run and ended already
             return {};
         }
-        if (driver_.interrupt().stop_requested()) {
-            MOTIONRACK_CHECK(brake());
-            continue;
-        }
         if (woken) clear_interrupts();  // something else woke us (a companion's end)
-        woken = driver_.interrupt().wait(joint_timeout);
+        const bool brakes = driver_.interrupt().stop_requested();
+        if (brakes) MOTIONRACK_CHECK(brake());
+        // The next piece is queued as soon as there is room for it, while the axes brake too.
+        woken = driver_.interrupt().wait(brakes ? brake_look : joint_timeout);
     }
 }
 
@@ -202,10 +201,7 @@ Result<void> Axes::write_acceleration(std::int32_t acceleration) {
 /// speed is written down, segments go on being queued, and the command comes when it has fallen. One look at it; the
 /// S-curve's stop fits into its line, and pieces of a ride go on until the ride has slowed down.
 Result<void> Axes::brake() {
-    if (even_) {
-        driver_.interrupt().pass(brake_look);
-        return {};
-    }
+    if (even_) return {};
     if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
     if (!braking_ && written_speed_ > rest_speed_) {
         MOTIONRACK_CHECK(write_acceleration(braking_acceleration_));
@@ -214,7 +210,6 @@ Result<void> Axes::brake() {
     }
     braking_ = true;
     if (driver_.ReadCV(generator_) <= rest_speed_) return stopped_by_user();
-    driver_.interrupt().pass(brake_look);
     return {};
 }
 
@@ -235,10 +230,9 @@ Result<void> Axes::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
         if (!status.driving(xyzu) && !status.interpolating()) break;
-        if (driver_.interrupt().stop_requested())
-            MOTIONRACK_CHECK(brake());
-        else if (driver_.interrupt().wait(joint_timeout))
-            clear_interrupts();
+        const bool brakes = driver_.interrupt().stop_requested();
+        if (brakes) MOTIONRACK_CHECK(brake());
+        if (driver_.interrupt().wait(brakes ? brake_look : joint_timeout)) clear_interrupts();
     }
     clear_interrupts();
     return {};

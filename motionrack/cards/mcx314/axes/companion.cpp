@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 
 namespace motionrack::mcx314 {
@@ -42,12 +43,16 @@ constexpr double accesses_to_speed = 11;
 /// The chip's slopes are whole steps of whole clocks: one that must have fallen at a place falls by so much more.
 constexpr double sure = 1.02;
 
-/// Of the longest axis.
+/// Of the longest axis; with constant vector speed those in which both axes step take longer.
 double basic_pulses(const Segment& segment) {
-    std::int64_t pulses = 0;
-    for (std::size_t i = 0; i < segment.axis_count; ++i)
-        pulses = std::max<std::int64_t>(pulses, std::llabs(segment.finish[i]));
-    return static_cast<double>(pulses);
+    std::int64_t most = 0, least = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < segment.axis_count; ++i) {
+        const std::int64_t pulses = std::llabs(segment.finish[i]);
+        most = std::max(most, pulses);
+        least = std::min(least, pulses);
+    }
+    const bool longer = segment.constant_vector && segment.kind == SegmentKind::line;
+    return static_cast<double>(most) + (longer ? both_axes_extra * static_cast<double>(least) : 0.0);
 }
 
 }  // namespace

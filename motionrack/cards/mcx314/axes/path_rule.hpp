@@ -16,6 +16,7 @@ class PathRule final : public control::DriveRule {
     double steering_seconds() const override { return 0.008; }
     double speed_ratio(const control::Geometry& before, const control::Geometry& after) const override;
     double least_seconds() const override;
+    double late_seconds() const override { return to_seconds(host_.latency); }
 
   private:
     AxisMap map_;

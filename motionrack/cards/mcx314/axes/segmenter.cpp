@@ -190,6 +190,8 @@ void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
         // The fall begins with the speed of the piece before it.
         emit_line(work, middle, std::min(speeds.top, most_on(fall, work.constant_vector).speed), speeds.acceleration);
     }
+    // A pulse that waits for a piece with room is no piece of its own.
+    if (speeds.fall_from >= work.path.length) return;
     emit_line(work, work.to, speeds.exit, speeds.acceleration);
 }
 
