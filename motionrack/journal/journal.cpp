@@ -9,47 +9,22 @@
 #include <chrono>
 #include <cstring>
 #include <motionrack/journal/database.hpp>
+#include <motionrack/journal/file_watch.hpp>
 #include <motionrack/journal/journal.hpp>
+#include <motionrack/journal/seal.hpp>
+#include <motionrack/journal/tables.hpp>
 #include <utility>
 
 namespace motionrack::journal {
 
 namespace {
 
-constexpr std::int64_t version = 1;
-constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": tells a journal from other files of SQLite
-
-constexpr const char* tables = R"(
-    CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
-    CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
-                        at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
-    CREATE INDEX entry_kind ON entry (kind, number);
-    CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL,
-                       utc_ms INTEGER NOT NULL) WITHOUT ROWID;
-)";
+/// How often files are looked at while nothing is written.
+constexpr std::chrono::milliseconds look_every{250};
 
 std::int64_t utc_ms() {
     return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
         .count();
-}
-
-Result<void> make_tables(const Database& database, const std::string& path) {
-    const std::int64_t id = database.number("PRAGMA application_id");
-    if (id == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0) {
-        MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
-        const std::string all = fmt::format(
-            "BEGIN IMMEDIATE; {} PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT;", tables, mark, version);
-        return database.run(all.c_str());
-    }
-    if (id != mark)
-        return fail(
-            Trouble::io,
-            fmt::format("'{}' is a file of SQLite, but no journal. It was left as it is; name another file.", path));
-    if (const std::int64_t seen = database.number("PRAGMA user_version"); seen != version)
-        return fail(Trouble::io, fmt::format("The journal '{}' has version {}; this program knows version {}. It was "
-                                             "left as it is; name another file.",
-                                             path, seen, version));
-    return {};
 }
 
 /// Positions, names and addresses are its owner's; the files that SQLite makes beside it have the same rights.
@@ -95,53 +70,80 @@ class FileLock {
     int file_;
 };
 
-Journal::Journal(std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer, std::unique_ptr<Database> reader)
-    : lock_(std::move(lock)), writer_(std::move(writer)), reader_(std::move(reader)) {}
+Journal::Journal(std::string path, std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer,
+                 std::unique_ptr<Database> reader)
+    : path_(std::move(path)), lock_(std::move(lock)), writer_(std::move(writer)), reader_(std::move(reader)) {}
 
 Result<std::unique_ptr<Journal>> Journal::open(const std::string& path) {
     MOTIONRACK_TRY(auto lock, FileLock::take(path));
     MOTIONRACK_CHECK(make_private(path));
     MOTIONRACK_TRY(Database writer, Database::open(path, Database::Use::write));
-    if (Result<void> made = make_tables(writer, path); !made) {
+    if (Result<void> made = prepare_tables(writer, path); !made) {
         if (made.error().message.find(path) != std::string::npos) return tl::unexpected<Error>(made.error());
         return fail(Trouble::io,
                     fmt::format("'{}' cannot be used as a journal: {}. It was left as it is; name another file.", path,
                                 made.error().message));
     }
-    MOTIONRACK_CHECK(writer.run("PRAGMA synchronous = FULL"));
     MOTIONRACK_TRY(Database reader, Database::open(path, Database::Use::read));
-    std::unique_ptr<Journal> journal(new Journal(std::move(lock), std::make_unique<Database>(std::move(writer)),
+    std::unique_ptr<Journal> journal(new Journal(path, std::move(lock), std::make_unique<Database>(std::move(writer)),
                                                  std::make_unique<Database>(std::move(reader))));
     if (Result<void> begun = journal->begin(); !begun)
         return fail(Trouble::io,
                     fmt::format("The journal '{}' cannot be written: {}. Free the disk or name another file.", path,
                                 begun.error().message));
+    journal->files_ = std::make_unique<FileWatch>();
+    for (const char* end : {"", "-wal", ".lock"}) journal->files_->add(path + end);
     journal->thread_ = std::thread([one = journal.get()] { one->work(); });
     return journal;
 }
 
 Result<void> Journal::begin() {
     const Database& file = *writer_;
-    if (Statement last(file.get(),
-                       "SELECT number, ended_ms IS NOT NULL, max(begun_ms, coalesce(ended_ms, 0)) FROM run ORDER BY "
-                       "number DESC LIMIT 1");
-        last.row()) {
-        before_ = LastRun{last.number(0), last.number(1) != 0, last.number(2), {}};
-        const std::int64_t written = file.number("SELECT max(utc_ms) FROM entry");
-        before_->last_ms = std::max(before_->last_ms, written);
-        Statement kept(file.get(), "SELECT key, value, utc_ms FROM kept");
-        while (kept.row()) {
-            before_->kept[kept.text(0)] = kept.text(1);
-            before_->last_ms = std::max(before_->last_ms, kept.number(2));
-        }
-    }
+    read_last_run();
     run_ = (before_ ? before_->run : 0) + 1;
-    MOTIONRACK_CHECK(
-        file.run(fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {});"
-                             "DELETE FROM entry WHERE number <= (SELECT max(number) FROM entry) - {}; COMMIT;",
-                             run_, utc_ms(), most_entries)
-                     .c_str()));
-    return {};
+    MOTIONRACK_TRY(const ChainCheck chain, check_chain(file, checked_at_start));
+    if (before_ && !chain.problem.empty())
+        before_->damage =
+            fmt::format("The journal is not as it was written: {}. Find out what changed the file.", chain.problem);
+    ChainEnd head = chain_head(file);
+    last_number_ = head.number;
+    last_link_ = std::move(head.link);
+    MOTIONRACK_CHECK(file.run(
+        fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str()));
+    MOTIONRACK_CHECK(remove_old_entries(file, most_entries));
+    return file.run("COMMIT");
+}
+
+/// How the run before this one ended, and what it kept, where its seals vouch for that.
+void Journal::read_last_run() {
+    const Database& file = *writer_;
+    Statement last(file.get(),
+                   "SELECT number, begun_ms, ended_ms IS NOT NULL, coalesce(ended_ms, 0), seal FROM run ORDER BY "
+                   "number DESC LIMIT 1");
+    if (!last.row()) return;
+    const std::int64_t run = last.number(0), begun = last.number(1), ended = last.number(3);
+    before_ = LastRun{run, last.number(2) != 0, std::max(begun, ended), {}, {}, {}};
+    before_->last_ms = std::max(before_->last_ms, file.number("SELECT max(utc_ms) FROM entry"));
+    read_kept(*before_);
+    if (before_->clean && last.text(4) != seal_of_run(run, begun, ended, seals_, chain_head(file).link))
+        before_->doubts.push_back(fmt::format("the end of run {} does not fit its checksum", run));
+}
+
+void Journal::read_kept(LastRun& last) {
+    Statement kept(writer_->get(), "SELECT key, value, run, utc_ms, seal FROM kept");
+    while (kept.row()) {
+        const std::string key = kept.text(0), value = kept.text(1);
+        seals_[key] = seal_of_kept(key, value, kept.number(2), kept.number(3));
+        if (kept.text(4) != seals_[key]) {
+            last.doubts.push_back(fmt::format("what it keeps of '{}' does not fit its checksum", key));
+            continue;
+        }
+        if (kept.number(2) != last.run)
+            last.doubts.push_back(fmt::format("what it keeps of '{}' is of run {}, not of the last one, {}", key,
+                                              kept.number(2), last.run));
+        last.kept[key] = value;
+        last.last_ms = std::max(last.last_ms, kept.number(3));
+    }
 }
 
 Journal::~Journal() {
@@ -171,6 +173,7 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
     if (room) return news_.notify_one();
+    if (!closed) failed(fmt::format("does not follow: {} entries wait for the disk", most_waiting));
     if (!done) return;  // NOLINT(bugprone-use-after-move): it was moved only where there was room
     done(fail(
         Trouble::io,
@@ -193,55 +196,104 @@ void Journal::work() {
         std::map<std::string, std::string> kept;
         {
             std::unique_lock<std::mutex> guard(alone_);
-            news_.wait(guard, [this] { return quit_ || !waiting_.empty() || !keeping_.empty(); });
+            const auto news = [this] { return quit_ || !waiting_.empty() || !keeping_.empty(); };
+            if (!news_.wait_for(guard, look_every, news)) {
+                guard.unlock();
+                if (const Result<void> there = files_->check(); !there) failed(there.error().message);
+                continue;
+            }
             if (waiting_.empty() && keeping_.empty()) return;
             entries.swap(waiting_);
             kept.swap(keeping_);
         }
-        const Result<void> stored = store(entries, kept);
-        if (!stored) (void)writer_->run("ROLLBACK");
-        for (const Waiting& one : entries) {
-            if (!one.done) continue;
-            if (stored)
-                one.done(one.entry.number);
-            else
-                one.done(
-                    fail(Trouble::io, fmt::format("It was not written to the journal: {}.", stored.error().message)));
+        // What goes into a file that was deleted meanwhile is not acknowledged.
+        Result<void> stored = store(entries, kept);
+        if (!stored) {
+            (void)writer_->run("ROLLBACK");
+            failed(fmt::format("could not be written: {}", stored.error().message));
+        } else if (stored = files_->check(); !stored) {
+            failed(stored.error().message);
         }
+        for (const Waiting& one : entries)
+            if (one.done) one.done(stored ? Result<std::int64_t>(one.entry.number) : fail(Trouble::io, failure()));
     }
+}
+
+/// Any thread. The first failure stays: what follows from it says less.
+void Journal::failed(const std::string& what) {
+    const std::lock_guard<std::mutex> guard(alone_);
+    if (failure_.empty()) failure_ = fmt::format("The journal '{}' {}.", path_, what);
+    has_failed_ = true;
+}
+
+std::string Journal::failure() const {
+    if (!has_failed_) return {};
+    const std::lock_guard<std::mutex> guard(alone_);
+    return failure_;
 }
 
 Result<void> Journal::store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept) {
     const auto failed = [this] { return fail(Trouble::io, writer_->what()); };
     MOTIONRACK_CHECK(writer_->run("BEGIN IMMEDIATE"));
     Statement insert(writer_->get(),
-                     "INSERT INTO entry (run, utc_ms, at, kind, text, data) VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
+                     "INSERT INTO entry (number, run, utc_ms, at, kind, text, data, link) VALUES (?1, ?2, ?3, ?4, ?5, "
+                     "?6, ?7, ?8)");
+    ChainEnd head{last_number_, last_link_};
     for (Waiting& one : entries) {
         Entry& entry = one.entry;
-        insert.bind(1, entry.run)
-            .bind(2, entry.utc_ms)
-            .bind(3, entry.at.count())
-            .bind(4, entry.kind)
-            .bind(5, entry.text)
-            .bind(6, entry.data);
+        entry.number = ++head.number;
+        head.link = link_of(head.link, entry);
+        insert.bind(1, entry.number)
+            .bind(2, entry.run)
+            .bind(3, entry.utc_ms)
+            .bind(4, entry.at.count())
+            .bind(5, entry.kind)
+            .bind(6, entry.text)
+            .bind(7, entry.data)
+            .bind(8, head.link);
         (void)insert.row();
         if (!insert.ok()) return failed();
-        entry.number = sqlite3_last_insert_rowid(writer_->get());
         insert.again();
     }
-    Statement replace(writer_->get(), "INSERT OR REPLACE INTO kept (key, value, run, utc_ms) VALUES (?1, ?2, ?3, ?4)");
+    if (!entries.empty()) MOTIONRACK_CHECK(set_chain_end(*writer_, "head", head));
+    Statement replace(writer_->get(),
+                      "INSERT OR REPLACE INTO kept (key, value, run, utc_ms, seal) VALUES (?1, ?2, ?3, ?4, ?5)");
+    std::map<std::string, std::string> seals = seals_;
     for (const auto& [key, value] : kept) {
-        replace.bind(1, key).bind(2, value).bind(3, run_).bind(4, utc_ms());
+        const std::int64_t now = utc_ms();
+        const std::string seal = seals[key] = seal_of_kept(key, value, run_, now);
+        replace.bind(1, key).bind(2, value).bind(3, run_).bind(4, now).bind(5, seal);
         (void)replace.row();
         if (!replace.ok()) return failed();
         replace.again();
     }
-    return writer_->run("COMMIT");
+    MOTIONRACK_CHECK(writer_->run("COMMIT"));
+    last_number_ = head.number;
+    last_link_ = std::move(head.link);
+    seals_ = std::move(seals);
+    return {};
 }
 
 Result<void> Journal::close() {
     if (!end_work()) return {};
-    return writer_->run(fmt::format("UPDATE run SET ended_ms = {} WHERE number = {}", utc_ms(), run_).c_str());
+    if (const Result<void> there = files_->check(); !there) failed(there.error().message);
+    if (!has_failed_) {
+        const std::int64_t begun =
+                               writer_->number(fmt::format("SELECT begun_ms FROM run WHERE number = {}", run_).c_str()),
+                           now = utc_ms();
+        const Result<void> ended =
+            writer_->run(fmt::format("UPDATE run SET ended_ms = {}, seal = '{}' WHERE number = {}", now,
+                                     seal_of_run(run_, begun, now, seals_, last_link_), run_)
+                             .c_str());
+        if (!ended) failed(fmt::format("could not be written: {}", ended.error().message));
+    }
+    if (!has_failed_) return {};
+    return fail(Trouble::io, failure() + " The end of this run is not in it: the next start will trust no position.");
+}
+
+Result<ChainCheck> Journal::check() const {
+    const std::lock_guard<std::mutex> guard(reading_);
+    return check_chain(*reader_);
 }
 
 Result<std::vector<Entry>> Journal::read(const Question& question) const {

@@ -8,9 +8,11 @@
 //           17:02:40  position  X 12.5, Y 3
 //   (killed)                                        ◄── the next run finds no end of this one: LastRun::clean is false
 //
-// A file of SQLite with a write-ahead log; one program at a time writes it.
+// A file of SQLite with a write-ahead log; one program at a time writes it. What is kept carries a checksum, and
+// entries form a chain of hashes (tables.hpp): damage and changes by hand are noticed at the next start.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -28,6 +30,7 @@ namespace motionrack::journal {
 
 class Database;
 class FileLock;
+class FileWatch;
 
 struct Entry {
     std::int64_t number = 0;  ///< from 1, over all runs
@@ -45,6 +48,16 @@ struct LastRun {
     bool clean = false;        ///< it ended by itself; else it was killed, or the computer stopped
     std::int64_t last_ms = 0;  ///< utc of the last that it wrote
     std::map<std::string, std::string> kept;
+    /// Why what was kept, or that it ended by itself, is not to be trusted: "the end of run 7 does not fit its
+    /// checksum". Values that do not fit their checksums are not in `kept`.
+    std::vector<std::string> doubts;
+    std::string damage;  ///< a sentence: entries were changed or removed; empty: all are as they were written
+};
+
+/// Whether all entries are as they were written: each carries a hash over itself and the one before it.
+struct ChainCheck {
+    std::int64_t entries = 0;
+    std::string problem;  ///< "entry 17 was changed after it was written": the first one; empty: none
 };
 
 struct Question {
@@ -68,17 +81,25 @@ class Journal {
     void write(Instant at, std::string kind, std::string text, std::string data = {}, Done done = {});
     /// Any thread: `value` in place of the one that was kept under this key.
     void keep(std::string key, std::string value);
-    /// Writes what waits and ends the run clean. Errors: io.
+    /// Writes what waits and ends the run clean. Errors: io; also where something could not be written before.
     Result<void> close();
 
     /// Any thread: the newest entries that fit, oldest first. Errors: io, bad_input (limit).
     Result<std::vector<Entry>> read(const Question& question) const;
+    /// Any thread: reads all entries and their chain. Errors: io.
+    Result<ChainCheck> check() const;
+    /// Any thread, never waits long: why something is not in the file, as a sentence; empty: all is. It stays: later
+    /// entries may still be written, but the run has no clean end any more. A file that was deleted, replaced or cut is
+    /// noticed within half a second.
+    std::string failure() const;
     /// Nothing: this is the first run.
     const std::optional<LastRun>& before() const { return before_; }
     std::int64_t run() const { return run_; }
 
     /// Older entries than these go when a run begins.
     static constexpr std::int64_t most_entries = 1'000'000;
+    /// The newest entries, whose chain is checked when a run begins: a tenth of a second. check() reads all.
+    static constexpr std::int64_t checked_at_start = 20'000;
     /// More than these waiting are refused: the disk does not follow.
     static constexpr std::size_t most_waiting = 100'000;
 
@@ -87,22 +108,33 @@ class Journal {
         Entry entry;
         Done done;
     };
-    Journal(std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
+    Journal(std::string path, std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer,
+            std::unique_ptr<Database> reader);
     Result<void> begin();
+    void read_last_run();
+    void read_kept(LastRun& last);
     void work();
     bool end_work();
+    void failed(const std::string& what);
     Result<void> store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept);
 
+    std::string path_;
     std::unique_ptr<FileLock> lock_;
+    std::unique_ptr<FileWatch> files_;
     std::unique_ptr<Database> writer_, reader_;
     std::int64_t run_ = 0;
+    std::int64_t last_number_ = 0;  ///< of the newest entry, with its link in the chain
+    std::string last_link_;
+    std::map<std::string, std::string> seals_;  ///< of all that is kept
     std::optional<LastRun> before_;
     mutable std::mutex reading_;
-    std::mutex alone_;
+    mutable std::mutex alone_;
     std::condition_variable news_;
     std::vector<Waiting> waiting_;
     std::map<std::string, std::string> keeping_;
     bool quit_ = false;
+    std::string failure_;
+    std::atomic<bool> has_failed_{false};
     std::thread thread_;
 };
 

@@ -175,38 +175,67 @@ void Logbook::keep(const Status& status) {
                                  .dump());
 }
 
+namespace {
+
+/// What the last run kept of the machine; empty where it kept nothing that can be read.
+json kept_of(const journal::LastRun& last) {
+    const auto found = last.kept.find(kept_key);
+    json kept = json::parse(found == last.kept.end() ? "{}" : found->second, nullptr, false);
+    return kept.is_object() ? kept : json::object();
+}
+
+/// "; the machine's state was 'moving', 'part.ngc' ran and was at line 12, near X 3.000".
+std::string at_the_end(const json& kept, const std::string& where) {
+    const auto text = [&](const char* key) {
+        return kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>() : std::string();
+    };
+    const std::string program = text("program"), state = text("state");
+    const double line = kept.contains("line") && kept["line"].is_number() ? kept["line"].get<double>() : 0;
+    return fmt::format("{}{}{}", state.empty() ? "" : fmt::format("; the machine's state was '{}'", state),
+                       program.empty() ? "" : fmt::format(", '{}' ran and was at line {}", program, line),
+                       where.empty() ? "" : fmt::format(", near {}", where));
+}
+
+std::vector<Standing> standings_of(const json& kept, const rack::RackConfig& config, bool trusted) {
+    std::vector<Standing> out;
+    if (!kept.contains("axes") || !kept["axes"].is_array()) return out;
+    for (const json& one : kept["axes"]) {
+        if (!one.is_object() || one.value("letter", json()).type() != json::value_t::string) continue;
+        const std::string letter = one["letter"];
+        const rack::RackAxis* axis = letter.size() == 1 ? config.axis(letter[0]) : nullptr;
+        const json place = one.value("place", json()), commanded = one.value("commanded", json());
+        if (axis == nullptr || !place.is_number() || !commanded.is_number()) continue;
+        out.push_back({letter[0], place, commanded, trusted && one.value("trusted", json()) == true});
+    }
+    return out;
+}
+
+}  // namespace
+
 LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config) {
     LastStanding out;
-    const auto found = last.kept.find(kept_key);
-    const json kept = json::parse(found == last.kept.end() ? "{}" : found->second, nullptr, false);
-    const auto text = [&](const char* key) {
-        return kept.is_object() && kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>()
-                                                                               : std::string();
-    };
+    const json kept = kept_of(last);
+    std::vector<std::string> doubts = last.doubts;
+    if (last.clean && doubts.empty() && kept.empty()) doubts.push_back("it does not say where the machine stood");
+    const bool trusted = last.clean && doubts.empty();
+    out.axes = standings_of(kept, config, trusted);
     std::string where;
-    if (kept.is_object() && kept.contains("axes") && kept["axes"].is_array()) {
-        for (const json& one : kept["axes"]) {
-            if (!one.is_object() || one.value("letter", json()).type() != json::value_t::string) continue;
-            const std::string letter = one["letter"];
-            const rack::RackAxis* axis = letter.size() == 1 ? config.axis(letter[0]) : nullptr;
-            const json place = one.value("place", json()), commanded = one.value("commanded", json());
-            if (axis == nullptr || !place.is_number() || !commanded.is_number()) continue;
-            const Standing standing{letter[0], place, commanded, last.clean && one.value("trusted", json()) == true};
-            where += fmt::format("{}{} {:.3f}", where.empty() ? "" : ", ", letter, standing.commanded);
-            out.axes.push_back(standing);
-        }
-    }
-    if (last.clean) return out;
-    const std::string program = text("program"), state = text("state");
-    const double line =
-        kept.is_object() && kept.contains("line") && kept["line"].is_number() ? kept["line"].get<double>() : 0;
-    out.sentence = fmt::format(
-        "The run before this one was cut off ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}{}{}. No position is trusted: "
-        "home the machine, or declare where it stands.",
-        fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)),
-        state.empty() ? "" : fmt::format("; the machine's state was '{}'", state),
-        program.empty() ? "" : fmt::format(", '{}' ran and was at line {}", program, line),
-        where.empty() ? "" : fmt::format(", near {}", where));
+    for (const Standing& one : out.axes)
+        where += fmt::format("{}{} {:.3f}", where.empty() ? "" : ", ", one.letter, one.commanded);
+    // An axis without a record may have moved, too.
+    for (const rack::RackAxis& axis : config.axes)
+        if (!trusted && std::none_of(out.axes.begin(), out.axes.end(),
+                                     [&](const Standing& one) { return one.letter == axis.letter; }))
+            out.axes.push_back({axis.letter, axis.start_position, axis.start_position, false});
+    const auto say = [&](const std::string& sentence) {
+        out.sentence += fmt::format("{}{}", out.sentence.empty() ? "" : " ", sentence);
+    };
+    if (!last.clean)
+        say(fmt::format("The run before this one was cut off ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
+                        fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
+    for (const std::string& doubt : doubts) say(fmt::format("The journal is not to be trusted: {}.", doubt));
+    if (!trusted) say("No position is trusted: home the machine, or declare where it stands.");
+    if (!last.damage.empty()) say(last.damage);
     return out;
 }
 

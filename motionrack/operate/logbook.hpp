@@ -59,9 +59,11 @@ class Logbook {
 
 struct LastStanding {
     std::vector<Standing> axes;  ///< those that this rack has and that stood where they may
-    std::string sentence;        ///< how it ended, if it was cut off; empty: it ended by itself
+    /// How it ended, if it was cut off, and what is wrong with the journal; empty: it ended by itself, and all is well.
+    std::string sentence;
 };
-/// Nothing is trusted after a run that was cut off. What the journal has no record of is left out.
+/// Nothing is trusted after a run that was cut off, and nothing that does not fit its checksum. Axes without a record
+/// are left out where the rest is trusted.
 LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config);
 
 }  // namespace motionrack::operate

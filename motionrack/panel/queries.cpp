@@ -107,6 +107,16 @@ void journal_of(Desk& desk, const json& fields, Ready ready) {
         std::move(ready));
 }
 
+void journal_check(Desk& desk, const Ready& ready) {
+    if (desk.settings.journal == nullptr) return ready(fail(Trouble::refused, "No journal is kept."));
+    desk.aside(
+        [book = desk.settings.journal]() -> Result<json> {
+            MOTIONRACK_TRY(const journal::ChainCheck check, book->check());
+            return json{{"whole", check.problem.empty()}, {"entries", check.entries}, {"problem", check.problem}};
+        },
+        ready);
+}
+
 Result<json> control_of(Desk& desk) {
     const auto holder = desk.lease.holder();
     if (!holder) return json{{"holder", nullptr}};
@@ -143,6 +153,8 @@ constexpr std::array looking = {
     Doer{
         "journal", nullptr,
         [](Desk& desk, const Caller&, const json& fields, Ready ready) { journal_of(desk, fields, std::move(ready)); }},
+    Doer{"journal_check", nullptr,
+         [](Desk& desk, const Caller&, const json&, Ready ready) { journal_check(desk, ready); }},
     Doer{"program",
          [](Desk& desk, const Caller&, const json&) -> Result<json> {
              return json{{"name", desk.machine.status().program}, {"text", desk.program}};

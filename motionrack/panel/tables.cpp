@@ -112,7 +112,7 @@ constexpr std::array event_fields = {integer("since", 0, 9e15, "number of the la
                                      integer("limit", 1, 1000, "the newest ones; 200", false)};
 constexpr std::array journal_fields = {
     integer("since", 0, 9e15, "number of the last entry that is known", false),
-    text("kind", 32, "only these: run, job, order, stop, state, alarm, position, setting", false),
+    text("kind", 32, "only these: run, job, order, stop, state, alarm, position, setting, audit", false),
     integer("limit", 1, 10'000, "the newest ones; 100", false)};
 constexpr std::array invite_fields = {choice("role", "observe|operate|maintain", "what the code lets in to")};
 constexpr std::array unpair_fields = {text("user", 64, "whose tokens are void from now on")};
@@ -212,6 +212,12 @@ constexpr std::array query_rows = {
            "state, channels, trigger, mode, capture"},
     AskRow{"events", Role::observe, false, event_fields, "What happened since the start.", "events"},
     AskRow{"journal", Role::observe, false, journal_fields, "What happened, over all runs.", "journal"},
+    AskRow{"journal_check",
+           Role::observe,
+           false,
+           {},
+           "Reads the whole journal, and tells whether all entries are as they were written.",
+           "whole, entries, problem (the first entry that was changed or removed)"},
     AskRow{"program", Role::observe, false, {}, "The program that was begun last.", "name, text"},
     AskRow{"homing", Role::observe, false, {}, "How the last homing went.", "homing: the report of each axis, or null"},
     AskRow{"control", Role::observe, false, {}, "Who controls the machine.", "holder, since, holder_session"},

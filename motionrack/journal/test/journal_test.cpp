@@ -6,57 +6,18 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
 #include <fstream>
-#include <future>
 #include <motionrack/journal/journal.hpp>
 #include <random>
 #include <tests/environment.hpp>
 #include <thread>
 
+#include "journal_file.hpp"
+
 namespace motionrack::journal {
 namespace {
 
 namespace fs = std::filesystem;
-
-class AJournal : public testing::Test {
-  protected:
-    AJournal() : path_((fs::path(testing::TempDir()) / ("journal_" + std::to_string(::getpid()) + ".db")).string()) {
-        remove();
-    }
-    ~AJournal() override { remove(); }
-    void remove() const {
-        for (const char* end : {"", "-wal", "-shm", ".lock"}) fs::remove(path_ + end);
-    }
-    std::unique_ptr<Journal> open() const {
-        Result<std::unique_ptr<Journal>> journal = Journal::open(path_);
-        EXPECT_TRUE(journal) << journal.error().message;
-        return journal ? std::move(*journal) : nullptr;
-    }
-    /// Waits until it is on disk.
-    static std::int64_t write(Journal& journal, std::string kind, std::string text) {
-        std::promise<std::int64_t> number;
-        journal.write(Instant{7}, std::move(kind), std::move(text), "{}",
-                      [&](const Result<std::int64_t>& done) { number.set_value(done ? *done : -1); });
-        return number.get_future().get();
-    }
-
-    /// As another program sees the file.
-    std::map<std::int64_t, std::string> all_entries() const {
-        std::map<std::int64_t, std::string> out;
-        sqlite3* file = nullptr;
-        EXPECT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
-        const auto take = [](void* into, int, char** values, char**) {
-            (*static_cast<std::map<std::int64_t, std::string>*>(into))[std::stoll(values[0])] = values[1];
-            return 0;
-        };
-        EXPECT_EQ(sqlite3_exec(file, "SELECT number, text FROM entry", take, &out, nullptr), SQLITE_OK);
-        sqlite3_close(file);
-        return out;
-    }
-
-    std::string path_;
-};
 
 TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
     auto journal = open();

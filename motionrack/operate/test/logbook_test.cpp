@@ -214,10 +214,26 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
                              "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"place\": 1, "
                              "\"commanded\": 1}, {\"letter\": \"Q\", \"place\": 1, \"commanded\": 1}]}",
                              "{\"line\": \"x\", \"state\": 4"}) {
-        const LastStanding last = read_last({1, false, 0, {{"machine", kept}}}, table());
-        EXPECT_TRUE(last.axes.empty()) << kept;
+        const LastStanding last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
+        ASSERT_EQ(last.axes.size(), table().axes.size()) << kept;
+        for (const Standing& one : last.axes) EXPECT_FALSE(one.trusted) << kept;
         EXPECT_THAT(last.sentence, HasSubstr("cut off")) << kept;
     }
+}
+
+TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
+    const std::string kept = R"({"axes": [{"letter": "X", "place": 5, "commanded": 5, "trusted": true}]})";
+    EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].trusted);
+    const LastStanding last = read_last({1, true, 0, {{"machine", kept}}, {"its end does not fit"}, {}}, table());
+    EXPECT_FALSE(last.axes[0].trusted);
+    EXPECT_THAT(last.sentence, HasSubstr("The journal is not to be trusted: its end does not fit. No position is"));
+    const LastStanding none = read_last({1, true, 0, {}, {}, {}}, table());
+    ASSERT_FALSE(none.axes.empty());
+    EXPECT_FALSE(none.axes[0].trusted) << "without a record it may stand anywhere";
+    EXPECT_THAT(none.sentence, HasSubstr("does not say where the machine stood"));
+    const LastStanding changed = read_last({1, true, 0, {{"machine", kept}}, {}, "Entry 3 was changed."}, table());
+    EXPECT_TRUE(changed.axes[0].trusted);
+    EXPECT_EQ(changed.sentence, "Entry 3 was changed.");
 }
 
 }  // namespace

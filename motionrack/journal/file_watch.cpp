@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <motionrack/journal/file_watch.hpp>
+
+namespace motionrack::journal {
+
+void FileWatch::add(const std::string& path) {
+    struct stat seen {};
+    if (::stat(path.c_str(), &seen) == 0) files_.push_back({path, seen.st_dev, seen.st_ino, seen.st_size});
+}
+
+Result<void> FileWatch::check() {
+    for (Watched& one : files_) {
+        struct stat seen {};
+        const auto gone = [&](const std::string& what) {
+            return fail(Trouble::io, fmt::format("is lost: the file '{}' {}", one.path, what));
+        };
+        if (::stat(one.path.c_str(), &seen) != 0)
+            return gone(errno == ENOENT ? "was deleted while it was in use"
+                                        : fmt::format("cannot be looked at: {}", std::strerror(errno)));
+        if (seen.st_dev != one.device || seen.st_ino != one.inode) return gone("was replaced while it was in use");
+        if (seen.st_size < one.size)
+            return gone(fmt::format("was cut from {} to {} bytes while it was in use", one.size, seen.st_size));
+        one.size = seen.st_size;
+    }
+    return {};
+}
+
+}  // namespace motionrack::journal

@@ -1,0 +1,183 @@
+// Making, upgrading and checking the tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/journal/seal.hpp>
+#include <motionrack/journal/tables.hpp>
+
+namespace motionrack::journal {
+
+namespace {
+
+constexpr std::int64_t version = 2;
+constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": tells a journal from other files of SQLite
+
+constexpr const char* tables = R"(
+    CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER,
+                      seal TEXT NOT NULL DEFAULT '');
+    CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
+                        at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL,
+                        link TEXT NOT NULL DEFAULT '');
+    CREATE INDEX entry_kind ON entry (kind, number);
+    CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
+                       seal TEXT NOT NULL DEFAULT '') WITHOUT ROWID;
+    CREATE TABLE chain (name TEXT PRIMARY KEY, number INTEGER NOT NULL, link TEXT NOT NULL) WITHOUT ROWID;
+)";
+
+/// Version 1 had neither seals nor links. What it kept is not sealed now: nothing vouches for it.
+constexpr const char* from_version_1 = R"(
+    ALTER TABLE run ADD COLUMN seal TEXT NOT NULL DEFAULT '';
+    ALTER TABLE entry ADD COLUMN link TEXT NOT NULL DEFAULT '';
+    ALTER TABLE kept ADD COLUMN seal TEXT NOT NULL DEFAULT '';
+    CREATE TABLE chain (name TEXT PRIMARY KEY, number INTEGER NOT NULL, link TEXT NOT NULL) WITHOUT ROWID;
+)";
+
+constexpr const char* all_entries =
+    "SELECT number, run, utc_ms, at, kind, text, data, link FROM entry WHERE number > ?1 ORDER BY number";
+
+Entry entry_of(const Statement& row) {
+    return {row.number(0), row.number(1), row.number(2), Instant{row.number(3)}, row.text(4), row.text(5), row.text(6)};
+}
+
+/// Inside a transaction: the links of entries that have none.
+Result<void> link_entries(const Database& database) {
+    Statement rows(database.get(), all_entries);
+    rows.bind(1, 0);
+    Statement set(database.get(), "UPDATE entry SET link = ?1 WHERE number = ?2");
+    ChainEnd head;
+    while (rows.row()) {
+        const Entry entry = entry_of(rows);
+        if (head.number == 0) MOTIONRACK_CHECK(set_chain_end(database, "base", {entry.number - 1, ""}));
+        head = {entry.number, link_of(head.link, entry)};
+        set.bind(1, head.link).bind(2, head.number);
+        (void)set.row();
+        if (!set.ok()) return fail(Trouble::io, database.what());
+        set.again();
+    }
+    if (!rows.ok()) return fail(Trouble::io, database.what());
+    return head.number == 0 ? Result<void>() : set_chain_end(database, "head", head);
+}
+
+Result<void> upgrade(const Database& database) {
+    MOTIONRACK_CHECK(database.run("BEGIN IMMEDIATE"));
+    Result<void> done = database.run(from_version_1);
+    if (done) done = link_entries(database);
+    if (done) done = database.run(fmt::format("PRAGMA user_version = {}; COMMIT", version).c_str());
+    if (!done) (void)database.run("ROLLBACK");
+    return done;
+}
+
+/// Structure of the file: pages, records, order of rows.
+Result<void> quick_check(const Database& database, const std::string& path) {
+    Statement check(database.get(), "PRAGMA quick_check(1)");
+    const std::string found = check.row() ? check.text(0) : database.what();
+    if (found == "ok") return {};
+    return fail(
+        Trouble::io,
+        fmt::format("The journal '{}' is damaged: {}. Nothing was started. Keep the file for whoever looks into "
+                    "the damage, name another one, and home the machine.",
+                    path, found));
+}
+
+ChainEnd chain_end(const Database& database, const char* name) {
+    Statement end(database.get(), "SELECT number, link FROM chain WHERE name = ?1");
+    end.bind(1, name);
+    return end.row() ? ChainEnd{end.number(0), end.text(1)} : ChainEnd{};
+}
+
+}  // namespace
+
+Result<void> prepare_tables(const Database& database, const std::string& path) {
+    // Before anything is written: a file that was removed does not come back after a power cut either.
+    MOTIONRACK_CHECK(database.run("PRAGMA synchronous = EXTRA"));
+    const std::int64_t id = database.number("PRAGMA application_id");
+    if (id == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0) {
+        MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
+        const std::string all = fmt::format(
+            "BEGIN IMMEDIATE; {} PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT;", tables, mark, version);
+        return database.run(all.c_str());
+    }
+    if (id != mark)
+        return fail(
+            Trouble::io,
+            fmt::format("'{}' is a file of SQLite, but no journal. It was left as it is; name another file.", path));
+    MOTIONRACK_CHECK(quick_check(database, path));
+    MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
+    const std::int64_t seen = database.number("PRAGMA user_version");
+    if (seen == 1) return upgrade(database);
+    if (seen != version)
+        return fail(Trouble::io, fmt::format("The journal '{}' has version {}; this program knows versions up to {}. "
+                                             "It was left as it is; name another file.",
+                                             path, seen, version));
+    return {};
+}
+
+ChainEnd chain_head(const Database& database) {
+    ChainEnd head = chain_end(database, "head");
+    // Numbers are never used twice, even where entries were taken away.
+    head.number = std::max({head.number, database.number("SELECT max(number) FROM entry"),
+                            database.number("SELECT seq FROM sqlite_sequence WHERE name = 'entry'")});
+    return head;
+}
+
+Result<void> set_chain_end(const Database& database, const char* name, const ChainEnd& end) {
+    Statement set(database.get(), "INSERT OR REPLACE INTO chain (name, number, link) VALUES (?1, ?2, ?3)");
+    set.bind(1, name).bind(2, end.number).bind(3, end.link);
+    (void)set.row();
+    return set.ok() ? Result<void>() : fail(Trouble::io, database.what());
+}
+
+Result<void> remove_old_entries(const Database& database, std::int64_t kept) {
+    const std::int64_t last = database.number("SELECT max(number) FROM entry") - kept;
+    Statement found(database.get(), "SELECT number, link FROM entry WHERE number = ?1");
+    found.bind(1, last);
+    if (!found.row()) return {};
+    MOTIONRACK_CHECK(set_chain_end(database, "base", {found.number(0), found.text(1)}));
+    return database.run(fmt::format("DELETE FROM entry WHERE number <= {}", last).c_str());
+}
+
+namespace {
+
+/// Where the check of so many entries begins: the entry before them, or the chain's base.
+ChainEnd before_newest(const Database& database, std::int64_t last, std::int64_t newest) {
+    Statement found(database.get(), "SELECT number, link FROM entry WHERE number <= ?1 ORDER BY number DESC LIMIT 1");
+    found.bind(1, last - newest);
+    if (newest > 0 && found.row()) return {found.number(0), found.text(1)};
+    return chain_end(database, "base");
+}
+
+}  // namespace
+
+Result<ChainCheck> check_chain(const Database& database, std::int64_t newest) {
+    ChainCheck out;
+    MOTIONRACK_CHECK(database.run("BEGIN"));  // one state of the file, whatever is written meanwhile
+    const ChainEnd head = chain_end(database, "head"), base = before_newest(database, head.number, newest);
+    Statement rows(database.get(), all_entries);
+    rows.bind(1, newest > 0 ? base.number : 0);
+    std::int64_t before = base.number;
+    std::string link = base.link;
+    const auto broken = [&](const std::string& what) {
+        if (out.problem.empty()) out.problem = what;
+    };
+    for (; rows.row(); ++out.entries) {
+        const Entry entry = entry_of(rows);
+        const std::string stored = rows.text(7);
+        if (entry.number != before + 1)
+            broken(fmt::format("entries {} to {} were removed", before + 1, entry.number - 1));
+        else if (link_of(link, entry) != stored)
+            broken(fmt::format("entry {} was changed after it was written", entry.number));
+        before = entry.number;
+        link = stored;
+    }
+    const bool whole = rows.ok();
+    if (before < head.number)
+        broken(fmt::format("entries {} to {} were removed", before + 1, head.number));
+    else if (before != head.number || link != head.link)
+        broken(fmt::format("entry {} is not the one that was written last", before));
+    const std::string why = whole ? std::string() : database.what();
+    (void)database.run("COMMIT");
+    if (!whole) return fail(Trouble::io, fmt::format("The journal cannot be read: {}.", why));
+    return out;
+}
+
+}  // namespace motionrack::journal

@@ -1,0 +1,188 @@
+// What a journal notices of damage and of changes by hand.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <motionrack/journal/seal.hpp>
+
+#include "journal_file.hpp"
+
+namespace motionrack::journal {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class ADamagedJournal : public AJournal {
+  protected:
+    /// A run that ended by itself, with three entries and where the machine stood.
+    void make() {
+        remove();
+        auto journal = open();
+        for (const char* text : {"one", "two", "three"}) write(*journal, "audit", text);
+        journal->keep("machine", "X 12.5");
+        ASSERT_TRUE(journal->close());
+    }
+    /// What the next run makes of it.
+    LastRun next() const {
+        auto journal = open();
+        return journal && journal->before() ? *journal->before() : LastRun{};
+    }
+};
+
+TEST_F(ADamagedJournal, ThatIsWholeIsTrusted) {
+    make();
+    const LastRun last = next();
+    EXPECT_TRUE(last.clean);
+    EXPECT_THAT(last.doubts, IsEmpty());
+    EXPECT_EQ(last.damage, "");
+    EXPECT_EQ(last.kept.at("machine"), "X 12.5");
+}
+
+TEST_F(ADamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
+    for (const char* change_it :
+         {"UPDATE kept SET value = 'X 62.5'", "UPDATE kept SET run = 2", "UPDATE kept SET utc_ms = utc_ms + 1",
+          "UPDATE kept SET key = 'machine ', seal = seal", "UPDATE kept SET seal = ''"}) {
+        make();
+        change(change_it);
+        const LastRun last = next();
+        EXPECT_THAT(last.doubts, Contains(HasSubstr("does not fit its checksum"))) << change_it;
+        EXPECT_EQ(last.kept.count("machine"), 0u) << change_it;
+    }
+}
+
+TEST_F(ADamagedJournal, DoesNotTrustAnEndThatChanged) {
+    make();
+    change("UPDATE run SET ended_ms = ended_ms + 1");
+    EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"));
+    remove();
+    write(*open(), "job", "cut off");
+    change("UPDATE run SET ended_ms = 1");
+    EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"))
+        << "a run that was cut off does not become one that ended by itself";
+}
+
+TEST_F(ADamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
+    auto journal = open();
+    journal->keep("machine", "X 12.5");
+    write(*journal, "state", "stands");
+    change("CREATE TABLE older AS SELECT * FROM kept");
+    journal->keep("machine", "X 62.5");
+    ASSERT_TRUE(journal->close());
+    journal.reset();
+    change("DELETE FROM kept; INSERT INTO kept SELECT * FROM older; DROP TABLE older");
+    EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"));
+}
+
+TEST_F(ADamagedJournal, DoesNotTakeWhatAnOlderRunKeptForTheLastOne) {
+    make();
+    ASSERT_TRUE(open()->close());
+    EXPECT_THAT(next().doubts, ElementsAre("what it keeps of 'machine' is of run 1, not of the last one, 2"));
+}
+
+TEST_F(ADamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
+    const std::pair<const char*, const char*> changes[] = {
+        {"UPDATE entry SET text = 'tow' WHERE number = 2", "entry 2 was changed"},
+        {"UPDATE entry SET at = at + 1 WHERE number = 1", "entry 1 was changed"},
+        {"UPDATE entry SET kind = 'order' WHERE number = 3", "entry 3 was changed"},
+        {"UPDATE entry SET text = text || data, data = '' WHERE number = 3", "entry 3 was changed"},
+        {"DELETE FROM entry WHERE number = 2", "entries 2 to 2 were removed"},
+        {"DELETE FROM entry WHERE number = 1", "entries 1 to 1 were removed"},
+        {"DELETE FROM entry WHERE number > 1", "entries 2 to 3 were removed"},
+        {"DELETE FROM entry", "entries 1 to 3 were removed"},
+        {"UPDATE chain SET link = 'abc' WHERE name = 'head'", "entry 3 is not the one that was written last"},
+        {"DELETE FROM chain", "entry 3 is not the one that was written last"},
+    };
+    for (const auto& [sql, told] : changes) {
+        make();
+        change(sql);
+        EXPECT_THAT(next().damage, HasSubstr(told)) << sql;
+        EXPECT_THAT(next().damage, HasSubstr(told)) << sql << ": it stays noticed";
+        const auto journal = open();
+        EXPECT_EQ(write(*journal, "job", "goes on"), 4) << sql << ": numbers are not used twice";
+        const Result<ChainCheck> check = journal->check();
+        ASSERT_TRUE(check);
+        EXPECT_NE(check->problem, "") << sql;
+    }
+}
+
+TEST_F(ADamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllWhenAsked) {
+    {
+        const auto journal = open();
+        for (std::int64_t i = 0; i < Journal::checked_at_start + 10; ++i) journal->write(Instant{i}, "order", "o");
+        write(*journal, "order", "the last");
+        ASSERT_TRUE(journal->close());
+    }
+    change("UPDATE entry SET text = 'p' WHERE number = 3");
+    const auto journal = open();
+    EXPECT_EQ(journal->before()->damage, "");
+    EXPECT_THAT(journal->check()->problem, HasSubstr("entry 3 was changed"));
+}
+
+TEST_F(ADamagedJournal, ChecksTheChainWhileItIsWritten) {
+    const auto journal = open();
+    for (int i = 1; i <= 200; ++i) {
+        journal->write(Instant{i}, "audit", "entry");
+        if (i % 20 != 0) continue;
+        const Result<ChainCheck> check = journal->check();
+        ASSERT_TRUE(check) << check.error().message;
+        EXPECT_EQ(check->problem, "");
+    }
+    write(*journal, "audit", "the last");
+    EXPECT_EQ(journal->check()->entries, 201);
+}
+
+TEST_F(ADamagedJournal, IsRefusedWhereItsStructureIsBroken) {
+    make();
+    change("PRAGMA wal_checkpoint(TRUNCATE)");
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(0, std::ios::end);
+    const std::streamoff pages = file.tellp() / 4096;
+    ASSERT_GE(pages, 4);
+    for (std::streamoff page = 1; page < pages; ++page) {
+        file.seekp(page * 4096 + 3);
+        file.write("\xff\xff\xff\xff", 4);
+    }
+    file.close();
+    const auto refused = Journal::open(path_);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("Nothing was started. Keep the file"));
+}
+
+TEST_F(ADamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
+    change(R"(
+        CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
+        CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
+                            at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
+        CREATE INDEX entry_kind ON entry (kind, number);
+        CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL,
+                           utc_ms INTEGER NOT NULL) WITHOUT ROWID;
+        INSERT INTO run VALUES (1, 10, 20);
+        INSERT INTO entry VALUES (7, 1, 11, 5, 'job', 'began', '{}'), (8, 1, 12, 6, 'job', 'ended', '{}');
+        INSERT INTO kept VALUES ('machine', 'X 3', 1, 13);
+        PRAGMA application_id = 1296716366; PRAGMA user_version = 1;)");
+    {
+        auto journal = open();
+        ASSERT_TRUE(journal->before());
+        EXPECT_EQ(journal->before()->doubts.size(), 2u);
+        EXPECT_EQ(journal->before()->damage, "");
+        EXPECT_EQ(journal->read({})->size(), 2u);
+        EXPECT_EQ(write(*journal, "job", "goes on"), 9);
+        EXPECT_EQ(journal->check()->problem, "");
+        journal->keep("machine", "X 4");
+        ASSERT_TRUE(journal->close());
+    }
+    EXPECT_THAT(next().doubts, IsEmpty());
+    change("UPDATE entry SET text = 'begun' WHERE number = 7");
+    EXPECT_THAT(next().damage, HasSubstr("entry 7 was changed"));
+}
+
+TEST(ASeal, KeepsFieldsApart) {
+    EXPECT_NE(Seal().add("ab").add("c").text(), Seal().add("a").add("bc").text());
+    EXPECT_NE(Seal().add("").add("a").text(), Seal().add("a").add("").text());
+    EXPECT_EQ(Seal().add(std::int64_t{12}).text(), Seal().add("12").text());
+}
+
+}  // namespace
+}  // namespace motionrack::journal

@@ -1,0 +1,92 @@
+// What a journal does where the disk fails under it: it says so once and for all, and never ends clean.
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "journal_file.hpp"
+
+namespace motionrack::journal {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class AJournalOnABadDisk : public AJournal {
+  protected:
+    /// Until the journal has noticed; the end of a test that fails is its time limit.
+    static std::string failure_of(const Journal& journal) {
+        while (journal.failure().empty()) std::this_thread::yield();
+        return journal.failure();
+    }
+    /// The run has no clean end, which the next one sees.
+    void expect_no_clean_end(std::unique_ptr<Journal> journal) const {
+        const Result<void> closed = journal->close();
+        ASSERT_FALSE(closed);
+        EXPECT_THAT(closed.error().message, HasSubstr("the next start will trust no position"));
+        journal.reset();
+        const auto next = open();
+        ASSERT_TRUE(next);
+        ASSERT_TRUE(next->before());
+        EXPECT_FALSE(next->before()->clean);
+    }
+};
+
+TEST_F(AJournalOnABadDisk, ThatIsFullSaysSoAndHasNoCleanEnd) {
+    auto journal = open();
+    journal->keep("machine", "X 7");
+    EXPECT_EQ(write(*journal, "state", "fits"), 1);
+    EXPECT_THAT(journal->failure(), IsEmpty());
+    struct rlimit before {};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto old = ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{8192, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    journal->keep("machine", "X 62");
+    EXPECT_EQ(write(*journal, "state", std::string(100'000, 'x')), -1);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    ::signal(SIGXFSZ, old);
+    EXPECT_THAT(journal->failure(), HasSubstr("could not be written"));
+    EXPECT_GT(write(*journal, "state", "the disk takes it again"), 1);
+    EXPECT_THAT(journal->failure(), HasSubstr("could not be written")) << "it stays known";
+    expect_no_clean_end(std::move(journal));
+    EXPECT_EQ(all_entries().size(), 2u);
+}
+
+TEST_F(AJournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
+    const auto copy_over = [this](const char* end) {
+        fs::copy_file(path_ + end, path_ + ".copy");
+        fs::rename(path_ + ".copy", path_ + end);
+    };
+    const std::pair<std::function<void()>, const char*> changes[] = {
+        {[&] { fs::remove(path_); }, "was deleted"},           {[&] { fs::remove(path_ + "-wal"); }, "was deleted"},
+        {[&] { fs::remove(path_ + ".lock"); }, "was deleted"}, {[&] { copy_over(""); }, "was replaced"},
+        {[&] { copy_over("-wal"); }, "was replaced"},          {[&] { fs::resize_file(path_, 0); }, "was cut"},
+    };
+    for (const auto& [change_it, told] : changes) {
+        remove();
+        auto journal = open();
+        EXPECT_EQ(write(*journal, "state", "there"), 1);
+        change_it();
+        EXPECT_THAT(failure_of(*journal), HasSubstr(told));
+        EXPECT_EQ(write(*journal, "state", "not there"), -1) << told << ": nothing is acknowledged that is lost";
+        EXPECT_FALSE(journal->close()) << told;
+    }
+}
+
+TEST_F(AJournalOnABadDisk, FailsWhereTooManyEntriesWait) {
+    auto journal = open();
+    sqlite3* other = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+    for (std::size_t i = 0; journal->failure().empty() && i < 3 * Journal::most_waiting; ++i)
+        journal->write(Instant{}, "state", "waits");
+    EXPECT_THAT(journal->failure(), HasSubstr("100000 entries wait for the disk"));
+    sqlite3_close(other);
+    expect_no_clean_end(std::move(journal));
+}
+
+}  // namespace
+}  // namespace motionrack::journal

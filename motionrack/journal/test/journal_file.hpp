@@ -1,0 +1,65 @@
+// A journal in a file of its own, and other hands on that file.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <future>
+#include <map>
+#include <memory>
+#include <motionrack/journal/journal.hpp>
+#include <string>
+
+namespace motionrack::journal {
+
+class AJournal : public testing::Test {
+  protected:
+    AJournal()
+        : path_((std::filesystem::path(testing::TempDir()) / ("journal_" + std::to_string(::getpid()) + ".db"))
+                    .string()) {
+        remove();
+    }
+    ~AJournal() override { remove(); }
+    void remove() const {
+        for (const char* end : {"", "-journal", "-wal", "-shm", ".lock"}) std::filesystem::remove(path_ + end);
+    }
+    std::unique_ptr<Journal> open() const {
+        Result<std::unique_ptr<Journal>> journal = Journal::open(path_);
+        EXPECT_TRUE(journal) << journal.error().message;
+        return journal ? std::move(*journal) : nullptr;
+    }
+    /// Waits until it is on disk.
+    static std::int64_t write(Journal& journal, std::string kind, std::string text) {
+        std::promise<std::int64_t> number;
+        journal.write(Instant{7}, std::move(kind), std::move(text), "{}",
+                      [&](const Result<std::int64_t>& done) { number.set_value(done ? *done : -1); });
+        return number.get_future().get();
+    }
+
+    /// As another program would change the file.
+    void change(const char* sql) const {
+        sqlite3* file = nullptr;
+        ASSERT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
+        EXPECT_EQ(sqlite3_exec(file, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(file);
+        sqlite3_close(file);
+    }
+    /// As another program sees the file.
+    std::map<std::int64_t, std::string> all_entries() const {
+        std::map<std::int64_t, std::string> out;
+        sqlite3* file = nullptr;
+        EXPECT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
+        const auto take = [](void* into, int, char** values, char**) {
+            (*static_cast<std::map<std::int64_t, std::string>*>(into))[std::stoll(values[0])] = values[1];
+            return 0;
+        };
+        EXPECT_EQ(sqlite3_exec(file, "SELECT number, text FROM entry", take, &out, nullptr), SQLITE_OK);
+        sqlite3_close(file);
+        return out;
+    }
+
+    std::string path_;
+};
+
+}  // namespace motionrack::journal
