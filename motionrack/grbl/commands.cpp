@@ -178,7 +178,7 @@ void Session::declare_positions() {
 }
 
 int Session::home() {
-    if (!machine_.can_home()) return error_no_homing;
+    if (!operate::can_home(machine_.rack().config())) return error_no_homing;
     if (!control()) return error_locked;
     (void)machine_.enable(true);
     if (const Result<void> begun = machine_.home(""); !begun) {

@@ -8,7 +8,7 @@
 namespace motionrack::operate {
 
 Result<void> Machine::set_work_zero(char axis, double value) {
-    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named("The work zero was not set", axis));
+    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work zero was not set", axis));
     if (!std::isfinite(value)) return fail(Trouble::bad_input, "The work zero was not set: the value is not a number.");
     if (stream_->has_work())
         return fail(Trouble::refused,

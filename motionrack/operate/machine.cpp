@@ -111,8 +111,8 @@ Result<void> Machine::ready(const char* what) {
     return {};
 }
 
-Result<const rack::RackAxis*> Machine::axis_named(const char* what, char letter) const {
-    if (const rack::RackAxis* axis = rack_.config().axis(letter)) return axis;
+Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter) {
+    if (const rack::RackAxis* axis = config.axis(letter)) return axis;
     return fail(Trouble::bad_input, fmt::format("{}: the machine has no axis {}.", what, letter));
 }
 
@@ -142,7 +142,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
 
 Result<void> Machine::enable(bool on, std::string_view axes) {
     for (const char letter : axes)
-        MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
+        MOTIONRACK_CHECK(axis_named(rack_.config(), on ? "Nothing was enabled" : "Nothing was disabled", letter));
     if (!on) cancel({"", "", "Disabling"});
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
@@ -155,6 +155,7 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
 }
 
 Result<void> Machine::begin_program(std::string text, std::string name) {
+    MOTIONRACK_CHECK(may_start("The program was not begun"));
     MOTIONRACK_CHECK(ready_for_lines("The program was not begun"));
     stream_->forget_modes();
     const control::gcode::Check check = control::gcode::check_program(text, stream_->fresh_settings(), 1, name);
@@ -179,6 +180,7 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
     };
     if (Result<void> can = not_stopped(rack_.stop_latch(), "The line was not taken"); !can)
         return refuse(can.error().message);
+    if (Result<void> can = may_start("The line was not taken"); !can) return refuse(can.error().message);
     if (program_runs_) return refuse("The line was not taken: a program runs. Stop it or wait for its end.");
     if (!has_room()) return refuse("The line was not taken: there is no room for it until others are driven.");
     if (state_ != MachineState::moving && state_ != MachineState::hold)
@@ -203,6 +205,7 @@ Result<void> Machine::resume() {
         return fail(Trouble::refused,
                     fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
                                 name_of(state_)));
+    MOTIONRACK_CHECK(may_start("Not resumed"));
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
     stream_->resume();
     enter(MachineState::moving);
@@ -246,7 +249,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
-    MOTIONRACK_CHECK(axis_named("Not jogged", axis));
+    MOTIONRACK_CHECK(axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
     jogs_.hold(axis, speed, origin.session);
     enter(MachineState::jogging);
@@ -256,7 +259,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
 Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
-    MOTIONRACK_CHECK(axis_named("Not jogged", axis));
+    MOTIONRACK_CHECK(axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
         return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
     jogs_.move(axis, distance, speed);
@@ -305,6 +308,7 @@ Result<void> Machine::home(std::string axes) {
     if (axes.empty())
         for (const rack::RackAxis& axis : rack_.config().axes)
             if (rack_.config().can_home(axis)) homed += axis.letter;
+    MOTIONRACK_CHECK(may_start("Not homed"));
     MOTIONRACK_CHECK(ready("Not homed"));
     MOTIONRACK_CHECK(all_enabled("Not homed", homed));
     home_wanted_ = std::move(axes);
@@ -315,7 +319,7 @@ Result<void> Machine::home(std::string axes) {
 
 Result<void> Machine::declare_position(char axis, double position) {
     MOTIONRACK_CHECK(ready("The position was not declared"));
-    MOTIONRACK_CHECK(axis_named("The position was not declared", axis));
+    MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not declared", axis));
     if (!std::isfinite(position)) return fail(Trouble::bad_input, "The position was not declared: it is not a number.");
     positions_wanted_.push_back({axis, position});
     return {};
@@ -333,6 +337,22 @@ Result<void> Machine::forget_offsets() {
                     "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
     stream_->forget_offsets();
     return {};
+}
+
+void Machine::forbid_starts(std::string source, std::string text) {
+    if (!no_starts_.empty()) return;
+    no_starts_ = text;
+    if (state_ == MachineState::moving)
+        stream_->hold();
+    else if (!idle(state_) && state_ != MachineState::hold)
+        cancel({"", "", "Alarm"});
+    raise(std::move(source), std::move(text));
+    status_.alarms.back().stays = true;
+}
+
+Result<void> Machine::may_start(const char* what) const {
+    if (no_starts_.empty()) return {};
+    return fail(Trouble::refused, fmt::format("{}: {}", what, no_starts_));
 }
 
 bool Machine::acknowledge(std::int64_t alarm) {

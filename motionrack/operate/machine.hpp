@@ -116,6 +116,12 @@ class Machine {
     Result<void> forget_offsets();
     /// False: there is no such alarm.
     bool acknowledge(std::int64_t alarm);
+    /// What the machine does can no longer be recorded: no program, line or homing is begun, and nothing held goes on,
+    /// until this program is started anew. What moves decelerates, in a program with a hold; jogs are taken. Raises an
+    /// alarm that stays, the first time.
+    void forbid_starts(std::string source, std::string text);
+    /// Errors: refused, after forbid_starts.
+    Result<void> may_start(const char* what) const;
     /// What this place of an axis is called in the active work coordinates, as G10 L20 does; mm or degrees.
     Result<void> set_work_zero(char axis, double value);
     /// One access of the host to a card, done by the loop while the machine stands; `ready` hears what was read, later.
@@ -134,7 +140,6 @@ class Machine {
     MachineState state() const { return state_; }
     /// A stop, a reset or a declared position is not carried out yet.
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
-    bool can_home() const;  ///< some axis
     /// Whether the positions of this axis mean places of the machine.
     bool trusted(const rack::RackAxis& axis) const { return trust_.of(axis.letter); }
     double feed_override() const { return feed_; }
@@ -172,7 +177,6 @@ class Machine {
     void take_stop();
     void enter_error_stop(std::string source, std::string text);
     Result<void> ready(const char* what);
-    Result<const rack::RackAxis*> axis_named(const char* what, char letter) const;
     Result<void> all_enabled(const char* what, std::string_view axes) const;
     Result<void> ready_for_lines(const char* what);
     void pass_event(const control::gcode::Step& step);
@@ -196,6 +200,7 @@ class Machine {
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;
     bool stop_taken_ = false;  ///< what the stop latch stops was told to
+    std::string no_starts_;    ///< why nothing may be begun; empty: it may
     std::string ordered_by_;   ///< the STOP that is in force, in words; empty: nobody gave one
     // the program, or lines one by one
     std::string program_, program_name_;
@@ -220,5 +225,10 @@ class Machine {
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;
 };
+
+/// Some axis of this rack.
+bool can_home(const rack::RackConfig& config);
+/// Errors: bad_input, beginning with `what` was not done.
+Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter);
 
 }  // namespace motionrack::operate

@@ -7,8 +7,7 @@
 
 namespace motionrack::operate {
 
-bool Machine::can_home() const {
-    const rack::RackConfig& config = rack_.config();
+bool can_home(const rack::RackConfig& config) {
     return std::any_of(config.axes.begin(), config.axes.end(),
                        [&](const rack::RackAxis& axis) { return config.can_home(axis); });
 }
@@ -28,7 +27,7 @@ Standing standing_of(const rack::RackAxis& axis, const std::vector<Standing>& to
 
 Result<void> Machine::start(const rack::RackConfig& config) {
     rack_.start();
-    const bool known = !can_home();
+    const bool known = !can_home(rack_.config());
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
         const Standing here = standing_of(axis.config, settings_.standing, known);
@@ -166,7 +165,7 @@ void Machine::come_to_rest() {
         ordered_by_.clear();
         stream_->forget_modes();
         tools_off();
-        for (Alarm& alarm : status_.alarms) alarm.active = false;
+        for (Alarm& alarm : status_.alarms) alarm.active = alarm.stays;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
     if (latch.latched() && state_ != MachineState::error_stop)

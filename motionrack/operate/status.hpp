@@ -37,9 +37,10 @@ struct Alarm {
     std::int64_t number = 0;  ///< from 1
     Instant at{};
     std::string source;  ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine",
-                         ///< "position"
+                         ///< "position", "journal"
     std::string text;
     bool active = true, acknowledged = false;
+    bool stays = false;  ///< no reset ends its cause
 };
 
 struct AxisStatus {

@@ -4,6 +4,7 @@
 #include <motionrack/operate/logbook.hpp>
 #include <motionrack/panel/desk.hpp>
 #include <motionrack/panel/panel.hpp>
+#include <motionrack/panel/record_loss.hpp>
 #include <motionrack/panel/status_text.hpp>
 #include <utility>
 
@@ -32,7 +33,8 @@ class Panel::Inside {
           logbook_(desk_.settings.journal,
                    [this](Instant at, const std::string& kind, const std::string& text, const std::string& data) {
                        desk_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
-                   }) {
+                   }),
+          loss_(desk_) {
         for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), card_doers(),
                                                   scope_doers(), mark_doers(), looking_doers()})
             for (const Doer& doer : table) doers_[doer.name] = &doer;
@@ -45,6 +47,7 @@ class Panel::Inside {
 
     /// Every slice: what changed is told; now and then a picture.
     void look(const operate::Status& status) {
+        loss_.look();
         logbook_.see(status);
         answer_orders();
         desk_.scope.slice(status.at);
@@ -60,6 +63,7 @@ class Panel::Inside {
         if (row.lease)
             if (const Result<void> held = desk_.lease.check(caller.session); !held)
                 return reply(error_answer(held.error()));
+        if (const Result<void> may = loss_.may(row); !may) return reply(error_answer(may.error()));
         const Doer& doer = *doers_.at(row.name);
         const auto ready = [this, &row, caller, fields, reply](Result<json> result) {
             finish(row, caller, fields, reply, std::move(result));
@@ -102,11 +106,8 @@ class Panel::Inside {
         answer.body.erase("again");
         if (!told) return reply(std::move(answer));
         taken_.push_back(
-            {&row, caller, fields, [reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
-                 reply(kept ? answer
-                            : refused_answer(500, "io",
-                                             "The order was carried out, but could not be written into the journal: " +
-                                                 kept.error().message));
+            {&row, caller, fields, [&row, reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
+                 reply(RecordLoss::answer(row, answer, kept));
              }});
     }
 
@@ -151,6 +152,7 @@ class Panel::Inside {
     Desk desk_;
     StatusWriter writer_;
     operate::Logbook logbook_;
+    RecordLoss loss_;
     std::map<std::string_view, const Doer*> doers_;
     std::vector<Taken> taken_;
     std::chrono::steady_clock::time_point shown_{}, looked_{};

@@ -143,6 +143,7 @@ class Serving {
 
     /// On the motion thread, again and again.
     void stop_if_asked() {
+        warn_of_lost_records();
         if (!stop_asked || stopping_) return;
         stopping_ = true;
         say("Stopping: the axes come to rest.");
@@ -152,6 +153,13 @@ class Serving {
         if (pacer.mode() != operate::ClockMode::free)
             (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
         served_->machine().quit();
+    }
+
+    /// The page has it as an alarm; this is for the log of the service.
+    void warn_of_lost_records() {
+        if (!journal_ || warned_ || journal_->failure().empty()) return;
+        warned_ = true;
+        print_warning(journal_->failure() + " The machine holds, and nothing is started.");
     }
 
     void greet(const rack::RackConfig& config) {
@@ -192,7 +200,7 @@ class Serving {
     std::unique_ptr<journal::Journal> journal_;
     std::unique_ptr<server::ServedRack> served_;
     std::atomic<bool> greeted_{false};
-    bool stopping_ = false;
+    bool stopping_ = false, warned_ = false;
 };
 
 }  // namespace

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <motionrack/panel/record_loss.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
+
+namespace motionrack::panel {
+
+namespace {
+
+/// What stops the machine, takes or gives back control of it, or moves it out of the way by hand.
+constexpr std::array<std::string_view, 12> taken_without_record = {
+    "stop", "hold",   "reset",    "mark_stop",    "press_estop",     "acknowledge",
+    "jog",  "jog_by", "jog_stop", "take_control", "release_control", "keep_control"};
+
+bool is_taken_without_record(const AskRow& row) {
+    return row.role == authority::Role::observe ||
+           std::find(taken_without_record.begin(), taken_without_record.end(), row.name) != taken_without_record.end();
+}
+
+}  // namespace
+
+void RecordLoss::look() {
+    if (lost_ || desk_.settings.journal == nullptr) return;
+    const std::string failure = desk_.settings.journal->failure();
+    if (failure.empty()) return;
+    lost_ = true;
+    desk_.machine.forbid_starts(
+        "journal", failure +
+                       " The machine holds, and nothing is started. Stop it, mend the cause, and start this "
+                       "program anew; it will trust no position then.");
+    rack::Rack& rack = desk_.machine.rack();
+    for (const auto& card : rack.cards())
+        if (rtc5::Card* marks = rack::rtc5_card_of(rack, card->name())) marks->engine().set_control_mode(0);
+}
+
+Result<void> RecordLoss::may(const AskRow& row) const {
+    if (!lost_ || is_taken_without_record(row)) return {};
+    return desk_.machine.may_start(std::string(row.name).c_str());
+}
+
+Answer RecordLoss::answer(const AskRow& row, Answer answer, const Result<std::int64_t>& kept) {
+    if (kept) return answer;
+    if (is_taken_without_record(row)) {
+        answer.body["unrecorded"] = kept.error().message;
+        return answer;
+    }
+    return refused_answer(500, "io",
+                          fmt::format("{} So '{}' is not recorded. The machine holds; its status says whether it has "
+                                      "begun. Stop it, and mend the cause.",
+                                      kept.error().message, row.name));
+}
+
+}  // namespace motionrack::panel
