@@ -31,6 +31,7 @@ struct HomeOrder {
     bool switch_active_high = false;
     int index_input = 2;  ///< the card's input of the encoder's index
     bool index_active_high = true;
+    std::optional<double> index_after;  ///< how far behind the switch the index is; another one is not trusted
 };
 
 /// The home switch or the index changed. Places are positions as they count after homing; before that, where it failed.

@@ -195,6 +195,10 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     out.travel = std::max<std::int64_t>(
         1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
     out.turn = settings_.pulses_per_turn;
+    if (index && order.index_after) {
+        MOTIONRACK_CHECK(outside("the way from the switch to the index", *order.index_after, 0, most_way));
+        out.index_after = pulses(*order.index_after);
+    }
     out.clearance = std::min(out.travel, pulses(order.clearance));
     out.settle = from_seconds(order.settle_s);
     out.turn_at_limit = order.turn_at_limit;

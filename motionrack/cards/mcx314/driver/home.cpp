@@ -266,6 +266,9 @@ void Home::drive_reached(const Look& look, Instant now) {
     report_.edges.push_back(edge);
     if (state_->until == HomeUntil::index) {
         report_.index_lp = edge.lp;
+        const std::int64_t off = report_.switch_to_index().value_or(0) - settings_.index_after;
+        if (settings_.index_after >= 0 && rules::magnitude(off) > std::max<std::int64_t>(1, settings_.turn / 4))
+            return fail(HomeFault::wrong_index, look, now);
     } else {
         if (!edge_in_state_) switch_on_ = edge.active;
         edge_in_state_ = true;

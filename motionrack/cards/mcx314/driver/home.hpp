@@ -29,6 +29,8 @@ struct HomeSettings {
     std::int64_t back_v = 0;                       ///< speed off the switch, 1 .. sv; 0: sv
     std::int64_t slow_v = 0;                       ///< second approach and index, 1 .. sv; 0: half of sv
     std::int64_t travel = param::pulses.greatest;  ///< longest way of a search, 1 .. 268,435,455
+    std::int64_t index_after =
+        -1;  ///< pulses from the switch to the index, within a quarter of `turn`; -1: wherever it is first
     std::int64_t turn = 0;        ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
     std::int64_t clearance = 50;  ///< driven on after the switch is released, 0 .. travel
     Duration settle = milliseconds(5);      ///< how long contacts must be at rest, 0 .. 10 s
@@ -106,6 +108,7 @@ class Home {
     std::string text(std::int64_t pulses) const;
     std::string place(std::int32_t lp) const;
     std::string switch_text() const;
+    std::pair<std::string, std::string> index_failure(const std::string& how_far) const;
     std::string why_failed(const Look& look) const;
 
     Driver& driver_;

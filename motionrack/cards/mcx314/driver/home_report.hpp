@@ -18,6 +18,7 @@ enum class HomeFault : std::uint8_t {
     not_released,     ///< the switch is active and stays so
     no_index,         ///< the encoder's index was not seen
     index_at_switch,  ///< the index is active where the switch acts: the next start may find another turn
+    wrong_index,      ///< an index was seen, but not where it is: there are two, or the switch was moved
     alarm,            ///< nALARM is enabled and active
     emergency,        ///< EMGN is Low
     time,             ///< a state lasted longer than it may

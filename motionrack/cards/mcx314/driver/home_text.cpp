@@ -4,6 +4,7 @@
 #include <cmath>
 #include <motionrack/cards/mcx314/driver/home.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
+#include <tuple>
 
 namespace motionrack::mcx314 {
 
@@ -86,6 +87,7 @@ Result<void> Home::check_ready() {
         {"the clearance", s.clearance, 0, s.travel},
         {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
         {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
+        {"the way from the switch to the index (-1: any)", s.index_after, -1, param::pulses.greatest},
         {"the home position", s.home_position, param::LP.least, param::LP.greatest},
         {"the encoder's home position", s.home_counts, param::EP.least, param::EP.greatest},
     };
@@ -126,6 +128,24 @@ std::string Home::switch_text() const {
     return fmt::format("the home switch (IN{}, active {})", settings_.input, settings_.active_high ? "High" : "Low");
 }
 
+/// What was wrong with the index, and what to do.
+std::pair<std::string, std::string> Home::index_failure(const std::string& how_far) const {
+    const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input,
+                                          settings_.index_high ? "High" : "Low");
+    switch (report_.fault) {
+        case HomeFault::no_index:
+            return {fmt::format("{} was not seen within {} after the switch", index, how_far),
+                    "Look at the encoder's Z wire and level, or home without it (type 1 or 2)"};
+        case HomeFault::wrong_index:
+            return {fmt::format("{} was seen {} behind the switch, where it should be {} behind it", index,
+                                text(report_.switch_to_index().value_or(0)), text(settings_.index_after)),
+                    "Look for a second index or noise on the encoder's Z wire, or whether the switch was moved"};
+        default:
+            return {fmt::format("{} is active where the switch acts, so another start might find another turn", index),
+                    "Shift the switch by half a motor turn, or look whether the index is stuck"};
+    }
+}
+
 /// What went wrong, how far it came, where it stands, what to do; or where home is.
 std::string Home::why_failed(const Look& look) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
@@ -138,8 +158,6 @@ std::string Home::why_failed(const Look& look) const {
                                  report_.zero_lp / settings_.pulses_per_unit,
                                  static_cast<double>(settings_.home_position) / settings_.pulses_per_unit,
                                  settings_.unit);
-    const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input,
-                                          settings_.index_high ? "High" : "Low");
     const bool at_limit = limit_in_way(look, HomeWay::towards) || limit_in_way(look, HomeWay::away);
     const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
     std::string what, next;
@@ -158,12 +176,9 @@ std::string Home::why_failed(const Look& look) const {
             next = "Look whether it is stuck or has the other level, or move the axis off it by hand";
             break;
         case HomeFault::no_index:
-            what = fmt::format("{} was not seen within {} after the switch", index, how_far);
-            next = "Look at the encoder's Z wire and level, or home without it (type 1 or 2)";
-            break;
         case HomeFault::index_at_switch:
-            what = fmt::format("{} is active where the switch acts, so another start might find another turn", index);
-            next = "Shift the switch by half a motor turn, or look whether the index is stuck";
+        case HomeFault::wrong_index:
+            std::tie(what, next) = index_failure(how_far);
             break;
         case HomeFault::alarm:
             what = "the drive's alarm became active", next = "Clear the cause in the drive";

@@ -226,6 +226,29 @@ TEST(Homing, ReportsAnIndexThatIsNeverSeen) {
     }
 }
 
+TEST(Homing, TrustsNoIndexThatIsNotWhereItShouldBe) {
+    for (const int type : {3, 4}) {
+        HomeRig found({RigAxis{}});
+        found.start();
+        HomeSettings settings = rig_settings(type);
+        const Result<HomeReport> first = home(found.driver, 0, settings);
+        ASSERT_TRUE(first);
+        const std::int64_t way = first->switch_to_index().value_or(0);
+        for (const std::int64_t off : {0, 700, 900}) {
+            HomeRig rig({RigAxis{}});
+            rig.start();
+            settings.turn = 3'200;
+            settings.index_after = way + off;
+            const Result<HomeReport> done = home(rig.driver, 0, settings);
+            EXPECT_EQ(done.has_value(), off < 800) << off;
+            if (done) continue;
+            EXPECT_THAT(done.error().message, HasSubstr("behind the switch, where it should be"));
+            EXPECT_THAT(done.error().message, HasSubstr("second index"));
+            EXPECT_FALSE(rig.driver.moving(1));
+        }
+    }
+}
+
 TEST(Homing, RefusesToTrustAnIndexAtTheSwitchItself) {
     HomeRig rig({RigAxis{.start_mm = 21}});  // the index is at 1 mm, where the switch acts
     rig.start();
