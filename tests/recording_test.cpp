@@ -151,10 +151,11 @@ TEST_F(ARecordedRun, IsTheSameAgain) {
 
 TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
-        const JobRequest request = request_for(program, {"X.motor.push=64@0.9s", "Y.encoder.broken_a@1.1s"},
-                                               {"feed=0.5@0.2s", "hold@0.45s", "resume@0.8s", "rapid=0.3@0.85s",
-                                                "feed=1.7@1s", "hold@1.2s", "resume@1.25s"},
-                                               profile);
+        const JobRequest request =
+            request_for(program, {"X.motor.push=64@0.9s", "Y.encoder.broken_a@1.1s", "Y.encoder.broken_a=0@1.105s"},
+                        {"feed=0.5@0.2s", "hold@0.45s", "resume@0.8s", "rapid=0.3@0.85s", "feed=1.7@1s", "hold@1.2s",
+                         "resume@1.25s"},
+                        profile);
         const JobOutcome outcome = record(request, "a.h5"),
                          plain = record(request_for(program, {}, {}, profile), "plain.h5");
         ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();

@@ -69,6 +69,7 @@ Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
       tap_(rack_.kernel()),
       probe_(rack_.kernel()),
       trust_(rack_),
+      door_(rack_),
       jogs_(
           settings_.jog_lease, settings_.wall ? settings_.wall : [this] { return now(); }) {
     if (rack::grating_bus_of(rack_) != nullptr) frames_.emplace(rack_);
@@ -127,6 +128,7 @@ Result<void> Machine::all_enabled(const char* what, std::string_view axes) const
 /// And every axis is enabled and knows where it is.
 Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(ready(what));
+    MOTIONRACK_CHECK(door_.check_closed(what));
     MOTIONRACK_CHECK(all_enabled(what, {control::axis_letters.data(), control::axis_letters.size()}));
     if (!positions_wanted_.empty())
         return fail(
@@ -207,6 +209,8 @@ Result<void> Machine::resume() {
                                 name_of(state_)));
     MOTIONRACK_CHECK(may_start("Not resumed"));
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
+    MOTIONRACK_CHECK(door_.check_closed("Not resumed"));
+    door_.give_back_tools(status_);
     stream_->resume();
     enter(MachineState::moving);
     return {};
@@ -229,6 +233,7 @@ void Machine::cancel(const StopOrigin& by) {
     home_stop_ = true;
     home_wanted_.reset();
     jogs_.let_go();
+    door_.forget_tools();
     stop_wanted_ = true;
     if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging ||
         state_ == MachineState::hold)
@@ -247,6 +252,7 @@ void Machine::reset(const StopOrigin& by) {
 Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
+    MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     MOTIONRACK_CHECK(axis_named(rack_.config(), "Not jogged", axis));
@@ -258,6 +264,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
 
 Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
+    MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     MOTIONRACK_CHECK(axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
@@ -310,6 +317,7 @@ Result<void> Machine::home(std::string axes) {
             if (rack_.config().can_home(axis)) homed += axis.letter;
     MOTIONRACK_CHECK(may_start("Not homed"));
     MOTIONRACK_CHECK(ready("Not homed"));
+    MOTIONRACK_CHECK(door_.check_closed("Not homed"));
     MOTIONRACK_CHECK(all_enabled("Not homed", homed));
     home_wanted_ = std::move(axes);
     home_stop_ = false;

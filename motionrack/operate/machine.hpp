@@ -19,6 +19,7 @@
 #include <memory>
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/control/stream.hpp>
+#include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/operate/trust.hpp>
@@ -196,6 +197,7 @@ class Machine {
     bool group_holds_ = false;  ///< the card's axes; else each by itself
     bool hands_over_ = false;   ///< a card is being set up for the other ones: its counters mean nothing
     Trust trust_;
+    Door door_;
     std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;

@@ -102,6 +102,15 @@ void Machine::slice() {
 void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
     latch.look();
+    for (std::string& text : latch.contacts().take_alarms()) raise("emergency stop", std::move(text));
+    if (std::optional<std::string> opened = door_.take_opening(state_)) {
+        raise("door", std::move(*opened));
+        const bool in_work = state_ == MachineState::moving || state_ == MachineState::hold;
+        if (state_ == MachineState::moving) stream_->hold();
+        if (!in_work && !idle(state_)) cancel();
+        if (in_work) door_.keep_tools(status_);
+        tools_off();
+    }
     if (latch.latched()) jogs_.let_go();
     if (!latch.halted() || std::exchange(stop_taken_, true)) return;
     cancel();
@@ -111,12 +120,12 @@ namespace {
 
 /// Whoever asked for the stop needs no alarm.
 std::string alarm_source(const rack::StopLatch& latch) {
-    return latch.cause() == rack::StopSource::stop_order ? std::string() : std::string(rack::name_of(latch.cause()));
+    return latch.is_ordered() ? std::string() : std::string(rack::name_of(latch.cause()));
 }
 
 /// What stopped the machine, or who, and what to do.
 std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_by) {
-    const bool ordered = latch.cause() == rack::StopSource::stop_order && !ordered_by.empty();
+    const bool ordered = latch.is_ordered() && !ordered_by.empty();
     return fmt::format("{} {}", ordered ? ordered_by : latch.sentence(), latch.advice());
 }
 

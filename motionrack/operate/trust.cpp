@@ -23,10 +23,12 @@ void Trust::set(char letter, bool on) {
         if (rack_.axes()[i].config.letter == letter) watch_.begin(i);
 }
 
-/// While axes search home nothing is known of them yet.
+/// While axes search home nothing is known of them yet; while a stop comes its own alarm says what is lost by it.
 std::vector<std::string> Trust::look(Instant now, MachineState state) {
     std::vector<std::string> out;
     if (state == MachineState::homing || now < due_) return out;
+    rack_.stop_latch().following().look(now);
+    if (rack_.stop_latch().latched() && state != MachineState::error_stop) return out;
     due_ = now + look_every;
     const bool stand = stands(state), stood = std::exchange(stood_, stand);
     for (const rack::TrustFinding& found : watch_.look(stand && stood)) {

@@ -28,6 +28,18 @@ double RackAxis::counts_per_unit() const {
     return for_one_unit(encoder_counts_per_rev, *this);
 }
 
+double RackAxis::following_alarm() const {
+    constexpr double usual = 1, min_counts = 4;  // a coarse encoder is off by a count while all is well
+    if (following_error_alarm) return *following_error_alarm;
+    const double counts = counts_per_unit();
+    const double of_servo = servo ? 0.1 * max_speed : 0;  // it lags, and its model is as good as the file
+    return counts > 0 ? std::max({usual, min_counts / counts, of_servo}) : 0;
+}
+
+double RackAxis::following_warning() const {
+    return following_error_warning.value_or(following_alarm() / 2);
+}
+
 RackAxis default_axis(char letter) {
     RackAxis axis;
     axis.letter = letter;

@@ -162,8 +162,9 @@ struct RackHoming {
     std::optional<double> speed;                         ///< of the search; absent: a quarter of max_speed
     std::optional<double> slow_speed;                    ///< of the last approach; absent: a quarter of start_speed
     std::optional<double> position;                      ///< what home is called; absent: where the switch's edge is
-    double clearance = 0.1;                              ///< mm or degrees driven on after the switch is released
-    std::int64_t order = 0;  ///< axes of the lowest order are homed first, those of the same together
+    std::optional<double> index_after;  ///< how far behind the switch the index is; absent: wherever it is first
+    double clearance = 0.1;             ///< mm or degrees driven on after the switch is released
+    std::int64_t order = 0;             ///< axes of the lowest order are homed first, those of the same together
 };
 
 /// One axis of the machine. Positions and speeds are in mm (linear) or degrees (rotary), the axis' "unit", and seconds.
@@ -185,7 +186,8 @@ struct RackAxis {
     double start_position = 0;                   ///< where the machine stands when the rack starts
     std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 a line) for one motor turn; 0: no encoder
     bool reversed = false;  ///< the motor is mounted the other way round; the direction signal is inverted to match
-    RackMotor motor;        ///< without a servo
+    std::optional<double> following_error_warning, following_error_alarm;  ///< see following_warning(); 0: none
+    RackMotor motor;                                                       ///< without a servo
     std::optional<RackServo> servo;
     RackSwitches switches;
     RackHoming homing;
@@ -204,6 +206,10 @@ struct RackAxis {
     double counts_per_unit() const;
     /// The pulse rate at max_speed.
     double max_pulse_hz() const { return max_speed * pulses_per_unit(); }
+    /// By how much the encoder may be off from what drives the axis before the machine is stopped, and before it is
+    /// told: mm or degrees; 0: by anything.
+    double following_alarm() const;
+    double following_warning() const;
 };
 
 /// An axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
@@ -324,6 +330,13 @@ struct RackController {
     double arc_tolerance_mm = 0.002;          ///< greatest distance of an arc from the short lines that stand for it
 };
 
+/// The contacts for people; see safety_contacts.hpp.
+struct RackSafety {
+    std::int64_t estop_channels = 1;    ///< 2: the emergency stop has the wires estop1 and estop2
+    double estop_discrepancy_ms = 500;  ///< so long they may be unlike
+    bool door = false;                  ///< there is a door, with the wire door
+};
+
 /// A whole rack, checked: every name is known, every wire has its two ends.
 struct RackConfig {
     std::string name = "rack";
@@ -338,6 +351,7 @@ struct RackConfig {
     std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives
     std::vector<EncoderLink> encoder_links;  ///< follow from `wires`; one at most for each channel
     RackController controller;
+    RackSafety safety;
 
     /// The axis of that letter, or nullptr.
     const RackAxis* axis(char letter) const;

@@ -40,6 +40,7 @@ class AxisCheck {
         switches();
         homing();
         motor();
+        following();
         if (const RackCard* card = config_.card(axis_.card)) {
             if (const CardType* type = find_card_type(card->type); type != nullptr && type->channel_count() > 0)
                 chip(*card, *type);
@@ -201,6 +202,32 @@ class AxisCheck {
             too_fast_for_motor("max_speed_{u}_s", axis_.max_speed, "pull_out_hz", m.pull_out_hz);
             too_fast_for_motor("start_speed_{u}_s", axis_.start_speed, "start_stop_hz", m.start_stop_hz);
         }
+    }
+
+    /// Limits that a healthy axis keeps, of an axis that has what is compared.
+    void following() {
+        constexpr std::string_view warning = "following_error_warning_{u}", alarm = "following_error_alarm_{u}";
+        const std::string_view u = axis_.unit();
+        const double count = axis_.counts_per_unit() > 0 ? 1 / axis_.counts_per_unit() : 0;
+        for (const auto& [key, value] :
+             {std::pair{warning, axis_.following_error_warning}, std::pair{alarm, axis_.following_error_alarm}}) {
+            if (!value || *value == 0 || !source_.sound({key})) continue;
+            if (count == 0 && source_.sound({"encoder_counts_per_rev"}))
+                error(key, {},
+                      fmt::format("{} of axis {} is {}, but the axis has no encoder to compare with; leave it out.",
+                                  with_unit(key, u), axis_.letter, number_text(*value)));
+            else if (*value < 2 * count)
+                error(key, {},
+                      fmt::format("{} of axis {} is {}, less than two counts of its encoder, {} {}: an axis that is "
+                                  "well would exceed it.",
+                                  with_unit(key, u), axis_.letter, number_text(*value), short_text(2 * count), u));
+        }
+        if (source_.sound({warning, alarm}) && axis_.following_alarm() > 0 &&
+            axis_.following_warning() > axis_.following_alarm())
+            error(warning, {},
+                  fmt::format("{} of axis {} is {}, above its {}, which is {}: the machine would stop untold.",
+                              with_unit(warning, u), axis_.letter, number_text(axis_.following_warning()),
+                              with_unit(alarm, u), number_text(axis_.following_alarm())));
     }
 
     void servo() {

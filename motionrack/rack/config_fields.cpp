@@ -20,7 +20,7 @@ constexpr std::array<Field, 2> card_table = {
                  "the lowest free slot"),
 };
 
-constexpr std::array<Field, 16> axis_table = {
+constexpr std::array<Field, 18> axis_table = {
     required(field<&RackAxis::card>("card", 1, 32, "", "name of the card that drives the axis"), "required"),
     absent_means(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel (x, y, z or u of an mcx314)"),
                  "the only one of its card"),
@@ -42,6 +42,14 @@ constexpr std::array<Field, 16> axis_table = {
                                              "quadrature counts (4 a line) of a motor turn; 0: no encoder"),
     field<&RackAxis::reversed>("reversed", 0, 1, "",
                                "the motor is mounted the other way round; the direction signal is inverted to match"),
+    absent_means(field<&RackAxis::following_error_warning>(
+                     "following_error_warning_{u}", 0, 1e6, "{u}",
+                     "following error (what drives the axis against encoder counts) that is told; 0: none"),
+                 "half of the alarm's"),
+    absent_means(field<&RackAxis::following_error_alarm>(
+                     "following_error_alarm_{u}", 0, 1e6, "{u}",
+                     "following error that stops the machine and takes the trust from the position; 0: none"),
+                 "1, at least 4 counts; of a servo at least its way of 0.1 s at its greatest speed"),
 };
 
 constexpr std::array<Field, 2> motor_table = {
@@ -81,7 +89,7 @@ constexpr std::array<Field, 7> switch_table = {
 
 constexpr std::array<std::string_view, 2> directions = {"minus", "plus"};
 
-constexpr std::array<Field, 7> homing_table = {
+constexpr std::array<Field, 8> homing_table = {
     field<&RackHoming::type>(
         "home_type", 1, 4, "",
         "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the index, 4 as 2 and on to it"),
@@ -93,6 +101,10 @@ constexpr std::array<Field, 7> homing_table = {
                  "a quarter of the start speed; of a servo all of it"),
     absent_means(field<&RackHoming::position>("position_{u}", -1e7, 1e7, "{u}", "what the home place is called"),
                  "where the switch's edge is"),
+    absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
+                                                 "how far behind the switch the index is (types 3 and 4); one that is "
+                                                 "off by more than a quarter of a motor turn is not trusted"),
+                 "the first one"),
     field<&RackHoming::clearance>("clearance_{u}", 0, 1000, "{u}", "way driven on after the switch is released"),
     field<&RackHoming::order>("order", 0, 5, "", "0 is homed first; axes of the same number together"),
 };
@@ -115,6 +127,18 @@ constexpr std::array<Field, 3> controller_table = {
                                                       "how far G64 without P may leave the path"),
     field<&RackController::arc_tolerance_mm>("arc_tolerance_mm", 0.000001, 10, "mm",
                                              "how far short lines may leave an arc"),
+};
+
+constexpr std::array<Field, 3> safety_table = {
+    field<&RackSafety::estop_channels>("estop_channels", 1, 2, "",
+                                       "contacts of the emergency stop; 2: the wires `estop1` and `estop2`, of which "
+                                       "the first that opens stops the machine"),
+    field<&RackSafety::estop_discrepancy_ms>("estop_discrepancy_ms", 1, 60'000, "ms",
+                                             "so long two contacts may be unlike; then no reset is taken until they "
+                                             "are alike"),
+    field<&RackSafety::door>("door", 0, 1, "",
+                             "a door with the wire `door`, low while it is open: the feed is held, the spindle goes "
+                             "off, and nothing begins to move"),
 };
 
 bool steps(const RackAxis& axis) {
@@ -170,6 +194,10 @@ std::span<const Field> probe_fields() {
 }
 std::span<const Field> controller_fields() {
     return controller_table;
+}
+
+std::span<const Field> safety_fields() {
+    return safety_table;
 }
 
 std::span<const AxisEnd> axis_ends() {

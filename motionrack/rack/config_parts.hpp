@@ -31,6 +31,7 @@ std::span<const Field> sender_fields();       ///< [belt.NAME.sender] into parts
 std::span<const Field> passing_fields();      ///< [belt.NAME.parts] into RackParts
 std::span<const Field> scanner_fields();      ///< [scanner.NAME] into RackScanner
 std::span<const Field> controller_fields();   ///< [controller] into RackController
+std::span<const Field> safety_fields();       ///< [safety] into RackSafety
 
 /// An end of a wire at an axis' parts.
 struct AxisEnd {

@@ -10,8 +10,8 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 10> top_level = {"rack", "card",  "axis",    "probe",      "stage",
-                                                        "belt", "table", "scanner", "controller", "wires"};
+constexpr std::array<std::string_view, 11> top_level = {"rack",  "card",    "axis",       "probe",  "stage", "belt",
+                                                        "table", "scanner", "controller", "safety", "wires"};
 constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
 
 class RackReader {
@@ -31,6 +31,8 @@ class RackReader {
         if (const TomlNode* node = table("controller")) {
             read_fields(*node, controller_fields(), &config_.controller, {"controller", "", "", {}}, problems_);
         }
+        if (const TomlNode* node = table("safety"))
+            read_fields(*node, safety_fields(), &config_.safety, {"safety", "", "", {}}, problems_);
         read_cards();
         read_axes();
         check_axes(config_, sources_, problems_);

@@ -70,6 +70,12 @@ std::string wires_text() {
     return out + fmt::format("| `estop` | output | {} | always |\n\n", estop_doc);
 }
 
+std::string safety_text(const RackSafety& safety) {
+    return "## [safety]\nContacts for people. Their wires are driven by hand or by a fault: `--fault estop2=0@1s`, "
+           "`--fault door=0@1s`. What a stop does is on [its own page](../explanations/safety.md).\n\n" +
+           fields_table(safety_fields(), &safety, &safety);
+}
+
 }  // namespace
 
 std::string rack_file_reference() {
@@ -158,7 +164,7 @@ std::string rack_file_reference() {
     out += "## [scanner.NAME.galvo]\n" + fields_table(galvo_keys, &scanner.galvo, &scanner.galvo);
     out += "## [scanner.NAME.laser]\n" + fields_table(laser_keys, &scanner.laser, &scanner.laser);
     out += "## [controller]\n" + fields_table(controller_fields(), &rack.controller, &rack.controller);
-    out += wires_text();
+    out += safety_text(rack.safety) + wires_text();
     out += "## Card types\n\n";
     for (const CardType& type : card_types()) out += card_type_text(type);
     out.pop_back();

@@ -72,7 +72,7 @@ class Homing {
     /// The axes were only asked to stop; the latch knows why.
     void tell_stop() {
         const StopLatch& latch = rack_.stop_latch();
-        if (!latch.latched() || latch.cause() == StopSource::stop_order) return;
+        if (!latch.latched() || latch.is_ordered()) return;
         if (out_.ended || out_.ended.error().trouble != Trouble::stopped) return;
         out_.ended = fail(Trouble::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
                                                         latch.position_sentence(), latch.advice()));
@@ -284,6 +284,7 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
         return refuse(fmt::format("its home {} is not wired to a stop input of its channel ({})",
                                   cam ? "cam" : "switch", inputs_text(axis, type.home_pins)));
     if (h.type < 3) return order;
+    order.index_after = h.index_after;
     order.index_input = input_of(config, axis, "enc_z", type.index_pins);
     if (order.index_input < 0)
         return refuse(

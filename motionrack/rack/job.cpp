@@ -199,7 +199,7 @@ void Job::tell_stop(JobOutcome& out) {
     if (!latch.latched()) return;
     latch.settle();
     latch.look();
-    const bool asked = latch.cause() == StopSource::stop_order;
+    const bool asked = latch.is_ordered();
     if (asked || (!out.ended && out.ended.error().trouble != Trouble::stopped)) return;
     out.ended = fail(Trouble::machine,
                      fmt::format("{} The program was stopped in line {} and nothing after it was driven. {} {}",
@@ -232,6 +232,8 @@ void Job::collect_breaches(JobOutcome& out) {
 void Job::collect_conditions(JobOutcome& out) {
     for (const sim::Condition& condition : rack_.kernel().conditions())
         out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
+    for (std::string& text : rack_.stop_latch().contacts().take_alarms())
+        out.warnings.push_back({rack_.kernel().now(), 0, std::move(text)});
     if (const std::uint64_t dropped = rack_.kernel().dropped_conditions())
         out.warnings.push_back({rack_.kernel().now(), 0, fmt::format("{} earlier conditions were not kept", dropped)});
     for (JobWarning& warning : out.warnings) {

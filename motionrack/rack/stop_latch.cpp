@@ -32,6 +32,8 @@ constexpr std::array<SourceWords, stop_sources.size()> words = {{
     {StopSource::drive_alarm, "drive alarm", "Clear it at the drive, then reset."},
     {StopSource::limit_switch, "limit switch", "Reset, then move it off the switch."},
     {StopSource::watchdog, "watchdog", "Reset, then home."},
+    {StopSource::following_error, "following error",
+     "Look at its motor, its load and its encoder, then reset and home it."},
 }};
 
 const SourceWords& words_of(StopSource source) {
@@ -50,7 +52,11 @@ std::string_view name_of(StopSource source) {
 }
 
 StopLatch::StopLatch(Rack& rack)
-    : rack_(rack), kernel_(rack.kernel()), id_(kernel_.add(*this, sim::Phase::observers, "stop_latch")) {
+    : rack_(rack),
+      kernel_(rack.kernel()),
+      id_(kernel_.add(*this, sim::Phase::observers, "stop_latch")),
+      following_(rack),
+      contacts_(kernel_, rack.config().safety) {
     watch({kernel_.find_wire("estop"), StopSource::emergency_stop});
     for (std::size_t c = 0; c < rack_.config().cards.size(); ++c) {
         const RackCard& card = rack_.config().cards[c];
@@ -71,6 +77,8 @@ StopLatch::StopLatch(Rack& rack)
             has_watchdogs_ = true;
         }
     }
+    for (std::size_t a = 0; a < rack_.axes().size(); ++a)
+        inputs_.push_back({sim::WireId::none, StopSource::following_error, 0, 0, -1, static_cast<int>(a)});
 }
 
 void StopLatch::watch(const Input& input) {
@@ -89,6 +97,7 @@ void StopLatch::arm() {
     state_.armed = 1;
     const Instant now = kernel_.now();
     state_.heard = kernel_.dropped_conditions() + kernel_.conditions().size();
+    following_.begin();
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const StopSource source = inputs_[i].source;
         if (is_active(inputs_[i]) && (source == StopSource::emergency_stop || source == StopSource::drive_alarm))
@@ -101,7 +110,9 @@ void StopLatch::disarm() {
     state_ = {};
     state_.left = before.left;
     state_.heard = before.heard;
+    state_.heeds_door = before.heeds_door;
     halted_ = false;
+    following_.end();
 }
 
 void StopLatch::on_wire(int pin, int, Instant now) {
@@ -120,10 +131,16 @@ Instant& StopLatch::left_at(const Input& input) {
 /// Of an input that has become active.
 bool StopLatch::trips(const Input& input, Instant now) {
     if (input.source != StopSource::limit_switch) return true;
-    if (state_.heeds_limits == 0) return false;
     if (const Instant left = left_at(input); left != Instant{} && now - left < bounces_for) return false;
+    return state_.heeds_limits != 0 || is_behind(input, now);
+}
+
+/// A limit switch that becomes active while its axis moves away from it is wired wrongly or broken, also in a search
+/// for home: the axis may be about to run into its other end. One that is active already leaves the way back free.
+bool StopLatch::is_behind(const Input& input, Instant now) const {
+    if (input.source != StopSource::limit_switch) return false;
     const RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.axis)];
-    return !moves(axis, now) || axis.speed(now) * input.direction > 0;  // the way back stays free
+    return moves(axis, now) && axis.speed(now) * input.direction < 0;
 }
 
 /// Its card stops what moves at this input.
@@ -131,7 +148,7 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
     const std::vector<RunningAxis>& axes = rack_.axes();
     switch (input.source) {
         case StopSource::limit_switch:
-            return moves(axes[static_cast<std::size_t>(input.axis)], now);
+            return moves(axes[static_cast<std::size_t>(input.axis)], now) && !is_behind(input, now);
         case StopSource::emergency_stop:  // look() sees which cards have heard of it
             return std::any_of(axes.begin(), axes.end(), [now](const RunningAxis& axis) { return moves(axis, now); });
         case StopSource::watchdog:
@@ -139,6 +156,7 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
                    std::all_of(axes.begin(), axes.end(),
                                [&](const RunningAxis& axis) { return !moves(axis, now) || is_on_card(axis, input); });
         case StopSource::drive_alarm:
+        case StopSource::following_error:
         case StopSource::stop_order:
             break;
     }
@@ -155,18 +173,31 @@ void StopLatch::trip(StopSource source, int input, Instant now) {
         state_.at = now;
         state_.cause = static_cast<std::int32_t>(source);
         state_.input = input;
+        if (from != nullptr && is_behind(*from, now)) state_.behind = -from->direction;
     }
     if (from == nullptr || !left_to_card(*from, now)) halted_ = true;
     kernel_.break_run();
 }
 
-/// Steps are lost where a motor is to stop without a ramp and was faster than it can, or where its drive gave up while
-/// it moved. Cards that position by an encoder know for themselves.
+void StopLatch::stays_behind(std::size_t axis, Instant now) {
+    if (state_.latched != 0) {
+        state_.lost |= 1u << rack_.axes()[axis].config.index();
+        return;
+    }
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+        if (inputs_[i].source == StopSource::following_error && inputs_[i].axis == static_cast<int>(axis))
+            trip(StopSource::following_error, static_cast<int>(i), now);
+}
+
+/// Steps are lost where a motor is to stop without a ramp and was faster than it can, where its drive gave up while it
+/// moved, or where it stays behind. Cards that position by an encoder know for themselves.
 void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
     const std::vector<RunningAxis>& axes = rack_.axes();
     for (std::size_t a = 0; a < axes.size(); ++a) {
         const RunningAxis& axis = axes[a];
         if (source == StopSource::watchdog && is_on_card(axis, *input)) state_.lost |= 1u << axis.config.index();
+        if (source == StopSource::following_error && input->axis == static_cast<int>(a))
+            state_.lost |= 1u << axis.config.index();
         if (rack_.config().positions_alone(axis.config)) continue;
         const double speed = std::fabs(axis.speed(now));
         const bool without_ramp = source == StopSource::emergency_stop && speed > axis.config.start_speed;
@@ -200,6 +231,10 @@ void StopLatch::look_at_watchdogs() {
 
 void StopLatch::look() {
     if (state_.armed != 0 && has_watchdogs_) look_at_watchdogs();
+    if (state_.armed != 0 && state_.heeds_door != 0 && state_.latched == 0 && contacts_.door_open()) {
+        state_.by_door = 1;
+        trip(StopSource::stop_order, -1, std::max(contacts_.door_opened(), Instant{}));
+    }
     if (state_.latched == 0) return;
     for (const StopSource source : stop_sources)
         if ((std::exchange(state_.pending, state_.pending & ~bit(source)) & bit(source)) != 0)
@@ -226,6 +261,10 @@ void StopLatch::settle() {
 // ---- releasing
 
 Result<void> StopLatch::reset() {
+    if (contacts_.differs())
+        return fail(Trouble::refused,
+                    "Not reset: the two channels of the emergency stop are unlike. Nothing was changed; look at both "
+                    "contacts and their wires, then reset.");
     for (const Input& input : inputs_) {
         if (!is_active(input)) continue;
         if (input.source == StopSource::emergency_stop)
@@ -239,6 +278,7 @@ Result<void> StopLatch::reset() {
     }
     disarm();
     state_.armed = 1;
+    following_.begin();
     return {};
 }
 
@@ -252,14 +292,19 @@ std::string StopLatch::input_text() const {
         case StopSource::emergency_stop:
             return "The emergency stop was pressed";
         case StopSource::stop_order:
-            return "Stopped on request";
+            return state_.by_door != 0 ? "The door was opened" : "Stopped on request";
         case StopSource::drive_alarm:
             return fmt::format("The drive of {} reported an alarm", letter);
         case StopSource::limit_switch:
+            if (state_.behind != 0)
+                return fmt::format("The {} limit switch of {} became active while {} moved in {} direction",
+                                   input->direction > 0 ? "+" : "-", letter, letter, state_.behind > 0 ? "+" : "-");
             return fmt::format("The {} limit switch of {} was reached", input->direction > 0 ? "+" : "-", letter);
         case StopSource::watchdog:
             return fmt::format("The watchdog of card {} restarted it",
                                rack_.config().cards[static_cast<std::size_t>(input->card)].name);
+        case StopSource::following_error:
+            return following_.alarm_text(static_cast<std::size_t>(input->axis));
     }
     return {};
 }
@@ -278,6 +323,9 @@ std::string StopLatch::position_sentence() const {
 }
 
 std::string_view StopLatch::advice() const {
+    if (state_.by_door != 0) return "Close it, then reset.";
+    if (state_.behind != 0)
+        return "Check the wiring of both its limit switches: they may be swapped, or a wire is broken. Then reset.";
     return words_of(cause()).advice;
 }
 

@@ -1,7 +1,8 @@
 // The one stop latch of a rack: whatever must stop the machine sets it, in every state, and only a reset releases it.
 //
-//   emergency stop, drive alarms, limit switches, watchdogs        STOP order
-//        │ edge, in the kernel, at its tick                             │ between runs
+//   emergency stop, drive alarms, limit switches, watchdogs,       STOP order
+//   following errors                                                    │ between runs
+//        │ edge, in the kernel, at its tick                             │
 //        └──────────────────────────────► trip ◄────────────────────────┘
 //                                          ├──► halted(): hosts wait for nothing more, no motion begins
 //                                          └──► break_run ──► look(): the reactions, see stop_reactions.hpp
@@ -17,6 +18,8 @@
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
+#include <motionrack/rack/following.hpp>
+#include <motionrack/rack/safety_contacts.hpp>
 #include <motionrack/rack/stop_source.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <string>
@@ -42,6 +45,15 @@ class StopLatch final : public sim::Device {
 
     /// Between runs: the STOP order.
     void order();
+    /// An axis, a number in Rack::axes(), stays behind what drives it by more than its limit: in the kernel, at its
+    /// tick. Where a stop is in force already its position is lost all the same.
+    void stays_behind(std::size_t axis, Instant now);
+    /// What sees that.
+    FollowingWatch& following() { return following_; }
+    /// The contacts for people.
+    SafetyContacts& contacts() { return contacts_; }
+    /// Whoever drives holds the feed while the door is open; else an open door is a stop order.
+    void heed_door(bool on) { state_.heeds_door = on; }
     /// Between runs, in every slice of whoever drives: carries the reactions out.
     void look();
     /// Between runs: whoever drives has seen all axes stand.
@@ -52,6 +64,8 @@ class StopLatch final : public sim::Device {
     bool latched() const { return state_.latched != 0; }
     /// That stop requests come from it: see VirtualHost::set_halted_flag.
     const std::atomic<bool>& halted() const { return halted_; }
+    /// Somebody asked for the stop, and nothing else did.
+    bool is_ordered() const { return cause() == StopSource::stop_order && state_.by_door == 0; }
     /// What set it first, and when; while it is latched.
     StopSource cause() const { return static_cast<StopSource>(state_.cause); }
     Instant at() const { return state_.at; }
@@ -73,9 +87,9 @@ class StopLatch final : public sim::Device {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    /// A wire that is watched, or the watchdog of a card.
+    /// A wire that is watched, the watchdog of a card, or an axis that may stay behind.
     struct Input {
-        sim::WireId wire = sim::WireId::none;  ///< none: a watchdog
+        sim::WireId wire = sim::WireId::none;  ///< none: a watchdog, or an axis
         StopSource source{};
         int active = 0;  ///< the level; of a watchdog the code of its condition
         int direction = 0;
@@ -87,8 +101,11 @@ class StopLatch final : public sim::Device {
         std::uint64_t heard = 0;                              ///< conditions of the kernel that were looked at
         std::array<Instant, 2 * control::axis_count> left{};  ///< when an axis' - and + limit switch was left last
         std::int32_t armed = 0, heeds_limits = 1, latched = 0, cause = 0;
-        std::int32_t input = -1;                           ///< that set it; -1: an order
+        std::int32_t input = -1;  ///< that set it; -1: an order
+        std::int32_t behind = 0;  ///< a limit switch behind an axis that moved: its direction
+        std::int32_t heeds_door = 1, by_door = 0;
         std::uint32_t tripped = 0, pending = 0, lost = 0;  ///< bits: sources; sources; axes
+        std::uint32_t unused = 0;  ///< in place of padding, which would get into the state's hash
     };
     static constexpr std::uint32_t bit(StopSource source) { return 1u << static_cast<unsigned>(source); }
 
@@ -98,6 +115,7 @@ class StopLatch final : public sim::Device {
     Instant& left_at(const Input& input);
     bool trips(const Input& input, Instant now);
     bool left_to_card(const Input& input, Instant now) const;
+    bool is_behind(const Input& input, Instant now) const;
     bool is_on_card(const RunningAxis& axis, const Input& input) const;
     void trip(StopSource source, int input, Instant now);
     void note_lost(StopSource source, const Input* input, Instant now);
@@ -106,6 +124,8 @@ class StopLatch final : public sim::Device {
     Rack& rack_;
     sim::Kernel& kernel_;
     sim::DeviceId id_{};
+    FollowingWatch following_;
+    SafetyContacts contacts_;
     std::vector<Input> inputs_;
     bool has_watchdogs_ = false;
     State state_{};

@@ -12,18 +12,29 @@ struct SourceText {
     std::string_view sets, resets;
 };
 constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
-    {StopSource::emergency_stop, "the rack's button (the wire `estop`), or a card's own input for it, however short",
-     "once it is released"},
-    {StopSource::stop_order, "STOP on the page, `POST /api/stop`, `machine.stop()`, `--at stop@TIME`", "at any time"},
+    {StopSource::emergency_stop,
+     "the rack's button (the wire `estop`), or a card's own input for it, however short; of two channels "
+     "(`estop_channels = 2`: `estop1`, `estop2`) the first that opens",
+     "once it is released; where two channels were unlike for 500 ms (`estop_discrepancy_ms`), which is an alarm of "
+     "its "
+     "own, once both are alike"},
+    {StopSource::stop_order,
+     "STOP on the page, `POST /api/stop`, `machine.stop()`, `--at stop@TIME`; in a run the door, "
+     "which is opened",
+     "at any time"},
     {StopSource::drive_alarm, "the alarm input of an axis of an MCX314", "once the drive reports it no more"},
     {StopSource::limit_switch,
-     "the switch of an axis that moves towards it, or of one that stands; not one behind the axis, nor one that "
-     "bounces "
-     "within 20 ms after it was left",
+     "the switch of an axis that moves towards it, or of one that stands; one that becomes active behind an axis that "
+     "moves, also in a search for home: it is wired wrongly or broken; not one that bounces within 20 ms after it was "
+     "left",
      "at any time: the axis must be moved off it"},
     {StopSource::watchdog,
      "a DataBoard 4002 that was reset because its program hung; it is seen at the next slice (2 ms, of a run 50 ms)",
      "at any time"},
+    {StopSource::following_error,
+     "the encoder of an axis that counts less, or more, than its card has sent by more than its "
+     "`following_error_alarm_mm` (`_deg`); looked at each millisecond",
+     "at any time; the error begins anew at 0, the position is not trusted"},
 }};
 
 constexpr std::string_view begin = R"(# What a stop does
@@ -33,8 +44,9 @@ constexpr std::string_view begin = R"(# What a stop does
 A rack has one stop latch. Whatever must stop the machine sets it, in every state of the machine, and only a reset
 releases it:
 
-    emergency stop, drive alarm, limit switch, watchdog        STOP order
-         | edge of a wire, at its tick                             | between two slices
+    emergency stop, drive alarm, limit switch, watchdog,       STOP order
+    following error                                                | between two slices
+         | edge of a wire, at its tick                             |
          +----------------------> LATCH <--------------------------+
                                     |---> axes stop, nothing begins to move, dwells and holds end
                                     |---> laser off, belts stand, stages brake, outputs 0: the table of reactions
@@ -50,6 +62,10 @@ releases it:
 - `motionrack run` and `motionrack home` end with exit code 4 and the sentence of the latch; by the STOP order and
   Ctrl-C with 130.
 
+A door (`door = true` in `[safety]`, the wire `door`) that is opened holds the feed of a served machine, puts spindle
+and coolant off, stops jogs and searches for home, and raises an alarm; nothing begins to move while it is open.
+Closing it moves nothing: a resume does, and brings spindle and coolant back. A run has nobody to resume it, and ends.
+
 This is a simulation and its software. It is no safety function: a real machine needs an emergency stop that is
 wired without any software.
 
@@ -62,6 +78,7 @@ A position is kept where no step can have been lost, and dropped where one may h
 - a ramp loses nothing: the STOP order, limit switches, an alarm of another axis;
 - without a ramp (the emergency stop) an axis keeps its position that was not faster than its start speed,
   which it reaches and leaves at once; so do all axes in a dwell, a hold or at standstill;
+- an axis with a following error above its limit is not trusted: its motor does not follow, or its encoder is dead;
 - an axis whose drive reports an alarm while it moves is not trusted: its motor may not have followed;
 - an axis that a DataBoard 4002 positions by its encoder is still counted, unless its watchdog has reset the card.
 
@@ -124,9 +141,9 @@ std::string safety_reference() {
         "state, by that source, with a laser, a belt, a stage and outputs that are on. It expects all of the above, in "
         "virtual time.\n\n| state |";
     for (const StopSource source : stop_sources) out += fmt::format(" {} |", name_of(source));
-    out += "\n|---|---|---|---|---|---|\n";
+    out += "\n|---|---|---|---|---|---|---|\n";
     static constexpr std::array<std::string_view, stop_sources.size()> test_names = {
-        "emergency_stop", "stop_order", "drive_alarm", "limit_switch", "watchdog"};
+        "emergency_stop", "stop_order", "drive_alarm", "limit_switch", "watchdog", "following_error"};
     for (const StopState& state : stop_states()) {
         out += fmt::format("| {} |", state.text);
         for (const StopSource source : stop_sources) {

@@ -12,14 +12,15 @@ enum class StopSource : std::uint8_t {
     stop_order,      ///< somebody asked
     drive_alarm,     ///< of an axis' drive, at its card's input
     limit_switch,    ///< of an axis that moves towards it, or stands
-    watchdog         ///< a card was reset because its program hung
+    watchdog,        ///< a card was reset because its program hung
+    following_error  ///< an axis stays behind by more than its limit: see following.hpp
 };
 
-inline constexpr std::array<StopSource, 5> stop_sources = {StopSource::emergency_stop, StopSource::stop_order,
-                                                           StopSource::drive_alarm, StopSource::limit_switch,
-                                                           StopSource::watchdog};
+inline constexpr std::array<StopSource, 6> stop_sources = {StopSource::emergency_stop, StopSource::stop_order,
+                                                           StopSource::drive_alarm,    StopSource::limit_switch,
+                                                           StopSource::watchdog,       StopSource::following_error};
 
-/// "emergency stop", "STOP order", "drive alarm", "limit switch", "watchdog".
+/// "emergency stop", "STOP order", "drive alarm", "limit switch", "watchdog", "following error".
 std::string_view name_of(StopSource source);
 
 }  // namespace motionrack::rack

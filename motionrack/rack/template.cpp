@@ -163,6 +163,8 @@ std::string write(RackConfig config, std::string_view card_type = "mcx314") {
     for (const RackAxis& axis : config.axes) write_axis(out, axis);
     out.section("controller", "how paths are cut where the part program does not say");
     out.fields(controller_fields(), &config.controller, &defaults.controller, "");
+    out.section("safety", "contacts for people: the emergency stop and a door");
+    out.fields(safety_fields(), &config.safety, &defaults.safety, "");
     out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
     if (type.channels.empty()) {
         out.line("# \"motion.ref\" = \"X.limit_minus\"        # the end stop is also the reference");

@@ -23,11 +23,14 @@ void TrustWatch::begin(std::size_t axis) {
     one.lost_pulses = lost_pulses(axis);
     one.counted_wrongly = counted_wrongly(axis);
     one.lost = one.told_counts = false;
+    rack_.stop_latch().following().begin(axis);
 }
 
 std::vector<TrustFinding> TrustWatch::look(bool standing) {
     std::vector<TrustFinding> out;
     look_at_conditions(out);
+    for (FollowingWatch::Warning& warning : rack_.stop_latch().following().take_warnings())
+        out.push_back({warning.axis, warning.at, std::move(warning.text), false});
     for (std::size_t i = 0; standing && i < watched_.size(); ++i) compare(i, out);
     return out;
 }

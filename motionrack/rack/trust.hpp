@@ -4,6 +4,7 @@
 //   a motor lost steps, was pushed or held ──────────────────────► lost, until the axis is homed or declared
 //   an axis that positions by itself does not know where it is ──► lost
 //   a card's encoder counter is off from what the motor turned ──► told; the pulses that drive the axis are right
+//   a following error above its warning limit ───────────────────► told; above its alarm limit the stop latch says it
 #pragma once
 
 #include <cstdint>

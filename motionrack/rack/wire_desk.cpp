@@ -15,6 +15,9 @@ constexpr double most_volts = 15;  // of an analog input
 WireDesk::WireDesk(Rack& rack) : rack_(rack) {
     wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
     if (rack_.config().probe) wires_["probe"] = {Kind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
+    for (const char* contact : {"estop1", "estop2", "door"})
+        if (const sim::WireId wire = rack_.kernel().find_wire(contact); wire != sim::WireId::none)
+            wires_[contact] = {Kind::plain, wire, -1, 0, 1, 1, {}};
     add_cards();
     add_axes();
     add_tracks();

@@ -146,6 +146,8 @@ constexpr Source sources[] = {
      nothing},
     {StopSource::watchdog, "watchdog", 1,
      [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); }, nothing},
+    {StopSource::following_error, "following_error", 0,
+     [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=1280", "Y")); }, nothing},
 };
 
 using Case = std::tuple<State, Source>;

@@ -32,20 +32,22 @@ std::ostream& operator<<(std::ostream& out, const BrokenJog& one) {
 }
 
 constexpr const char* lost = "The position of axis X is not trusted any more.";
+constexpr const char* behind = "The following error of X was";
 
 constexpr BrokenJog broken_jogs[] = {
     {"estop_slow", false, 20, "estop", true, false, "position of X is not trusted any more"},
     {"estop_fast", false, 100, "estop", true, false, "position of X is not trusted any more"},
     {"estop_of_the_card_alone", false, 100, "m.emgn", true, false, "Its position is not trusted"},
-    {"stall", false, 50, "motor.stall", false, false, lost},
+    {"stall", false, 50, "motor.stall", false, false, behind},
     {"lost_steps", false, 50, "motor.lose_steps=64", false, false, lost},
     {"push", false, 50, "motor.push=64", false, false, lost},
-    {"encoder_dead", false, 50, "encoder.broken_a", false, true, "encoder of X: the card's counter is"},
-    {"encoder_swapped", false, 50, "encoder.swapped", false, true, "encoder of X: the card's counter is"},
+    {"encoder_dead", false, 50, "encoder.broken_a", false, false, behind},
+    {"encoder_swapped", false, 50, "encoder.swapped", false, false, behind},
+    {"encoder_input_held", false, 50, "m.xeca", true, false, behind},
     {"nothing", false, 50, "encoder.broken_a=0", false, true, ""},
     {"servo_stall", true, 100, "motor.stall", false, false, "does not move as it is driven"},
     {"servo_encoder_dead", true, 100, "encoder.broken_a", false, false, "does not move as it is driven"},
-    {"servo_encoder_swapped", true, 100, "encoder.swapped", false, false, "does not move as it is driven"},
+    {"servo_encoder_swapped", true, 100, "encoder.swapped", false, false, behind},
     {"servo_without_voltage", true, 100, "X.drive", true, false, "does not move as it is driven"},
     {"servo_estop", true, 100, "estop", true, true, "emergency stop"},
     {"servo_pushed", true, 100, "motor.push=1000", false, true, ""},

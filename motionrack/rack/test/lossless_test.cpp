@@ -125,7 +125,9 @@ TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
 TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
     bool late = false;
     const Path path = spiral(0.2, 200);
-    const Driven driven = drive_with(router(), path.text, {}, [&](Rack& rack) {
+    RackConfig config = router();
+    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors fall out of step
+    const Driven driven = drive_with(config, path.text, {}, [&](Rack& rack) {
         if (late || rack.kernel().now() < milliseconds(2500)) return;
         late = true;
         rack.cards().front()->host().pass(milliseconds(20));

@@ -140,9 +140,21 @@ TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop)
 }
 
 TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
+    std::string on_its_switch = stop_axes;
+    on_its_switch.replace(on_its_switch.find("start_mm = 10"), 13, "min_mm = -6\nstart_mm = -5.5");
+    on_its_switch.replace(on_its_switch.find("limit_minus_mm = -5"), 19, "bounce_ms = 10\nlimit_minus_mm = -5");
+    const StoppedRun ran = run_stopped(on_its_switch, "G21 G90 F1200\nG1 X20\nM2\n", {});
+    EXPECT_TRUE(ran.outcome.ended) << ran.error();
+    EXPECT_EQ(ran.x(), 20) << "the way back stays free";
+}
+
+TEST(AStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
     const StoppedRun ran =
         run_stopped(stop_axes, "G21 G90 F1200\nG1 X80\nM2\n", {"X.limit_minus=0@1s", "X.limit_minus=1@1.2s"});
-    EXPECT_TRUE(ran.outcome.ended) << "the way back stays free";
+    ASSERT_FALSE(ran.outcome.ended);
+    EXPECT_THAT(ran.error(), HasSubstr("The - limit switch of X became active while X moved in + direction"));
+    EXPECT_TRUE(ran.outcome.position_trusted) << "a ramp loses nothing";
+    EXPECT_LT(ran.x(), 32);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// Openings, and what is kept over them.
+#include <fmt/format.h>
+
+#include <motionrack/operate/door.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+Door::Door(rack::Rack& rack) : contacts_(rack.stop_latch().contacts()) {
+    rack.stop_latch().heed_door(false);
+}
+
+Result<void> Door::check_closed(const char* what) const {
+    if (!contacts_.door_open()) return {};
+    return fail(Trouble::refused, fmt::format("{}: the door is open. Nothing was moved; close it first.", what));
+}
+
+std::optional<std::string> Door::take_opening(MachineState state) {
+    const bool open = contacts_.door_open();
+    if (std::exchange(was_open_, open) || !open) return {};
+    const bool in_work = state == MachineState::moving || state == MachineState::hold;
+    return fmt::format("The door was opened at {:.3f} s: {}, the spindle is off. Close it, then {}.",
+                       to_seconds(contacts_.door_opened()),
+                       in_work         ? "the feed is held"
+                       : stands(state) ? "nothing was moving"
+                                       : "the motion was stopped",
+                       in_work ? "resume" : "go on");
+}
+
+void Door::keep_tools(const Status& status) {
+    if (!kept_) kept_ = Tools{status.spindle, status.mist, status.flood};
+}
+
+void Door::give_back_tools(Status& status) {
+    if (!kept_) return;
+    status.spindle = kept_->spindle;
+    status.mist = kept_->mist;
+    status.flood = kept_->flood;
+    kept_.reset();
+}
+
+}  // namespace motionrack::operate
