@@ -11,6 +11,7 @@
 #include <motionrack/journal/database.hpp>
 #include <motionrack/journal/file_watch.hpp>
 #include <motionrack/journal/journal.hpp>
+#include <motionrack/journal/quota.hpp>
 #include <motionrack/journal/seal.hpp>
 #include <motionrack/journal/tables.hpp>
 #include <utility>
@@ -70,11 +71,16 @@ class FileLock {
     int file_;
 };
 
-Journal::Journal(std::string path, std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer,
-                 std::unique_ptr<Database> reader)
-    : path_(std::move(path)), lock_(std::move(lock)), writer_(std::move(writer)), reader_(std::move(reader)) {}
+Journal::Journal(std::string path, JournalSettings settings, std::unique_ptr<FileLock> lock,
+                 std::unique_ptr<Database> writer, std::unique_ptr<Database> reader)
+    : path_(std::move(path)),
+      settings_(std::move(settings)),
+      quota_(std::make_unique<Quota>(settings_.max_bytes)),
+      lock_(std::move(lock)),
+      writer_(std::move(writer)),
+      reader_(std::move(reader)) {}
 
-Result<std::unique_ptr<Journal>> Journal::open(const std::string& path) {
+Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalSettings settings) {
     MOTIONRACK_TRY(auto lock, FileLock::take(path));
     MOTIONRACK_CHECK(make_private(path));
     MOTIONRACK_TRY(Database writer, Database::open(path, Database::Use::write));
@@ -85,7 +91,8 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path) {
                                 made.error().message));
     }
     MOTIONRACK_TRY(Database reader, Database::open(path, Database::Use::read));
-    std::unique_ptr<Journal> journal(new Journal(path, std::move(lock), std::make_unique<Database>(std::move(writer)),
+    std::unique_ptr<Journal> journal(new Journal(path, std::move(settings), std::move(lock),
+                                                 std::make_unique<Database>(std::move(writer)),
                                                  std::make_unique<Database>(std::move(reader))));
     if (Result<void> begun = journal->begin(); !begun)
         return fail(Trouble::io,
@@ -214,9 +221,21 @@ void Journal::work() {
         } else if (stored = files_->check(); !stored) {
             failed(stored.error().message);
         }
+        if (stored && !entries.empty()) keep_quota(entries.back().entry.at);
         for (const Waiting& one : entries)
             if (one.done) one.done(stored ? Result<std::int64_t>(one.entry.number) : fail(Trouble::io, failure()));
     }
+}
+
+void Journal::keep_quota(Instant at) {
+    const Result<std::string> news = quota_->look(*writer_);
+    if (!news) {
+        (void)writer_->run("ROLLBACK");
+        return failed(fmt::format("could not be kept within its quota: {}", news.error().message));
+    }
+    if (news->empty()) return;
+    write(at, "journal", *news);
+    if (settings_.on_quota) settings_.on_quota(*news);
 }
 
 /// Any thread. The first failure stays: what follows from it says less.

@@ -31,6 +31,7 @@ namespace motionrack::journal {
 class Database;
 class FileLock;
 class FileWatch;
+class Quota;
 
 struct Entry {
     std::int64_t number = 0;  ///< from 1, over all runs
@@ -66,6 +67,12 @@ struct Question {
     int limit = 100;         ///< 1 .. 10000; the newest ones
 };
 
+struct JournalSettings {
+    std::int64_t max_bytes = 1'000'000'000;  ///< of its entries; beyond them the oldest go
+    /// Hears that the quota is near or reached; on the writing thread, must not wait.
+    std::function<void(const std::string&)> on_quota = {};
+};
+
 class Journal {
   public:
     /// Called on the writing thread.
@@ -73,7 +80,7 @@ class Journal {
 
     /// Begins a run. Errors: io (the file cannot be made, is no journal, or belongs to a program that runs; it is left
     /// as it is).
-    static Result<std::unique_ptr<Journal>> open(const std::string& path);
+    static Result<std::unique_ptr<Journal>> open(const std::string& path, JournalSettings settings = {});
     /// Ends without a word, as a crash does, unless it was closed; what waits is written.
     ~Journal();
 
@@ -108,17 +115,20 @@ class Journal {
         Entry entry;
         Done done;
     };
-    Journal(std::string path, std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer,
-            std::unique_ptr<Database> reader);
+    Journal(std::string path, JournalSettings settings, std::unique_ptr<FileLock> lock,
+            std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
     Result<void> begin();
     void read_last_run();
     void read_kept(LastRun& last);
     void work();
     bool end_work();
     void failed(const std::string& what);
+    void keep_quota(Instant at);
     Result<void> store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept);
 
     std::string path_;
+    JournalSettings settings_;
+    std::unique_ptr<Quota> quota_;
     std::unique_ptr<FileLock> lock_;
     std::unique_ptr<FileWatch> files_;
     std::unique_ptr<Database> writer_, reader_;

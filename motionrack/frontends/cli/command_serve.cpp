@@ -30,6 +30,7 @@ struct ServeOptions {
     std::optional<std::uint16_t> grbl_port;
     std::string grbl_terminal;
     int grbl_axes = 3;
+    std::int64_t journal_megabytes = 1000;
     bool grbl_resets_stop_all = false;
     std::vector<std::string> hosts, origins;
     double speed = 1;
@@ -95,7 +96,10 @@ class Serving {
 
     Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
         MOTIONRACK_CHECK(authority::check_writers(options_.journal, "The journal"));
-        MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal));
+        journal::JournalSettings book;
+        book.max_bytes = options_.journal_megabytes * 1'000'000;
+        book.on_quota = [this](const std::string& sentence) { say(sentence); };
+        MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal, std::move(book)));
         if (!journal_->before()) return {};
         operate::LastStanding last = operate::read_last(*journal_->before(), config);
         if (!last.sentence.empty()) print_warning(last.sentence);
@@ -159,7 +163,7 @@ class Serving {
     void warn_of_lost_records() {
         if (!journal_ || warned_ || journal_->failure().empty()) return;
         warned_ = true;
-        print_warning(journal_->failure() + " The machine holds, and nothing is started.");
+        say(journal_->failure() + " The machine holds, and nothing is started.");
     }
 
     void greet(const rack::RackConfig& config) {
@@ -223,6 +227,11 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");
     command->add_option("--journal", options->journal,
                         "file that keeps what happened (SQLite); the next start reads where the axes stood");
+    command
+        ->add_option("--journal-quota", options->journal_megabytes,
+                     "MB that the journal may have; warned of at 80 %, beyond it its oldest entries are removed")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+        ->capture_default_str();
     command->add_option("--users", options->users,
                         "file that keeps who was paired (default: users.json in ~/.local/state/motionrack)");
     command->add_flag("--no-pairing", options->no_pairing,

@@ -1,0 +1,57 @@
+// A journal within its quota.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <mutex>
+
+#include "journal_file.hpp"
+
+namespace motionrack::journal {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(AJournal, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
+    std::vector<std::string> told;
+    std::mutex lock;
+    JournalSettings settings;
+    settings.max_bytes = 400'000;
+    settings.on_quota = [&](const std::string& sentence) {
+        const std::lock_guard<std::mutex> alone(lock);
+        told.push_back(sentence);
+    };
+    auto journal = *Journal::open(path_, settings);
+    const auto count = [&] {
+        const std::lock_guard<std::mutex> alone(lock);
+        return told.size();
+    };
+    const std::string text(200, 'x');
+    std::int64_t last = 0;
+    for (int i = 0; i < 4000; ++i) {
+        if (i % 50 != 49)
+            journal->write(Instant{i}, "audit", text);
+        else
+            last = write(*journal, "audit", text);
+        if (count() == 0) {
+            EXPECT_LT(std::filesystem::file_size(path_), 400'000u);
+        }
+    }
+    ASSERT_GT(count(), 2u);
+    EXPECT_THAT(told[0], testing::AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file away")));
+    EXPECT_THAT(told[1], HasSubstr("has reached its quota of 0.4 MB: entries before number"));
+    const auto entries = journal->read({0, "", 10000});
+    EXPECT_LT(entries->size(), 2000u);
+    EXPECT_GT(entries->size(), 500u);
+    EXPECT_GE(entries->back().number, last);
+    EXPECT_EQ(journal->check()->problem, "");
+    EXPECT_FALSE(journal->read({0, "journal", 10})->empty());
+    ASSERT_TRUE(journal->close());
+    EXPECT_LT(std::filesystem::file_size(path_), 480'000u);
+    journal.reset();
+    journal = open();
+    EXPECT_TRUE(journal->before()->clean);
+    EXPECT_EQ(journal->before()->damage, "");
+}
+
+}  // namespace
+}  // namespace motionrack::journal
