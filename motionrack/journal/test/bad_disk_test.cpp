@@ -198,7 +198,7 @@ TEST_P(OnABadDisk, WhoseNthWriteFailsLosesNothingAcknowledgedAndTrustsNothingWro
     const std::int64_t calls = all_calls();
     for (const BadDisk::Fault fault :
          {BadDisk::Fault::fail, BadDisk::Fault::stay, BadDisk::Fault::tear, BadDisk::Fault::drop})
-        for (const std::int64_t nth : chosen(calls, 8)) {
+        for (const std::int64_t nth : chosen(calls, 3)) {
             SCOPED_TRACE("fault " + std::to_string(static_cast<int>(fault)) + " at call " + std::to_string(nth));
             remove();
             Known known;
@@ -221,7 +221,7 @@ TEST_P(OnABadDisk, ThatLosesPowerAtAnyWriteLosesNothingAcknowledgedAndTrustsNoth
     Program program(path_, disk);
     GetParam().run(program);
     const std::int64_t calls = disk.calls();
-    for (const std::int64_t after : chosen(calls, 20))
+    for (const std::int64_t after : chosen(calls, 8))
         for (int luck = 0; luck < 2; ++luck) {
             SCOPED_TRACE("power lost after call " + std::to_string(after) +
                          ", MOTIONRACK_SEED=" + std::to_string(seed));
