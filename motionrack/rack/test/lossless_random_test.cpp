@@ -1,6 +1,6 @@
-// Random programs in chords from 2 um to 50 mm, on some racks, in both profiles, held, slowed, let go on and stopped at
-// random instants: no axis jumps, and they end where they should. MOTIONRACK_SEED=N picks the first program,
-// MOTIONRACK_PROGRAMS=N how many.
+// Random programs in chords from 2 um to 50 mm, with probing moves, on some racks, in both profiles, held, slowed, let
+// go on and stopped at random instants: no axis jumps, and they end where they should. MOTIONRACK_SEED=N picks the
+// first program, MOTIONRACK_PROGRAMS=N how many.
 #include <algorithm>
 #include <random>
 
@@ -9,10 +9,27 @@
 namespace motionrack::rack {
 namespace {
 
-/// Paths of straight moves: smooth curves, sharp corners and ways back, each in chords of one length or of many.
-class ChordMaker {
+/// Random numbers that are the same everywhere.
+class Chance {
   public:
-    explicit ChordMaker(std::uint64_t seed) : random_(seed) {}
+    explicit Chance(std::uint64_t seed) : random_(seed) {}
+    int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+    double number(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+    }
+    double even_on_log(double low, double high) { return std::exp(number(std::log(low), std::log(high))); }
+
+  private:
+    std::mt19937_64 random_;
+};
+
+/// The probe touches what is at this height and below; programs are above it, but for their probing moves.
+constexpr double probe_height = 60, program_height = 75;
+
+/// Paths of straight moves: smooth curves, sharp corners and ways back, each in chords of one length or of many.
+class ChordMaker : public Chance {
+  public:
+    explicit ChordMaker(std::uint64_t seed) : Chance(seed), probing_(~seed), probes_(probing_.pick(4) == 0) {}
 
     struct Program {
         std::string text;
@@ -26,19 +43,34 @@ class ChordMaker {
                                 std::array{"G64 P0.01", "G64 P0.05", "G64 P0.002", "G61"}[pick(4)], feed());
         heading_ = number(-3, 3);
         const int stretches = 1 + pick(4);
-        for (int i = 0; i < stretches; ++i) add_stretch();
+        for (int i = 0; i < stretches; ++i) {
+            if (probes_ && probing_.pick(2) == 0) add_probing();
+            add_stretch();
+        }
         out_.text += "M2\n";
         return out_;
     }
 
-    int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-    double number(double low, double high) {
-        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-    }
-    double even_on_log(double low, double high) { return std::exp(number(std::log(low), std::log(high))); }
+    bool probes() const { return probes_; }
 
   private:
     double feed() { return even_on_log(300, 9000); }
+
+    /// Down, straight or slanted, to where it touches or not; then perhaps up until it leaves; and up.
+    void add_probing() {
+        const double feed = probing_.even_on_log(100, 5000);
+        const bool touches = probing_.pick(3) > 0, slanted = probing_.pick(2) == 0;
+        const double end = touches ? probing_.number(50, 58) : probing_.number(61, 70);
+        std::string aside;
+        if (slanted)
+            aside = fmt::format(" X{:.4f} Y{:.4f}", out_.x + probing_.number(-5, 5), out_.y + probing_.number(-5, 5));
+        out_.text += fmt::format("G38.3{} Z{:.4f} F{:.0f}\n", aside, end, feed);
+        if (touches && probing_.pick(2) == 0)
+            out_.text += fmt::format("G38.5 Z{:.4f} F{:.0f}\n", program_height - 1, 0.3 * feed);
+        out_.text += fmt::format("G1 X{:.4f} Y{:.4f} Z{:.4f} F{:.0f}\n", out_.x, out_.y, program_height,
+                                 probing_.even_on_log(300, 9000));
+        out_.seconds += 2 * (program_height - end) / (feed / 60);
+    }
 
     void add_stretch() {
         const double chord = even_on_log(0.002, 50), length = std::min(even_on_log(0.5, 40), 400 * chord);
@@ -65,14 +97,22 @@ class ChordMaker {
     }
     static double rounded(double x) { return std::round(x * 1e4) / 1e4; }
 
-    std::mt19937_64 random_;
+    Chance probing_;
+    bool probes_;
     Program out_;
     double heading_ = 0;
 };
 
+RackConfig router_with_probe() {
+    std::string text = *rack_template("router");
+    text.replace(text.find("\"mcx314\" ", text.find("variant =")), 8, "\"mcx314as\"");
+    return *read_rack_text(text + fmt::format("\n[probe]\nz_to_mm = {}\n", probe_height)).config;
+}
+
 /// Racks whose pulses, start speeds and hosts differ.
 RackConfig rack_of(ChordMaker& random, const std::string& profile) {
-    RackConfig config = router(profile);
+    RackConfig config = random.probes() ? router_with_probe() : router();
+    config.controller.profile = profile;
     const auto microsteps = std::array<std::int64_t, 4>{16, 16, 64, 32}[static_cast<std::size_t>(random.pick(4))];
     set_microsteps(config, microsteps);
     Mcx314Settings& card = config.cards[0].mcx314;
@@ -113,12 +153,28 @@ Disturbed wishes_of(ChordMaker& random, double seconds) {
 /// other profile shares it out.
 constexpr double accel_of_trapezoids = 2;
 
+/// A stop, as an order or as Ctrl-C: of a program that has none, or in its place.
+void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
+    if (chance.pick(disturbed.stopped ? 2 : 5) > 0) return;
+    double at = chance.number(0.001, seconds);
+    if (disturbed.stopped) {
+        at = disturbed.wishes.back().first;
+        disturbed.wishes.pop_back();
+    }
+    // A job with orders looks for Ctrl-C itself.
+    const bool alone = disturbed.wishes.empty() && chance.pick(2) == 0;
+    disturbed.wishes.emplace_back(at, alone ? "flag" : "ctrl-c");
+    disturbed.stopped = true;
+}
+
 void drive_one(std::uint64_t seed) {
     ChordMaker random(seed);
     const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
     const ChordMaker::Program program = random.make();
     const RackConfig config = rack_of(random, profile);
-    const Disturbed disturbed = wishes_of(random, program.seconds + 2);
+    Disturbed disturbed = wishes_of(random, program.seconds + 2);
+    Chance stops(seed + 0x5eed);
+    ask_stop(disturbed, stops, program.seconds + 2);
     std::string told;
     for (const auto& [at, what] : disturbed.wishes) told += fmt::format(" {}@{:.4f}s", what, at);
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} microsteps {}, latency {} us, access {} ns, wishes{}", seed,
@@ -130,9 +186,14 @@ void drive_one(std::uint64_t seed) {
     if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
 }
 
-TEST(LosslessAtRandom, NoAxisJumpsWhateverIsWishedOnTheWay) {
+/// A share of the programs each, so that several run at once.
+constexpr std::uint64_t shares = 8;
+class LosslessAtRandom : public testing::TestWithParam<std::uint64_t> {};
+INSTANTIATE_TEST_SUITE_P(Share, LosslessAtRandom, testing::Range<std::uint64_t>(0, shares));
+
+TEST_P(LosslessAtRandom, NoAxisJumpsWhateverIsWishedOnTheWay) {
     const std::uint64_t first = seed_from_environment(), count = trials("MOTIONRACK_PROGRAMS", 200, 10'000);
-    for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed) drive_one(seed);
+    for (std::uint64_t i = GetParam(); i < count && !HasFailure(); i += shares) drive_one(first + i);
 }
 
 }  // namespace

@@ -22,19 +22,51 @@ struct Driven {
 /// Seconds since the start, and what is wished then.
 using Wishes = std::vector<std::pair<double, std::string>>;
 
-/// `slice`: called all the time while it runs. `accel_parts`: see PulseReferee.
+/// Sets a flag at its instant, as a signal may come at any.
+class FlagAt final : public sim::Device {
+  public:
+    FlagAt(sim::Kernel& kernel, Instant at) : kernel_(kernel) {
+        kernel_.schedule(kernel_.add(*this, sim::Phase::observers, "flag"), at);
+    }
+    void act(Instant) override { flag_ = true; }
+    const std::atomic<bool>& flag() const { return flag_; }
+
+  private:
+    sim::Kernel& kernel_;
+    std::atomic<bool> flag_{false};
+};
+
+/// Wishes are orders of the command `run`; or "ctrl-c", which it hears of between two runs of the kernel; or, alone,
+/// "flag", which a program sees that has a job of its own. `slice`: called all the time while it runs. `accel_parts`:
+/// see PulseReferee.
 inline Driven drive_with(const RackConfig& config, const std::string& program, const Wishes& wishes,
                          const std::function<void(Rack&)>& slice = {}, double accel_parts = 1) {
     Rack rack(config);
     std::vector<TimedText> texts;
-    for (const auto& [seconds, action] : wishes) texts.push_back({Instant{} + from_seconds(seconds), action, action});
+    Instant ctrl_c = never, flag_at = never;
+    for (const auto& [seconds, action] : wishes) {
+        const Instant at = Instant{} + from_seconds(seconds);
+        if (action == "ctrl-c")
+            ctrl_c = at;
+        else if (action == "flag")
+            flag_at = at;
+        else
+            texts.push_back({at, action, action});
+    }
     auto plan = OrderPlan::create(rack, texts);
     EXPECT_TRUE(plan);
+    FlagAt flag(rack.kernel(), flag_at);
     JobSettings settings;
     settings.program = program;
     settings.program_name = "test";
-    settings.orders = plan->get();
-    if (slice) settings.on_slice = [&] { slice(rack); };
+    if (flag_at == never)
+        settings.orders = plan->get();
+    else
+        settings.stop = &flag.flag();
+    settings.on_slice = [&] {
+        if (rack.kernel().now() >= ctrl_c) (*plan)->ask_stop();
+        if (slice) slice(rack);
+    };
     Job job(rack, settings);
     test::PulseReferee referee(rack);
     rack.start();
