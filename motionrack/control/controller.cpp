@@ -87,6 +87,7 @@ Controller::Controller(PathAxes& axes, const ControllerSettings& settings) : axe
 }
 
 void Controller::plan_from(const Point& start) {
+    read_to_ = start;
     if (settings_.jerk_limited)
         planner_ = std::make_unique<RideMoves>(ride_for(axes_, settings_.gcode.limits, settings_.kept_back, {}, start));
     else
@@ -102,6 +103,15 @@ Result<void> Controller::hand_over() {
         tell(planned);
         MOTIONRACK_CHECK(axes_.follow(planned));
     }
+}
+
+/// A move was read: with its number.
+Move Controller::programmed(const Move& read) {
+    Move move = read;
+    move.index = read_++;
+    if (on_move_) on_move_(move, read_to_);
+    if (move.kind != MoveKind::dwell) read_to_ = move.end;
+    return move;
 }
 
 /// A block is about to be driven.
@@ -134,7 +144,7 @@ Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
     if (step.kind == StepKind::move) {
         run.moves += step.move.kind != MoveKind::dwell;
         if (!planner_->has_room()) MOTIONRACK_CHECK(hand_over());
-        return planner_->push(step.move);
+        return planner_->push(programmed(step.move));
     }
     // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
     if (gcode::needs_rest(step)) {
@@ -153,7 +163,7 @@ Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, P
     MOTIONRACK_CHECK(hand_over());
     MOTIONRACK_CHECK(axes_.finish());
     MOTIONRACK_TRY(const PlannedMove planned,
-                   plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, step.move));
+                   plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, programmed(step.move)));
     tell(planned);
     MOTIONRACK_TRY(const ProbeOutcome outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
     const Point stands = axes_.commanded_position();

@@ -64,6 +64,8 @@ class Controller {
     void on_block(std::function<void(std::int64_t block, const PlannedMove& move)> call) {
         on_block_ = std::move(call);
     }
+    /// Called with each move as the program has it (dwells, too), and where it starts, long before it is driven.
+    void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
     /// Drives a program that check_program found nothing wrong with. Errors: bad_input (with place) if the reader finds
     /// a problem all the same: the axes then finish what was read before and stand; machine and stopped as PathAxes
@@ -78,6 +80,7 @@ class Controller {
     Result<void> hand_over();
     Result<void> stopped();
     Result<void> take(const gcode::Step& step, ProgramRun& run);
+    Move programmed(const Move& read);
     void tell(const PlannedMove& planned);
     Result<void> probe(const gcode::Step& step, gcode::Reader& reader, ProgramRun& run);
     void plan_from(const Point& start);
@@ -89,9 +92,12 @@ class Controller {
     std::unique_ptr<PathPlanner> planner_;
     PlanSummary summary_;
     std::int64_t blocks_ = 0;
-    int line_ = 0;  ///< of the move that was handed over last
+    std::int64_t read_ = 0;  ///< moves and dwells
+    Point read_to_ = {};     ///< where the last of them ends
+    int line_ = 0;           ///< of the move that was handed over last
     bool held_ = false;
     std::function<void(std::int64_t, const PlannedMove&)> on_block_;
+    std::function<void(const Move&, const Point&)> on_move_;
 };
 
 }  // namespace motionrack::control

@@ -42,6 +42,7 @@ struct Move {
     std::uint8_t second = 1;
     std::int32_t turns = 0;
     std::int32_t line = 0;     ///< line of the source, from 1
+    std::int64_t index = -1;   ///< of the program's moves, as they were read, from 0; its parts keep it; -1: of none
     double feed = 0;           ///< see FeedMode; not used by traverse and dwell
     double haste = 1;          ///< traverse: part of the axes' greatest speed, above 0 to 1
     double tolerance_mm = 0;   ///< for PathControl::continuous

@@ -85,12 +85,15 @@ void Stream::pull_steps() {
             probe_waits_ = true;
             ++moves_;
             entries_.push_back({*step, {}, read_to_});
-            if (on_move_) on_move_(step->move, read_to_);
+            entries_.back().step.move.index = read_++;
+            if (on_move_) on_move_(entries_.back().step.move, read_to_);
         } else if (step->kind == StepKind::move && step->move.kind != MoveKind::dwell) {
             begin_cut(*step, false);
         } else {
-            moves_ += step->kind == StepKind::move;
             entries_.push_back({*step, std::string(step->text), read_to_});
+            if (step->kind != StepKind::move) continue;
+            ++moves_;
+            entries_.back().step.move.index = read_++;
         }
     }
 }
@@ -98,7 +101,8 @@ void Stream::pull_steps() {
 void Stream::begin_cut(const Step& step, bool by_hand) {
     Cutting cut{step, geometry_of(step.move, read_to_)};
     cut.by_hand = by_hand;
-    if (on_move_) on_move_(step.move, read_to_);
+    cut.step.move.index = read_++;
+    if (on_move_) on_move_(cut.step.move, read_to_);
     if (cut.path.shape == PathShape::nothing) return;
     const double wanted = limits_.along(cut.path, step.move).speed * settings_.piece_seconds;
     const Point worst = worst_components(cut.path);

@@ -202,6 +202,7 @@ class Stream {
     std::optional<Cutting> cutting_;
     std::string text_;             ///< of the last line
     Point read_to_ = {};           ///< where the last entry ends
+    std::int64_t read_ = 0;        ///< moves and dwells
     std::size_t moves_ = 0;        ///< in entries_ and cutting_
     std::size_t planned_ = 0;      ///< entries that the planner has had
     std::size_t handed_ = 0;       ///< entries up to the last move that the axes have had

@@ -13,8 +13,8 @@ namespace {
 
 constexpr Duration slice = milliseconds(50);
 
-/// How far pulses may lead from the path as it is planned, mm: ends and chords are on whole pulses, and arcs that the
-/// card does not draw are as near as their chords.
+/// How far pulses may lead from the program beyond its own tolerance, mm: ends and chords are on whole pulses, and arcs
+/// that the card does not draw are as near as their chords.
 double allowed_deviation(const RackConfig& config) {
     constexpr double pulses = 3.5, rounding_mm = 1e-4;
     if (config.point_to_point()) return 0;
@@ -78,10 +78,14 @@ Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(se
 
 Job::~Job() = default;
 
-void Job::planned(std::int64_t block, const control::PlannedMove& move, JobOutcome& out) {
+void Job::programmed(const control::Move& move, const control::Point& start, JobOutcome& out) {
+    monitor_->programmed(move, start);
+    if (!rack_.config().point_to_point() && move.path == control::PathControl::continuous)
+        out.tolerance_mm = std::max(out.tolerance_mm, move.tolerance_mm);
+}
+
+void Job::planned(std::int64_t block, const control::PlannedMove& move) {
     monitor_->planned(block, move);
-    if (!rack_.config().point_to_point() && move.move.path == control::PathControl::continuous)
-        out.tolerance_mm = std::max(out.tolerance_mm, move.move.tolerance_mm);
     if (planned_.size() < most_planned) planned_.push_back(move);
 }
 
@@ -108,7 +112,8 @@ Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
     rack_.set_stop_flag(settings.stop);
     rack_.on_slice(slice, [&] { listen(axes.take_starts()); });
     control::Controller controller(axes, settings);
-    controller.on_block([&](std::int64_t block, const control::PlannedMove& move) { planned(block, move, out); });
+    controller.on_move([&](const control::Move& move, const control::Point& start) { programmed(move, start, out); });
+    controller.on_block([&](std::int64_t block, const control::PlannedMove& move) { planned(block, move); });
     monitor_->begin();
     const Result<void> ended = controller.run(settings_.program, settings_.program_name, out.run);
     out.time = rack_.kernel().now() - began_;
@@ -120,7 +125,7 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
                                   JobOutcome& out) {
     PathWatch watch(axes, [&](std::int64_t block, const control::PlannedMove& move) {
         out.run.plan.add(move);
-        planned(block, move, out);
+        planned(block, move);
     });
     control::StreamSettings stream_settings;
     stream_settings.gcode = settings.gcode;
@@ -132,8 +137,11 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
     rack_.on_slice(slice, [&] { listen(watch.heard()); });
     settings_.orders->attach(&stream);
     monitor_->begin();
-    const Result<void> ended =
-        drive_live(stream, host, *settings_.orders, settings_.program, settings.gcode, settings_.program_name, out.run);
+    const OnProgrammedMove on_move = [&](const control::Move& move, const control::Point& start) {
+        programmed(move, start, out);
+    };
+    const Result<void> ended = drive_live(stream, host, *settings_.orders, settings_.program, settings.gcode,
+                                          settings_.program_name, out.run, on_move);
     out.time = rack_.kernel().now() - began_;
     listen(watch.heard());
     settings_.orders->attach(nullptr);

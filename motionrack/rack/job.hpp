@@ -107,7 +107,8 @@ class Job {
   private:
     Result<void> drive(control::PathAxes& axes, JobOutcome& out);
     Result<void> drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out);
-    void planned(std::int64_t block, const control::PlannedMove& move, JobOutcome& out);
+    void programmed(const control::Move& move, const control::Point& start, JobOutcome& out);
+    void planned(std::int64_t block, const control::PlannedMove& move);
     void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     void take_notes(control::PathAxes& axes, JobOutcome& out);

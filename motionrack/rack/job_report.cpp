@@ -153,11 +153,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in "
         "pieces of a few pulses.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
-        fmt::format(
-            "Deviation is the distance of X, Y, Z from the {}; a rotary axis that lags behind does not show in it.",
-            rack.config().jerk_limited() ? "planned path, which cuts corners of the programmed one within its "
-                                           "tolerance and is driven with limited jerk"
-                                         : "programmed path")};
+        "Deviation is the distance of X, Y, Z from the program as it is written: before corners are cut, short moves "
+        "merged and places rounded to pulses. A rotary axis that lags behind does not show in it."};
     if (outcome.rest_axis >= 0)
         data.notes.push_back(
             "A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and "
@@ -176,7 +173,8 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time),
                        outcome.run.plan.seconds, counted(moves_of(config, outcome), "move"),
                        counted(outcome.run.plan.dwells, "dwell"), counted(outcome.run.plan.stops, "stop"));
-    out += fmt::format("  path        {:.3f} mm, worst deviation {:.4f} mm", outcome.path_mm, outcome.worst.mm);
+    out += fmt::format("  path        {:.3f} mm, worst deviation from the program {:.4f} mm", outcome.path_mm,
+                       outcome.worst.mm);
     if (outcome.worst.line > 0)
         out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
@@ -212,8 +210,10 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["events"] = outcome.events;
     json["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
     json["position_trusted"] = outcome.position_trusted;
-    json["worst_deviation"] = {
-        {"mm", outcome.worst.mm}, {"line", outcome.worst.line}, {"seconds", to_seconds(outcome.worst.at)}};
+    json["worst_deviation"] = {{"from", "program"},
+                               {"mm", outcome.worst.mm},
+                               {"line", outcome.worst.line},
+                               {"seconds", to_seconds(outcome.worst.at)}};
     if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
     for (const control::ProgramProbe& probe : outcome.run.probes)
         json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});

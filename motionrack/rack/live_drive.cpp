@@ -139,10 +139,12 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
 }  // namespace
 
 Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
-                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run) {
+                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run,
+                        const OnProgrammedMove& on_move) {
     // What is left of a move after a hold is planned again: what was programmed counts.
     double path_mm = 0;
     stream.on_move([&](const control::Move& move, const control::Point& start) {
+        on_move(move, start);
         ++run.moves;
         const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] ||
                             move.kind == control::MoveKind::arc;

@@ -43,9 +43,12 @@ class PathWatch final : public control::PathAxes {
     std::vector<control::BlockStart> starts_, heard_;
 };
 
+using OnProgrammedMove = std::function<void(const control::Move& move, const control::Point& start)>;
+
 /// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as Controller::run. The
-/// stream's stop flag must be the axes', and `orders` be attached to it.
+/// stream's stop flag must be the axes', and `orders` be attached to it. `on_move`: hears of each move as it was read.
 Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
-                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run);
+                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run,
+                        const OnProgrammedMove& on_move);
 
 }  // namespace motionrack::rack

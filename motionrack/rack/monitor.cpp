@@ -16,6 +16,7 @@ constexpr double accel_reserve = 1.03;
 }  // namespace
 
 void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
+    speed.changed(before, rate, now);
     const bool ramp = std::fabs(rate - before) <= jump_hz;
     if (pending) {
         const double seconds = to_seconds(now - since);
@@ -48,7 +49,6 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
     if (step <= jump_hz || (pending && step <= 2 * jump_hz)) {
         good = rate;
         pending = false;
-        top = std::max(top, std::fabs(rate));
     } else if (!pending) {
         pending = true;
         away = explained = 0;
@@ -58,7 +58,6 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
 void Monitor::Ear::settle() {
     if (!pending) return;
     jump = std::max(jump, std::min(std::fabs(present - good), std::fabs(present - follower)) - rounding);
-    top = std::max(top, std::fabs(present));
     good = present;
     pending = false;
     ++jumps;
@@ -68,12 +67,12 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
     : kernel_(kernel),
       id_(kernel.add(*this, sim::Phase::observers, "monitor")),
       axes_(std::move(axes)),
-      ears_(axes_.size()),
       period_(period),
       ring_(ring_size),
       kept_(most_samples) {
+    ears_.reserve(axes_.size());  // they are listened with
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        ears_[i].jump_hz = axes_[i].jump_hz;
+        ears_.emplace_back(axes_[i].jump_hz, period);
         ears_[i].full_step = axes_[i].full_step;
         ears_[i].accel_hz = axes_[i].accel_hz;
         axes_[i].commanded->listen(ears_[i]);
@@ -99,13 +98,16 @@ void Monitor::finish() {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_[i].settle();
         AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
-        out.top_speed = std::max(out.top_speed, ears_[i].top / axes_[i].pulses_per_unit);
+        ears_[i].speed.finish();
+        out.top_speed = ears_[i].speed.hz() / axes_[i].pulses_per_unit;
         out.top_jump = ears_[i].jump / axes_[i].pulses_per_unit;
     }
 }
 
 void Monitor::act(Instant now) {
     take(now);
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+        ears_[i].speed.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
     if (running_) kernel_.schedule(id_, now + period_);
 }
 
@@ -122,14 +124,13 @@ void Monitor::take(Instant now) {
         raw.rate[i] = axes_[i].commanded->rate(now);
         if (axes_[i].servo != nullptr) raw.volts[i] = static_cast<float>(axes_[i].servo->volts());
         raw.jumps[i] = ears_[i].jumps;
-        raw.steady[i] = !ears_[i].pending;
     }
 }
 
 // ---- between runs
 
 void Monitor::planned(std::int64_t block, const control::PlannedMove& move) {
-    planned_.push_back({block, move, control::geometry_of(move.move, move.start)});
+    planned_.push_back({block, move});
 }
 
 void Monitor::started(const std::vector<control::BlockStart>& starts) {
@@ -171,8 +172,10 @@ void Monitor::work_off(const RawSample& raw) {
                            start.at,
                            0};
             block_open_ = true;
+            begin_programmed(planned.move);
         }
     }
+    find_programmed();
     Sample sample;
     sample.at = raw.at;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -181,13 +184,12 @@ void Monitor::work_off(const RawSample& raw) {
         sample.commanded[axis] = axes_[i].origin + static_cast<double>(raw.commanded[i]) / axes_[i].pulses_per_unit;
         sample.volts[axis] = raw.volts[i];
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
-        if (raw.steady[i])
-            statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
     }
     accelerations(raw, sample);
     look_for_jumps(raw, sample);
-    const double off = deviation_of(sample);
-    look_at_deviation(sample, off);
+    const ProgramDistance distance = deviation_at(sample.position);
+    look_at_deviation(sample, distance);
+    const double off = distance.mm;
     if (off > worst_.mm)
         worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
     if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
@@ -244,19 +246,17 @@ void Monitor::look_for_jumps(const RawSample& raw, const Sample& sample) {
 }
 
 /// A motor that does not follow is another matter: it is the pulses that must not leave the path.
-void Monitor::look_at_deviation(const Sample& sample, double off) {
+void Monitor::look_at_deviation(const Sample& sample, const ProgramDistance& off) {
     const bool was_beside = beside_;
     beside_ = false;
-    if (allowed_mm_ <= 0 || off <= allowed_mm_) return;
-    Sample commanded = sample;
-    commanded.position = sample.commanded;
-    const double led = deviation_of(commanded);
-    if (led <= allowed_mm_) return;
+    if (allowed_mm_ <= 0 || off.judged_mm <= off.tolerance_mm + allowed_mm_) return;
+    const ProgramDistance led = deviation_at(sample.commanded);
+    if (led.judged_mm <= led.tolerance_mm + allowed_mm_) return;
     beside_ = true;
     Breach breach = breach_here(sample);
     breach.kind = BreachKind::deviation;
-    breach.value = led;
-    breach.limit = allowed_mm_;
+    breach.value = led.judged_mm;
+    breach.limit = led.tolerance_mm + allowed_mm_;
     breach.times = !was_beside;
     breaches_.add(breach);
 }
@@ -270,23 +270,41 @@ std::array<double, 3> Monitor::place_at(Instant at) const {
     return {near.position[0], near.position[1], near.position[2]};
 }
 
-double Monitor::deviation_of(const Sample& sample) {
-    double best = -1;
-    // The host hears of a joint a little after it happened, so the move before and the one after count too.
-    for (const Planned& planned : planned_) {
-        if (planned.block > current_ + 1) break;
-        if (planned.block + 1 < current_) continue;
-        const bool straight =
-            planned.path.shape == control::PathShape::line || planned.path.shape == control::PathShape::arc;
-        const double off =
-            straight ? control::distance_to(planned.path, sample.position[0], sample.position[1], sample.position[2])
-                     : std::sqrt(
-                           (sample.position[0] - planned.move.start[0]) * (sample.position[0] - planned.move.start[0]) +
-                           (sample.position[1] - planned.move.start[1]) * (sample.position[1] - planned.move.start[1]) +
-                           (sample.position[2] - planned.move.start[2]) * (sample.position[2] - planned.move.start[2]));
-        if (best < 0 || off < best) best = off;
+/// Several blocks may follow on one move, or on several that have become one.
+void Monitor::begin_programmed(const control::PlannedMove& block) {
+    const std::int64_t index = block.move.index;
+    if (part_.first < 0 || index != current_programmed_) {
+        part_.first = current_programmed_ < 0 ? index : std::min(index, current_programmed_);
+        before_mm_ = current_mm_;
+        current_mm_ = 0;
+        current_programmed_ = index;
+        program_.drop_before(part_.first);
     }
-    return std::max(best, 0.0);
+    current_mm_ += block.length;
+}
+
+/// The host hears of a joint a little after it happened, so the moves of the block before and of the one after count
+/// too. A block may stand for several moves, and a move for several blocks.
+void Monitor::find_programmed() {
+    constexpr double longer = 2, more_mm = 1;  // a program's path than that of what it is driven as
+    part_.last = std::numeric_limits<std::int64_t>::max();
+    part_.reach_mm = more_mm + longer * (before_mm_ + current_mm_);
+    std::int64_t next = -1;
+    for (const Planned& planned : planned_) {
+        const std::int64_t index = planned.move.move.index;
+        if (planned.block <= current_ + 1) {
+            if (planned.block > current_) part_.reach_mm += longer * planned.move.length;
+            next = index;
+        } else if (index > next) {
+            part_.last = index;
+            return;
+        }
+    }
+}
+
+ProgramDistance Monitor::deviation_at(const std::array<double, control::axis_count>& position) const {
+    if (current_ < 0) return {};
+    return program_.distance(part_, position[0], position[1], position[2]);
 }
 
 }  // namespace motionrack::rack

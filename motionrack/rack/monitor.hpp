@@ -8,10 +8,11 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <motionrack/control/geometry.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/plan.hpp>
 #include <motionrack/rack/breaches.hpp>
+#include <motionrack/rack/programmed_path.hpp>
+#include <motionrack/rack/top_speed.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
@@ -45,7 +46,7 @@ struct Sample {
 };
 
 struct AxisStatistics {
-    double top_speed = 0;  ///< per second, at every change of the pulse rate
+    double top_speed = 0;  ///< per second; that lasted, see TopSpeed
     double top_accel = 0;  ///< per second squared, over 4 samples without a jump
     double top_jump =
         0;  ///< greatest change of speed at once (start, joint, stop), less what whole pulses make of it; per second
@@ -85,6 +86,8 @@ class Monitor final : public sim::Device {
     void begin();
     /// Takes the last sample and ends.
     void finish();
+    /// A move of the program, before it is planned.
+    void programmed(const control::Move& move, const control::Point& start) { program_.add(move, start); }
     /// A planned move was handed to the axes.
     void planned(std::int64_t block, const control::PlannedMove& move);
     /// Planned moves that have really begun since the last call.
@@ -101,7 +104,7 @@ class Monitor final : public sim::Device {
     const Deviation& worst() const { return worst_; }
     /// What the axes were asked for and must not have been.
     const std::vector<Breach>& breaches() const { return breaches_.all(); }
-    /// Before begin(): how far from the planned path pulses may lead, mm; 0, as at first: however far.
+    /// Before begin(): how far beyond the program's own tolerance pulses may lead, mm; 0, as at first: however far.
     void set_allowed_deviation(double mm) { allowed_mm_ = mm; }
     /// Where the machine was at about that instant, mm.
     std::array<double, 3> place_at(Instant at) const;
@@ -116,10 +119,12 @@ class Monitor final : public sim::Device {
     /// Hears of each change of one axis' pulse rate.
     class Ear final : public sim::MotionListener {
       public:
+        Ear(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
         /// The last change stays: it was a jump.
         void settle();
+        TopSpeed speed;
         double good = 0;       // the rate that the axis is held to have
         double follower = 0;   // the same, but following small jumps as fast as the acceleration limit lets it
         double present = 0;    // what the pulses have now
@@ -129,9 +134,8 @@ class Monitor final : public sim::Device {
         bool pending = false;
         Instant since{};
         Instant piece_since{};
-        double top = 0;
         double jump = 0;
-        double jump_hz = 1;
+        double jump_hz;
         double full_step = 16;
         double accel_hz = 0;
         std::uint32_t jumps = 0;
@@ -142,21 +146,21 @@ class Monitor final : public sim::Device {
         std::array<double, control::axis_count> rate = {};
         std::array<float, control::axis_count> volts = {};
         std::array<std::uint32_t, control::axis_count> jumps = {};
-        std::array<bool, control::axis_count> steady = {};
     };
     struct Planned {
         std::int64_t block = 0;
         control::PlannedMove move;
-        control::Geometry path;
     };
 
     void take(Instant now);
     void work_off(const RawSample& raw);
     void accelerations(const RawSample& raw, Sample& sample);
     void look_for_jumps(const RawSample& raw, const Sample& sample);
-    void look_at_deviation(const Sample& sample, double off);
+    void look_at_deviation(const Sample& sample, const ProgramDistance& off);
     Breach breach_here(const Sample& sample) const;
-    double deviation_of(const Sample& sample);
+    ProgramDistance deviation_at(const std::array<double, control::axis_count>& position) const;
+    void begin_programmed(const control::PlannedMove& block);
+    void find_programmed();
     void close_block(Instant end);
 
     sim::Kernel& kernel_;
@@ -179,6 +183,10 @@ class Monitor final : public sim::Device {
     std::deque<Planned> planned_;
     std::deque<control::BlockStart> starts_;
     std::int64_t current_ = -1;
+    ProgrammedPath program_;
+    ProgramPart part_{-1, 0, 0};             ///< where the machine may be
+    std::int64_t current_programmed_ = -1;   ///< move at which the current block begins
+    double before_mm_ = 0, current_mm_ = 0;  ///< that blocks have on the move before, and on this one
     DrivenBlock open_block_;
     bool block_open_ = false;
     std::vector<DrivenBlock> blocks_;
@@ -187,7 +195,7 @@ class Monitor final : public sim::Device {
     std::vector<JumpWatch> jump_watches_;  ///< of axes whose pulses move them; one an axis
     Breaches breaches_;
     double allowed_mm_ = 0;
-    bool beside_ = false;  ///< the pulses lead too far from the path
+    bool beside_ = false;  ///< the pulses lead too far from the program
 };
 
 }  // namespace motionrack::rack

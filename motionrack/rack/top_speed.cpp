@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <motionrack/rack/top_speed.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr double min_window = 1e-3;
+constexpr std::size_t max_looks = 1 << 10;
+/// Pulses by which a count of some time may be more than the speed makes of it: it is whole, and so are ends of pieces.
+constexpr double count_excess = 2;
+/// With so many pulses one more or less does not matter.
+constexpr double many_pulses = 1000;
+
+}  // namespace
+
+TopSpeed::TopSpeed(double jump_hz, Duration period)
+    : jump_hz_(jump_hz), period_s_(to_seconds(period)), counts_(max_looks) {
+    while (static_cast<double>(min_looks_) * period_s_ < min_window && min_looks_ < max_looks / 2) min_looks_ *= 2;
+}
+
+void TopSpeed::pass(double rate, Instant now) {
+    pulses_ += 0.5 * (std::fabs(rate_) + std::fabs(rate)) * to_seconds(now - since_);
+    piece_top_ = std::max(piece_top_, std::fabs(rate));
+    rate_ = rate;
+    since_ = now;
+}
+
+void TopSpeed::changed(double before, double rate, Instant now) {
+    pass(before, now);
+    if (std::fabs(rate - before) > jump_hz_) {
+        whole_pulses_ = true;
+        end_piece();
+        whole_pulses_ = true;
+    }
+    rate_ = rate;
+    piece_top_ = std::max(piece_top_, std::fabs(rate));
+}
+
+void TopSpeed::end_piece() {
+    const double surely = !whole_pulses_ || pulses_ >= many_pulses ? 1 : 1 - 1 / std::max(pulses_, 1.0);
+    top_ = std::max(top_, surely * piece_top_);
+    piece_top_ = pulses_ = 0;
+    whole_pulses_ = false;
+}
+
+void TopSpeed::look(std::int64_t count, double rate, Instant now) {
+    pass(rate, now);
+    for (std::size_t window = min_looks_; window <= std::min(looks_, max_looks - 1); window *= 2) {
+        const auto pulses = static_cast<double>(std::abs(count - counts_[(looks_ - window) % max_looks]));
+        top_ = std::max(top_, (pulses - count_excess) / (static_cast<double>(window) * period_s_));
+    }
+    counts_[looks_++ % max_looks] = count;
+}
+
+void TopSpeed::finish() {
+    end_piece();
+}
+
+}  // namespace motionrack::rack
