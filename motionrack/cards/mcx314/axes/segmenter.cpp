@@ -19,7 +19,8 @@ constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_write_speed = 8;
 // And until the next piece is queued behind it; with what the reserve is for: whole pulses, an access of somebody else.
-constexpr double accesses_of_piece = 28, piece_reserve = 1.5;
+// Where the pulses are counted, less.
+constexpr double accesses_of_piece = 28, piece_reserve = 1.5, counted_reserve = 1.2;
 
 }  // namespace
 
@@ -126,9 +127,23 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
 double Segmenter::fall_from(const Work& work, double units, const Speeds& speeds) const {
     const double fall = fall_length(units, speeds);
     if (fall <= 0) return work.path.length;
-    const double least = least_seconds_ * speeds.top / units;
-    const double from = work.path.length - std::max(fall, least);
-    return from >= least ? from : 0;
+    const double least = least_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
+    double from = work.path.length - std::max(fall, least);
+    if (!leaves_time(work, from, work.path.length, speeds.top)) from -= 2 * pulse;
+    const bool fits = from >= least && leaves_time(work, 0, from, speeds.top) &&
+                      leaves_time(work, from, work.path.length, speeds.top);
+    return fits ? from : 0;
+}
+
+/// Whether the host can serve a piece from one place to another, by the whole pulses that it has: of a few, rounding
+/// may take one.
+bool Segmenter::leaves_time(const Work& work, double from, double to, std::int32_t v) const {
+    const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_, end = pulses_at(work, to);
+    std::int64_t pulses = 0;
+    for (std::size_t c = 0; c < end.size(); ++c)
+        if (static_cast<int>(c) != work.companion)
+            pulses = std::max<std::int64_t>(pulses, std::llabs(end[c] - begin[c]));
+    return static_cast<double>(pulses) >= counted_reserve / piece_reserve * least_seconds_ * v * pulses_per_v_;
 }
 
 // ---- moves to pieces

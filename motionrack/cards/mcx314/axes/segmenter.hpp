@@ -107,6 +107,7 @@ class Segmenter {
     double units_along(const Work& work, const control::Point& tangent) const;
     double fall_length(double units, const Speeds& speeds) const;
     double fall_from(const Work& work, double units, const Speeds& speeds) const;
+    bool leaves_time(const Work& work, double from, double to, std::int32_t v) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
     Most most_on(const Pulses4& way, bool constant_vector) const;

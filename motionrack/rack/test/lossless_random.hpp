@@ -1,0 +1,189 @@
+// Random programs in chords from 2 um to 50 mm, with probing moves, on some racks, in both profiles, held, slowed, let
+// go on and stopped at random instants: no axis jumps, and they end where they should.
+#pragma once
+
+#include <algorithm>
+#include <motionrack/rack/test/lossless_support.hpp>
+#include <random>
+
+namespace motionrack::rack {
+
+/// Random numbers that are the same everywhere.
+class Chance {
+  public:
+    explicit Chance(std::uint64_t seed) : random_(seed) {}
+    int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+    double number(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+    }
+    double even_on_log(double low, double high) { return std::exp(number(std::log(low), std::log(high))); }
+
+  private:
+    std::mt19937_64 random_;
+};
+
+/// The probe touches what is at this height and below; programs are above it, but for their probing moves.
+inline constexpr double probe_height = 60, program_height = 75;
+
+/// Paths of straight moves: smooth curves, sharp corners and ways back, each in chords of one length or of many.
+class ChordMaker : public Chance {
+  public:
+    explicit ChordMaker(std::uint64_t seed) : Chance(seed), probing_(~seed), probes_(probing_.pick(4) == 0) {}
+
+    struct Program {
+        std::string text;
+        double x = 150, y = 100;
+        double seconds = 0;  ///< that its chords take at least, about
+    };
+
+    Program make() {
+        out_ = {};
+        out_.text = fmt::format("G21 G90 G17 {}\nG0 X150 Y100 Z75\nG1 F{:.0f}\n",
+                                std::array{"G64 P0.01", "G64 P0.05", "G64 P0.002", "G61"}[pick(4)], feed());
+        heading_ = number(-3, 3);
+        const int stretches = 1 + pick(4);
+        for (int i = 0; i < stretches; ++i) {
+            if (probes_ && probing_.pick(2) == 0) add_probing();
+            add_stretch();
+        }
+        out_.text += "M2\n";
+        return out_;
+    }
+
+    bool probes() const { return probes_; }
+
+  private:
+    double feed() { return even_on_log(300, 9000); }
+
+    /// Down, straight or slanted, to where it touches or not; then perhaps up until it leaves; and up.
+    void add_probing() {
+        const double feed = probing_.even_on_log(100, 5000);
+        const bool touches = probing_.pick(3) > 0, slanted = probing_.pick(2) == 0;
+        const double end = touches ? probing_.number(50, 58) : probing_.number(61, 70);
+        std::string aside;
+        if (slanted)
+            aside = fmt::format(" X{:.4f} Y{:.4f}", out_.x + probing_.number(-5, 5), out_.y + probing_.number(-5, 5));
+        out_.text += fmt::format("G38.3{} Z{:.4f} F{:.0f}\n", aside, end, feed);
+        if (touches && probing_.pick(2) == 0)
+            out_.text += fmt::format("G38.5 Z{:.4f} F{:.0f}\n", program_height - 1, 0.3 * feed);
+        out_.text += fmt::format("G1 X{:.4f} Y{:.4f} Z{:.4f} F{:.0f}\n", out_.x, out_.y, program_height,
+                                 probing_.even_on_log(300, 9000));
+        out_.seconds += 2 * (program_height - end) / (feed / 60);
+    }
+
+    void add_stretch() {
+        const double chord = even_on_log(0.002, 50), length = std::min(even_on_log(0.5, 40), 400 * chord);
+        const double bend = pick(3) == 0 ? 0 : number(-0.3, 0.3);
+        const bool mixed = pick(4) == 0, with_z = pick(3) == 0;
+        if (pick(3) == 0) out_.text += fmt::format("F{:.0f}\n", feed());
+        if (pick(2) == 0) heading_ += number(-3.2, 3.2);
+        double z = 0;
+        for (double s = 0; s < length;) {
+            // From wherever the way back towards the middle begins it does not lead off the table.
+            const double step = std::min(50.0, mixed ? chord * even_on_log(0.1, 3) : chord);
+            heading_ += bend * std::min(step, 2.0);
+            if (pick(40) == 0) heading_ += number(-3.2, 3.2);
+            // Towards the middle where the table would end.
+            if (std::hypot(out_.x - 150, out_.y - 100) > 45) heading_ = std::atan2(100 - out_.y, 150 - out_.x);
+            out_.x = rounded(out_.x + step * std::cos(heading_));
+            out_.y = rounded(out_.y + step * std::sin(heading_));
+            if (with_z) z = std::clamp(z + 0.3 * step * number(-1, 1), -3.0, 3.0);
+            out_.text +=
+                fmt::format("X{:.4f} Y{:.4f}{}\n", out_.x, out_.y, with_z ? fmt::format(" Z{:.4f}", 75 + z) : "");
+            s += step;
+        }
+        out_.seconds += length / 60;
+    }
+    static double rounded(double x) { return std::round(x * 1e4) / 1e4; }
+
+    Chance probing_;
+    bool probes_;
+    Program out_;
+    double heading_ = 0;
+};
+
+inline RackConfig router_with_probe() {
+    std::string text = *rack_template("router");
+    text.replace(text.find("\"mcx314\" ", text.find("variant =")), 8, "\"mcx314as\"");
+    return *read_rack_text(text + fmt::format("\n[probe]\nz_to_mm = {}\n", probe_height)).config;
+}
+
+/// Racks whose pulses, start speeds and hosts differ.
+inline RackConfig rack_of(ChordMaker& random, const std::string& profile) {
+    RackConfig config = random.probes() ? router_with_probe() : router();
+    config.controller.profile = profile;
+    const auto microsteps = std::array<std::int64_t, 4>{16, 16, 64, 32}[static_cast<std::size_t>(random.pick(4))];
+    set_microsteps(config, microsteps);
+    Mcx314Settings& card = config.cards[0].mcx314;
+    card.host_latency_us = std::array<std::int64_t, 4>{50, 0, 20, 200}[static_cast<std::size_t>(random.pick(4))];
+    card.bus_access_ns = std::array<std::int64_t, 3>{250, 1'000, 60}[static_cast<std::size_t>(random.pick(3))];
+    return config;
+}
+
+struct Disturbed {
+    Wishes wishes;
+    bool stopped = false;
+};
+
+inline Disturbed wishes_of(ChordMaker& random, double seconds) {
+    Disturbed out;
+    double at = 0;
+    const int count = random.pick(6);
+    for (int i = 0; i < count; ++i) {
+        at += random.number(0.005, 0.6 * seconds + 0.2);
+        switch (random.pick(3)) {
+            case 0:
+                out.wishes.emplace_back(at, fmt::format("feed={:.2f}", random.number(0.1, 2)));
+                break;
+            default:
+                out.wishes.emplace_back(at, "hold");
+                at += random.number(0.001, 0.4);
+                out.wishes.emplace_back(at, "resume");
+        }
+    }
+    if (random.pick(6) == 0) {
+        out.wishes.emplace_back(at + random.number(0.01, seconds + 0.2), "stop");
+        out.stopped = true;
+    }
+    return out;
+}
+
+/// On a bend in chords trapezoids take an axis' acceleration up to twice: along the path, and from chord to chord. The
+/// other profile shares it out.
+inline constexpr double accel_of_trapezoids = 2;
+
+/// A stop, as an order or as Ctrl-C: of a program that has none, or in its place.
+inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
+    if (chance.pick(disturbed.stopped ? 2 : 5) > 0) return;
+    double at = chance.number(0.001, seconds);
+    if (disturbed.stopped) {
+        at = disturbed.wishes.back().first;
+        disturbed.wishes.pop_back();
+    }
+    // A job with orders looks for Ctrl-C itself.
+    const bool alone = disturbed.wishes.empty() && chance.pick(2) == 0;
+    disturbed.wishes.emplace_back(at, alone ? "flag" : "ctrl-c");
+    disturbed.stopped = true;
+}
+
+/// MOTIONRACK_SEED=N drives it alone, with MOTIONRACK_PROGRAMS=1.
+inline void drive_one(std::uint64_t seed) {
+    ChordMaker random(seed);
+    const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
+    const ChordMaker::Program program = random.make();
+    const RackConfig config = rack_of(random, profile);
+    Disturbed disturbed = wishes_of(random, program.seconds + 2);
+    Chance stops(seed + 0x5eed);
+    ask_stop(disturbed, stops, program.seconds + 2);
+    std::string told;
+    for (const auto& [at, what] : disturbed.wishes) told += fmt::format(" {}@{:.4f}s", what, at);
+    SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} microsteps {}, latency {} us, access {} ns, wishes{}", seed,
+                             profile, config.axes[0].microsteps, config.cards[0].mcx314.host_latency_us,
+                             config.cards[0].mcx314.bus_access_ns, told));
+    const Driven driven =
+        drive_with(config, program.text, disturbed.wishes, {}, seed % 2 == 0 ? accel_of_trapezoids : 1);
+    expect_lossless(driven, 1.3);
+    if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
+}
+
+}  // namespace motionrack::rack
