@@ -75,10 +75,10 @@ int on_truncate(sqlite3_file* one, sqlite3_int64 size) {
     }
 }
 
-int on_sync(sqlite3_file* one, int flags) {
+/// The real disk need not do it: what a loss of power leaves is made of the calls.
+int on_sync(sqlite3_file* one, int) {
     switch (next_call({Kind::sync, file_of(one)->path, 0, {}})) {
         case BadDisk::Fault::none:
-            return real_of(one)->pMethods->xSync(real_of(one), flags);
         case BadDisk::Fault::drop:
             return SQLITE_OK;
         default:
@@ -128,7 +128,7 @@ int on_open(sqlite3_vfs*, const char* path, sqlite3_file* one, int flags, int* o
 int on_remove(sqlite3_vfs*, const char* path, int sync_folder) {
     switch (next_call({Kind::remove, path, sync_folder, {}})) {
         case BadDisk::Fault::none:
-            return under->xDelete(under, path, sync_folder);
+            return under->xDelete(under, path, 0);
         case BadDisk::Fault::drop:
             return SQLITE_OK;
         default:

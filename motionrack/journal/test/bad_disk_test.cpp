@@ -134,7 +134,7 @@ class OnABadDisk : public AJournal, public testing::WithParamInterface<Scenario>
     }
     /// Every writing call, or some of them, the first and the last among them.
     std::vector<std::int64_t> chosen(std::int64_t calls, std::uint64_t everyday) const {
-        const auto count = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", everyday, 1'000'000));
+        const auto count = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", everyday, 100));
         std::vector<std::int64_t> out;
         for (std::int64_t i = 0; i < std::min(calls, count); ++i) out.push_back(1 + i * calls / std::min(calls, count));
         if (!out.empty()) out.push_back(calls);
