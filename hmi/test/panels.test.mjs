@@ -233,6 +233,11 @@ test('an alarm is told, survives a reload, and is acknowledged', async () => {
     .waitFor();
   await tab.page.evaluate(() => (location.hash = '#/events'));
   await panel(tab, 'Alarms').getByText('active, unacknowledged').waitFor();
+  // Each event is a row of the table, whatever its kind is called.
+  const rows = await panel(tab, 'Events')
+    .locator('tbody tr')
+    .evaluateAll((all) => all.map((row) => getComputedStyle(row).display));
+  assert.ok(rows.length > 3 && rows.every((display) => display === 'table-row'), rows.join());
   await picture(tab, 'events');
   await tab.page.keyboard.press('F1');
   await until(() => !tab.status.estop.pressed, 'released');
@@ -258,6 +263,8 @@ for (const scheme of ['dark', 'light'])
 
 test('a picture of the phone', async () => {
   const tab = await openTab(all.browser, all.server, { width: 360, height: 740 });
+  const lamps = await tab.page.locator('.lamps').first().boundingBox();
+  assert.ok(lamps.height < 40, `the lamps of an axis take ${lamps.height} px`);
   await picture(tab, 'phone', 740);
   await tab.context.close();
 });

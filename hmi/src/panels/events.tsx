@@ -94,7 +94,7 @@ export function Events(): JSX.Element {
             </thead>
             <tbody>
               {shown.slice(0, 200).map((one) => (
-                <tr key={one.number} class={one.kind}>
+                <tr key={one.number} class={`kind-${one.kind}`}>
                   <td class="tabular">{one.number}</td>
                   <td class="tabular">{seconds(one.at)}</td>
                   <td>{one.kind}</td>
