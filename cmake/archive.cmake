@@ -18,7 +18,8 @@ endif()
 string(REGEX REPLACE "^shlibs:Depends=" "" said "${said}")
 string(REGEX REPLACE " *\\([^)]*\\)| *\\|[^,\n]*|[ \n]" "" said "${said}")
 string(REPLACE "," ";" packages "${said}")
-list(APPEND packages fonts-dejavu-core libhdf5-103-1)  # letters in PNG pictures; recordings, loaded by name
+# Letters in PNG pictures; recordings, networks: loaded by name.
+list(APPEND packages fonts-dejavu-core libhdf5-103-1 libddsc0debian libnats3.4)
 list(REMOVE_DUPLICATES packages)
 list(SORT packages)
 list(JOIN packages "\n" lines)

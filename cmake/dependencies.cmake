@@ -6,8 +6,7 @@
 set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLIB 1.2")
 # Those of them that are libraries, as a linker calls them.
 set(motionrack_linked_libraries fmt tomlplusplus z)
-# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI. Loaded by its name with the first
-# recording (motionrack/trace/hdf5_library.hpp).
+# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI.
 set(motionrack_hdf5_names hdf5_serial hdf5)
 # Headers that only our own sources include.
 set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40"
@@ -17,6 +16,14 @@ set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.1
 # NATS.
 set(motionrack_private_modules "librsvg-2.0>=2.54" "cairo-png>=1.16")
 set(motionrack_nats_module "libnats>=3.4")
+
+# motionrack_soname(NAME FILE): the name in motionrack_NAME_soname by which the program loads a library once something
+# of it is needed (motionrack/base/late_library.hpp).
+function(motionrack_soname name file)
+  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${file} OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE ".*SONAME +([^ \n]+).*" "\\1" said "${said}")
+  set(motionrack_${name}_soname "${said}" PARENT_SCOPE)
+endfunction()
 
 macro(motionrack_find_packages)
   foreach(package IN LISTS motionrack_public_packages motionrack_private_packages)
@@ -28,7 +35,9 @@ macro(motionrack_find_packages)
   pkg_check_modules(NATS REQUIRED IMPORTED_TARGET ${motionrack_nats_module})
   find_path(MOTIONRACK_HDF5_HEADERS hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
   find_library(MOTIONRACK_HDF5_LIBRARY NAMES ${motionrack_hdf5_names} REQUIRED)
-  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${MOTIONRACK_HDF5_LIBRARY} OUTPUT_VARIABLE motionrack_hdf5_soname
-                  COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX REPLACE ".*SONAME +([^ \n]+).*" "\\1" motionrack_hdf5_soname "${motionrack_hdf5_soname}")
+  motionrack_soname(hdf5 ${MOTIONRACK_HDF5_LIBRARY})
+  list(GET NATS_LINK_LIBRARIES 0 motionrack_nats_file)
+  motionrack_soname(nats ${motionrack_nats_file})
+  get_target_property(motionrack_dds_file CycloneDDS::ddsc LOCATION)
+  motionrack_soname(dds ${motionrack_dds_file})
 endmacro()

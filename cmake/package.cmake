@@ -50,13 +50,15 @@ function(motionrack_package component name section sentence)
             COMPONENT ${component})
   endif()
 endfunction()
-set(loaded libhdf5-103-1)  # by its name: no file asks for it
+# By their names: no file asks for them.
+set(loaded libhdf5-103-1)
+set(loaded_for_networks "libddsc0debian, libnats3.4")
 motionrack_package(program motionrack science "the program, the page of its operator panel, examples" "${loaded}"
-                   "fonts-dejavu-core, cyclonedds-tools")
+                   "fonts-dejavu-core, ${loaded_for_networks}, cyclonedds-tools")
 motionrack_package(library libmotionrack0 libs "shared C libraries" "${loaded}")
 motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, C++ and Pascal"
                    "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev, libhdf5-dev"
-                   "cyclonedds-dev, libpugixml-dev")
+                   "libddsc0debian, libpugixml-dev")
 motionrack_package(python python3-motionrack python "the Python package"
                    "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, ${loaded}" "python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python/postinst

@@ -52,6 +52,7 @@ tl::unexpected<Error> engine_error(const char* what, dds_return_t code) {
 Result<Entity> join(const std::string& bus, int domain) {
     MOTIONRACK_CHECK(check_bus_name(bus));
     MOTIONRACK_CHECK(check_domain(domain));
+    MOTIONRACK_CHECK(load_library());
     Entity participant(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr));
     if (participant.get() < 0)
         return engine_error(fmt::format("DDS domain {} cannot be joined", domain).c_str(), participant.get());

@@ -1,10 +1,10 @@
 // Between a sample and the struct that the network engine takes; only the sources of this room include it.
 #pragma once
 
-#include <dds/dds.h>
 #include <sample.h>
 
 #include <memory>
+#include <motionrack/dds/dds_library.hpp>
 #include <motionrack/dds/sample.hpp>
 
 namespace motionrack::dds {

@@ -1,8 +1,8 @@
 // JetStream through the C client.
 #include <fmt/format.h>
-#include <nats/nats.h>
 
 #include <algorithm>
+#include <motionrack/nats/nats_library.hpp>
 #include <motionrack/nats/queue.hpp>
 #include <utility>
 
@@ -13,18 +13,20 @@ namespace {
 constexpr const char *points_stream = "MOTIONRACK_POINTS", *rows_stream = "MOTIONRACK_ROWS";
 constexpr std::int64_t nanoseconds_a_ms = 1'000'000, nanoseconds_a_day = 86'400'000'000'000;
 
-template <class T, void (*destroy)(T*)>
+/// Gives a handle of the library back.
 struct Destroy {
-    void operator()(T* one) const { destroy(one); }
+    void operator()(natsOptions* one) const { natsOptions_Destroy(one); }
+    void operator()(natsConnection* one) const { natsConnection_Destroy(one); }
+    void operator()(jsCtx* one) const { jsCtx_Destroy(one); }
+    void operator()(natsSubscription* one) const { natsSubscription_Destroy(one); }
+    void operator()(natsMsg* one) const { natsMsg_Destroy(one); }
 };
-template <class T, void (*destroy)(T*)>
-using Handle = std::unique_ptr<T, Destroy<T, destroy>>;
 
-using Options = Handle<natsOptions, natsOptions_Destroy>;
-using Connection = Handle<natsConnection, natsConnection_Destroy>;
-using Context = Handle<jsCtx, jsCtx_Destroy>;
-using Subscription = Handle<natsSubscription, natsSubscription_Destroy>;
-using Message = Handle<natsMsg, natsMsg_Destroy>;
+using Options = std::unique_ptr<natsOptions, Destroy>;
+using Connection = std::unique_ptr<natsConnection, Destroy>;
+using Context = std::unique_ptr<jsCtx, Destroy>;
+using Subscription = std::unique_ptr<natsSubscription, Destroy>;
+using Message = std::unique_ptr<natsMsg, Destroy>;
 
 tl::unexpected<Error> trouble(natsStatus status, const char* what) {
     const char* last = nats_GetLastError(nullptr);
@@ -279,6 +281,7 @@ std::string without_password(const std::string& url) {
 }
 
 Result<std::unique_ptr<Queue>> Queue::open(const std::string& url) {
+    MOTIONRACK_CHECK(load_library());
     auto out = std::make_unique<JetStreamQueue>();
     MOTIONRACK_CHECK(out->connect(url));
     return out;

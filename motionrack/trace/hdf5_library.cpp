@@ -1,58 +1,41 @@
 // Loading HDF5.
-#include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <motionrack/base/late_library.hpp>
 #include <motionrack/trace/hdf5_library.hpp>
-#include <optional>
 
 namespace motionrack::trace::hdf5 {
 
 namespace {
 
 struct Loaded {
-    std::optional<Library> library;
-    std::string why;
+    LateLibrary file{MOTIONRACK_HDF5_SONAME};
+    Library library;
+    Loaded() {
+#define MOTIONRACK_HDF5_FIND(name) file.find(#name, library.name##_);
+        MOTIONRACK_HDF5_FUNCTIONS(MOTIONRACK_HDF5_FIND)
+        MOTIONRACK_HDF5_NUMBERS(MOTIONRACK_HDF5_FIND)
+#undef MOTIONRACK_HDF5_FIND
+    }
 };
 
-template <class T>
-bool find(void* file, const char* name, T& out) {
-    out = reinterpret_cast<T>(::dlsym(file, name));
-    return out != nullptr;
-}
-
-Loaded load() {
-    Loaded out;
-    void* const file = ::dlopen(MOTIONRACK_HDF5_SONAME, RTLD_NOW | RTLD_LOCAL);
-    Library all;
-    bool whole = file != nullptr;
-#define MOTIONRACK_HDF5_FIND(name) whole = whole && find(file, #name, all.name##_);
-    MOTIONRACK_HDF5_FUNCTIONS(MOTIONRACK_HDF5_FIND)
-    MOTIONRACK_HDF5_NUMBERS(MOTIONRACK_HDF5_FIND)
-#undef MOTIONRACK_HDF5_FIND
-    if (whole)
-        out.library = all;
-    else if (const char* const said = ::dlerror(); said != nullptr)
-        out.why = said;
-    return out;
-}
-
 const Loaded& loaded() {
-    static const Loaded once = load();
+    static const Loaded once;
     return once;
 }
 
 }  // namespace
 
 Result<void> load_library() {
-    if (loaded().library) return {};
+    if (loaded().file.trouble().empty()) return {};
     return fail(Trouble::io, fmt::format("The HDF5 library cannot be loaded: {}. Nothing was recorded or read; install "
                                          "it (on Debian 12: apt install libhdf5-103-1).",
-                                         loaded().why));
+                                         loaded().file.trouble()));
 }
 
 const Library& library() {
-    MOTIONRACK_ASSERT(loaded().library);
-    return *loaded().library;
+    MOTIONRACK_ASSERT(loaded().file.trouble().empty());
+    return loaded().library;
 }
 
 }  // namespace motionrack::trace::hdf5

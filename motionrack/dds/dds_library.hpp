@@ -1,0 +1,50 @@
+// Cyclone DDS, loaded with the first bus on a network. Its names in the sources of this room are those of the loaded
+// library.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <motionrack/base/result.hpp>
+
+// clang-format off
+#define MOTIONRACK_DDS_FUNCTIONS(X) \
+    X(dds_create_listener) X(dds_create_participant) X(dds_create_qos) X(dds_create_reader) X(dds_create_topic) \
+    X(dds_create_writer) X(dds_delete) X(dds_delete_listener) X(dds_delete_qos) X(dds_lset_data_available) \
+    X(dds_qset_durability) X(dds_qset_history) X(dds_qset_ignorelocal) X(dds_qset_partition1) \
+    X(dds_qset_reliability) X(dds_strretcode) X(dds_take) X(dds_write)
+// clang-format on
+
+namespace motionrack::dds {
+
+/// What this room takes from it.
+struct Library {
+#define MOTIONRACK_DDS_MEMBER(name) decltype(&::name) name##_ = nullptr;
+    MOTIONRACK_DDS_FUNCTIONS(MOTIONRACK_DDS_MEMBER)
+#undef MOTIONRACK_DDS_MEMBER
+};
+
+/// Errors: io, it is not installed. Once it is loaded it stays.
+Result<void> load_library();
+/// After load_library().
+const Library& library();
+
+}  // namespace motionrack::dds
+
+#define dds_create_listener (motionrack::dds::library().dds_create_listener_)
+#define dds_create_participant (motionrack::dds::library().dds_create_participant_)
+#define dds_create_qos (motionrack::dds::library().dds_create_qos_)
+#define dds_create_reader (motionrack::dds::library().dds_create_reader_)
+#define dds_create_topic (motionrack::dds::library().dds_create_topic_)
+#define dds_create_writer (motionrack::dds::library().dds_create_writer_)
+#define dds_delete (motionrack::dds::library().dds_delete_)
+#define dds_delete_listener (motionrack::dds::library().dds_delete_listener_)
+#define dds_delete_qos (motionrack::dds::library().dds_delete_qos_)
+#define dds_lset_data_available (motionrack::dds::library().dds_lset_data_available_)
+#define dds_qset_durability (motionrack::dds::library().dds_qset_durability_)
+#define dds_qset_history (motionrack::dds::library().dds_qset_history_)
+#define dds_qset_ignorelocal (motionrack::dds::library().dds_qset_ignorelocal_)
+#define dds_qset_partition1 (motionrack::dds::library().dds_qset_partition1_)
+#define dds_qset_reliability (motionrack::dds::library().dds_qset_reliability_)
+#define dds_strretcode (motionrack::dds::library().dds_strretcode_)
+#define dds_take (motionrack::dds::library().dds_take_)
+#define dds_write (motionrack::dds::library().dds_write_)
