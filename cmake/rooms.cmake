@@ -37,8 +37,8 @@ include(CheckPIESupported)
 check_pie_supported(LANGUAGES CXX)
 add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
 
-# motionrack_harden(TARGET): code that takes what strangers send checks its stack, its copies and its containers while
-# it runs. Builds for sanitizers have their own checks.
+# motionrack_harden(TARGET): it checks its stack, its copies and its containers while it runs, as all rooms do but the
+# fast ones, and what is linked of them. Builds for sanitizers have their own checks.
 function(motionrack_harden target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
     return()
@@ -67,15 +67,20 @@ function(motionrack_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# motionrack_room(NAME [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME, for
-# others motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the latter
-# have no library.
+# motionrack_room(NAME [FAST] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME,
+# for others motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the
+# latter have no library.
+# FAST: the kernel and what it drives run some millions of times a second and are given numbers, no texts; checks would
+# take a tenth of their time.
 # COMPONENT: what strangers ask find_package for to have it, where it needs packages that the other rooms do not.
 function(motionrack_room name)
-  cmake_parse_arguments(ROOM "" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
+  cmake_parse_arguments(ROOM "FAST" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
   if(ROOM_SOURCES)
     add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
     target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS} PRIVATE ${ROOM_LIBRARIES})
+    if(NOT ROOM_FAST)
+      motionrack_harden(motionrack_${name})
+    endif()
     foreach(target IN LISTS ROOM_HEADERS_OF)
       target_link_libraries(motionrack_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
     endforeach()

@@ -1,8 +1,8 @@
 """The program and the libraries are built so that a slip of memory ends a program instead of serving a stranger:
 hardened.py PROGRAM LIBRARY...
 
-    readelf ─► PIE, RELRO, BIND_NOW, a stack that is not executable
-            └► of the PROGRAM, which has the server: stack protector, FORTIFY, assertions of the C++ library
+    readelf ─► RELRO, BIND_NOW, a stack that is not executable, stack protector
+            └► of the PROGRAM: PIE, FORTIFY, assertions of the C++ library
 """
 
 from __future__ import annotations
@@ -18,18 +18,17 @@ def read(options: str, file: str) -> str:
 
 
 def problems_of(file: str, is_program: bool) -> list[str]:
-    head, segments, dynamic = read("-h", file), read("-l", file), read("-d", file)
+    head, segments, dynamic, symbols = (read(options, file) for options in ("-h", "-l", "-d", "--dyn-syms"))
     stack = re.search(r"GNU_STACK.*", segments)
     checks = {
         "is not position-independent": re.search(r"Type:\s+DYN", head) is not None,
         "has no RELRO segment": "GNU_RELRO" in segments,
         "is not bound at its start (BIND_NOW)": re.search(r"BIND_NOW|FLAGS_1.*\bNOW\b", dynamic) is not None,
         "has a stack that can be executed": stack is not None and "E" not in stack.group(0).split()[-2],
+        "has no stack protector": "__stack_chk_fail" in symbols,
     }
     if is_program:
-        symbols = read("--dyn-syms", file)
         checks["is not a position-independent executable"] = re.search(r"FLAGS_1.*\bPIE\b", dynamic) is not None
-        checks["has no stack protector"] = "__stack_chk_fail" in symbols
         checks["has no function of FORTIFY"] = (
             re.search(r"__(memcpy|read|recv|snprintf|vsnprintf|memmove)_chk", symbols) is not None
         )
