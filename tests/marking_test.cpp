@@ -182,8 +182,8 @@ TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
     for (const char* outputs : {"", "--picture mark.svg", "--picture ''  --report job.toml",
                                 "--picture a.svg --report a.svg", "--picture a.svg --picture ./a.svg"}) {
         const Ran ran = motionrack(std::string("mark job.toml -q ") + outputs);
-        EXPECT_EQ(ran.code, 2) << outputs;
-        EXPECT_THAT(ran.out, HasSubstr("it would be overwritten")) << outputs;
+        EXPECT_EQ(ran.code, 3) << outputs;
+        EXPECT_THAT(ran.out, HasSubstr("Nothing was done")) << outputs;
     }
     EXPECT_THAT(text_of(folder / "job.toml"), HasSubstr("mark.svg"));
     EXPECT_EQ(motionrack("mark job.toml -q --picture other.svg").code, 0);

@@ -1,14 +1,13 @@
 // The users file: JSON that only its owner may read, written whole or not at all. Tokens are in it as hashes.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <motionrack/authority/doorkeeper.hpp>
 #include <motionrack/authority/private_files.hpp>
 #include <motionrack/base/read_whole_file.hpp>
+#include <motionrack/disk/new_file.hpp>
 #include <nlohmann/json.hpp>
 
 namespace motionrack::authority {
@@ -21,19 +20,6 @@ std::int64_t seconds_of(WallTime time) {
 
 bool is_hash(const std::string& text) {
     return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
-/// Writes and closes; true if all of it is on the disk.
-bool write_down(int file, const std::string& text) {
-    std::size_t done = 0;
-    while (done < text.size()) {
-        const ssize_t some = ::write(file, text.data() + done, text.size() - done);
-        if (some < 0 && errno == EINTR) continue;
-        if (some <= 0) break;
-        done += static_cast<std::size_t>(some);
-    }
-    const bool whole = done == text.size() && ::fsync(file) == 0;
-    return ::close(file) == 0 && whole;
 }
 
 }  // namespace
@@ -86,29 +72,12 @@ Result<void> Doorkeeper::write() const {
                          {"expires", seconds_of(one.identity.expires)}});
     const std::string text =
         nlohmann::json{{"users", users}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    const std::string path = settings_.users_file.string(), beside = path + ".new";
-    const auto failed = [&](const char* what) {
-        return fail(
-            Trouble::io,
-            fmt::format("the users file {} could not be {}: {}. It is as it was.", path, what, std::strerror(errno)),
-            {}, path);
-    };
-    ::unlink(beside.c_str());
-    const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (file < 0) return failed("written");
-    if (!write_down(file, text)) {
-        const auto error = failed("written");
-        ::unlink(beside.c_str());
-        return error;
-    }
-    if (::rename(beside.c_str(), path.c_str()) != 0) return failed("replaced");
-    const std::string folder =
-        settings_.users_file.parent_path().empty() ? "." : settings_.users_file.parent_path().string();
-    if (const int place = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); place >= 0) {
-        ::fsync(place);
-        ::close(place);
-    }
-    return {};
+    const std::string path = settings_.users_file.string();
+    const Result<void> done = disk::write_whole(path, text, disk::Rights::owner);
+    if (done) return {};
+    return fail(Trouble::io,
+                fmt::format("the users file {} could not be written: {}. It is as it was.", path, done.error().message),
+                {}, path);
 }
 
 }  // namespace motionrack::authority

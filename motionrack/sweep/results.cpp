@@ -68,7 +68,7 @@ Result<std::unique_ptr<Results>> Results::open(const Sweep& sweep, const std::st
 /// Begins with the rows that were taken; the file is in its place at once, and goes on there.
 Result<void> Results::begin_part() {
     const std::string made = part() + ".new";
-    MOTIONRACK_TRY(trace::CsvWriter csv, trace::CsvWriter::create(made, heads(sweep_, all_shown())));
+    MOTIONRACK_TRY(trace::CsvWriter csv, trace::CsvWriter::create_log(made, heads(sweep_, all_shown())));
     csv_ = std::make_unique<trace::CsvWriter>(std::move(csv));
     for (std::int64_t i = 0; i < sweep_.points(); ++i)
         if (has(i)) write_row(*csv_, i, all_shown());
@@ -102,16 +102,14 @@ Result<void> Results::add(std::int64_t point, Row row) {
 }
 
 Result<void> Results::finish() {
-    const std::string made = path_ + ".new";
     if (is_hdf5(path_)) {
-        MOTIONRACK_CHECK(write_table_hdf5(table_of(sweep_, *this), made));
+        MOTIONRACK_CHECK(write_table_hdf5(table_of(sweep_, *this), path_));
     } else {
         const std::vector<bool> shown = shown_of(sweep_, *this);
-        MOTIONRACK_TRY(trace::CsvWriter csv, trace::CsvWriter::create(made, heads(sweep_, shown)));
+        MOTIONRACK_TRY(trace::CsvWriter csv, trace::CsvWriter::create(path_, heads(sweep_, shown)));
         for (std::int64_t i = 0; i < sweep_.points(); ++i) write_row(csv, i, shown);
         MOTIONRACK_CHECK(csv.close());
     }
-    MOTIONRACK_CHECK(put_in_place(made, path_));
     MOTIONRACK_CHECK(csv_->close());
     std::error_code gone;
     std::filesystem::remove(part(), gone);

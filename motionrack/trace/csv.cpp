@@ -2,15 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <motionrack/trace/csv.hpp>
 #include <motionrack/trace/report_parts.hpp>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 namespace motionrack::trace {
@@ -18,10 +15,6 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t csv_buffer_size = 256 * 1024;
-
-std::FILE* csv_file(void* file) {
-    return static_cast<std::FILE*>(file);
-}
 
 /// "X" as the start of a column's name: small letters, digits and '_'.
 std::string column_name(const std::string& axis, const std::string& quantity, const std::string& unit) {
@@ -69,18 +62,24 @@ std::vector<Event> events_of(const ReportData& data) {
 }  // namespace
 
 Result<CsvWriter> CsvWriter::create(const std::string& path, const std::vector<std::string>& columns) {
+    return begin(disk::NewFile::create(path, disk::NewFile::Part::keep), path, columns);
+}
+
+Result<CsvWriter> CsvWriter::create_log(const std::string& path, const std::vector<std::string>& columns) {
+    return begin(disk::NewFile::create_in_place(path), path, columns);
+}
+
+Result<CsvWriter> CsvWriter::begin(Result<disk::NewFile> file, const std::string& path,
+                                   const std::vector<std::string>& columns) {
     MOTIONRACK_ASSERT(!columns.empty());
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
+    if (!file) {
         return fail(Trouble::io,
-                    fmt::format("The CSV file could not be made: {}. Choose another place.",
-                                std::generic_category().message(errno)),
-                    {}, path);
+                    fmt::format("The CSV file could not be made: {}. Choose another place.", file.error().message), {},
+                    path);
     }
-    std::setvbuf(file, nullptr, _IONBF, 0);
     CsvWriter writer;
     writer.path_ = path;
-    writer.file_ = file;
+    writer.file_ = std::move(*file);
     writer.buffer_.reserve(csv_buffer_size + 4096);
     writer.columns_ = columns.size();
     for (const std::string& column : columns) writer.add(std::string_view(column));
@@ -94,19 +93,19 @@ CsvWriter::CsvWriter(CsvWriter&& other) noexcept {
 
 CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
     if (this == &other) return *this;
-    if (file_ != nullptr) static_cast<void>(close());
+    if (file_) write_out();
     path_ = std::move(other.path_);
-    file_ = std::exchange(other.file_, nullptr);
-    trouble_ = other.trouble_;
+    file_ = std::move(other.file_);
+    trouble_ = std::move(other.trouble_);
     buffer_ = std::move(other.buffer_);
-    written_ = other.written_;
     columns_ = other.columns_;
     fields_ = other.fields_;
     return *this;
 }
 
+// Not closed: an error unwinds, and what is written so far does not take the name.
 CsvWriter::~CsvWriter() {
-    if (file_ != nullptr) static_cast<void>(close());
+    if (file_) write_out();
 }
 
 void CsvWriter::separate() {
@@ -151,12 +150,7 @@ void CsvWriter::end_line() {
 }
 
 void CsvWriter::write_out() {
-    if (trouble_ == 0 && !buffer_.empty()) {
-        errno = 0;
-        const std::size_t done = std::fwrite(buffer_.data(), 1, buffer_.size(), csv_file(file_));
-        if (done != buffer_.size()) trouble_ = errno != 0 ? errno : EIO;
-        written_ += done;
-    }
+    if (trouble_.empty() && !buffer_.empty() && !file_.write(buffer_)) trouble_ = file_.trouble();
     buffer_.clear();
 }
 
@@ -167,20 +161,19 @@ Result<void> CsvWriter::flush() {
 }
 
 Result<void> CsvWriter::close() {
-    if (file_ == nullptr) return {};
+    if (!file_) return {};
     write_out();
-    if (std::fclose(csv_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
+    if (const Result<void> done = file_.commit(); !done && trouble_.empty()) trouble_ = done.error().message;
     return told();
 }
 
 Result<void> CsvWriter::told() const {
-    if (trouble_ == 0) return {};
-    return fail(
-        Trouble::io,
-        fmt::format("Only about {} bytes of the CSV file could be written: {}. What was written is kept but ends "
-                    "too early; make room or choose another place, and run again.",
-                    written_, std::generic_category().message(trouble_)),
-        {}, path_);
+    if (trouble_.empty()) return {};
+    return fail(Trouble::io,
+                fmt::format("Only about {} bytes of the CSV file could be written: {}. What was written is kept in {}, "
+                            "but ends too early; make room or choose another place, and run again.",
+                            file_.written(), trouble_, file_.path_until_whole()),
+                {}, path_);
 }
 
 Result<void> write_csv(const ReportData& data, const std::string& path) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <motionrack/base/result.hpp>
+#include <motionrack/disk/new_file.hpp>
 #include <motionrack/trace/report.hpp>
 #include <span>
 #include <string>
@@ -23,7 +24,10 @@ namespace motionrack::trace {
 class CsvWriter {
   public:
     /// `columns`: names with units, "x_position_mm"; they are quoted where RFC 4180 asks for it. Errors: io.
+    /// The file takes its name when it is closed; what stood there before stays until then.
     static Result<CsvWriter> create(const std::string& path, const std::vector<std::string>& columns);
+    /// A log: the file is there from its first line on.
+    static Result<CsvWriter> create_log(const std::string& path, const std::vector<std::string>& columns);
 
     CsvWriter(CsvWriter&& other) noexcept;
     CsvWriter& operator=(CsvWriter&& other) noexcept;
@@ -40,20 +44,21 @@ class CsvWriter {
 
     /// The lines so far are in the file, whatever becomes of this program. Errors: as close.
     Result<void> flush();
-    /// Errors: io, the first error met; what was written is kept.
+    /// Errors: io, the first error met; what was written is kept under the name that the sentence says.
     Result<void> close();
 
   private:
     CsvWriter() = default;
+    static Result<CsvWriter> begin(Result<disk::NewFile> file, const std::string& path,
+                                   const std::vector<std::string>& columns);
     void separate();
     void write_out();
     Result<void> told() const;
 
     std::string path_;
-    void* file_ = nullptr;
-    int trouble_ = 0;  ///< errno of the first failed write
+    disk::NewFile file_;
+    std::string trouble_;  ///< of the first failed write
     std::string buffer_;
-    std::uint64_t written_ = 0;
     std::size_t columns_ = 0;
     std::size_t fields_ = 0;
 };

@@ -1,5 +1,6 @@
 // The library's C interface, with its handles closed and its errors told as sentences.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -113,6 +114,10 @@ bool Writer::append(const void* data, std::size_t count) {
     const hid_t type = type_ == Type::text ? text.get() : number_type(type_);
     if (H5Dwrite(set_.get(), type, memory.get(), space.get(), H5P_DEFAULT, data) < 0) return false;
     size_ = size;
+    if (written_) {
+        written_->size = size;
+        written_->add(data, count * H5Tget_size(type));
+    }
     return true;
 }
 
@@ -131,6 +136,7 @@ Writer File::make_column(const std::string& path, const ColumnSettings& settings
     out.set_ = Handle(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), links.get(), create.get(), access.get()),
                       H5Dclose);
     if (!good(out.set_.get(), "make a column")) return out;
+    out.written_ = columns_[path] = std::make_shared<Written>(Written{settings.type, 0, settings.text_bytes, 0});
     if (settings.unit.empty()) return out;
     set(path, "unit", settings.unit);
     set(path, "scale", settings.scale);
@@ -149,36 +155,33 @@ Result<File> File::create(const std::string& path) {
     MOTIONRACK_CHECK(load_library());
     be_quiet();
     // The library says less than the system about a place where nothing can be made.
-    std::FILE* made = std::fopen(path.c_str(), "wb");
-    if (made == nullptr)
-        return fail(Trouble::io,
-                    fmt::format("The recording could not be made: {}. Choose another place.",
-                                std::generic_category().message(errno)),
-                    {}, path);
-    std::fclose(made);
+    Result<disk::NewFile> made = disk::NewFile::create(path);
+    const auto not_made = [&](const std::string& reason) {
+        return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", reason), {},
+                    path);
+    };
+    if (!made) return not_made(made.error().message);
     File out;
     out.path_ = path;
+    out.made_ = std::move(*made);
     const Handle access = access_settings();
     const Handle settings(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_obj_track_times(settings.get(), false);
-    out.file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, settings.get(), access.get()), H5Fclose);
-    if (!out.file_)
-        return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", why()), {},
-                    path);
+    out.file_ =
+        Handle(H5Fcreate(out.made_.path_until_whole().c_str(), H5F_ACC_TRUNC, settings.get(), access.get()), H5Fclose);
+    if (!out.file_) return not_made(why());
     return out;
 }
 
-Result<File> File::reopen(const std::string& path) {
-    MOTIONRACK_CHECK(load_library());
-    be_quiet();
-    File out;
-    out.path_ = path;
+Result<void> File::reopen() {
+    MOTIONRACK_CHECK(close_library());
     const Handle access = access_settings();
-    out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
-    if (!out.file_)
-        return fail(Trouble::io, fmt::format("The recording could not be ended: {}. What was written is kept.", why()),
-                    {}, path);
-    return out;
+    file_ = Handle(H5Fopen(made_.path_until_whole().c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
+    if (file_) return {};
+    return fail(Trouble::io,
+                fmt::format("The recording could not be ended: {}. What was written is kept in {}.", why(),
+                            made_.path_until_whole()),
+                {}, path_);
 }
 
 void File::make_group(const std::string& path) {
@@ -196,8 +199,10 @@ void File::write_text(const std::string& path, std::string_view text) {
         H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links.get(), create.get(), H5P_DEFAULT),
         H5Dclose);
     if (!good(set.get(), "make a text")) return;
-    good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()),
-         "write a text");
+    const std::string bytes(text.empty() ? std::string_view("", 1) : text);
+    good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), "write a text");
+    columns_[path] = std::make_shared<Written>(Written{Type::text, 1, bytes.size(), 0});
+    columns_[path]->add(bytes.data(), bytes.size());
 }
 
 void File::put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value) {
@@ -205,7 +210,11 @@ void File::put_attribute(const std::string& object, const char* name, std::int64
     const Handle made(
         H5Acreate_by_name(file_.get(), object.c_str(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Aclose);
-    if (good(made.get(), "make an attribute")) good(H5Awrite(made.get(), type, value), "write an attribute");
+    if (!good(made.get(), "make an attribute")) return;
+    good(H5Awrite(made.get(), type, value), "write an attribute");
+    Written& written = attributes_[{object, name}] = Written();
+    written.size = H5Tget_size(type);
+    written.add(value, written.size);
 }
 
 void File::set(const std::string& object, const char* name, std::string_view text) {
@@ -221,20 +230,36 @@ void File::set(const std::string& object, const char* name, std::int64_t value) 
 }
 
 void File::begin_streaming() {
+    made_.keep_part();
     good(H5Fstart_swmr_write(file_.get()), "begin");
 }
 void File::flush() {
     good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "be written");
 }
 
-Result<void> File::close() {
+Result<void> File::close_library() {
     if (!file_.close() && trouble_.empty()) trouble_ = "could not be closed: " + why();
     if (trouble_.empty()) return {};
-    return fail(Trouble::io,
-                fmt::format("The recording {}. It is not whole, and perhaps nothing of it can be read; make room or "
-                            "choose another place, and run again.",
-                            trouble_),
-                {}, path_);
+    const std::string kept =
+        made_.is_part_kept() ? " Perhaps some of it can be read in " + made_.path_until_whole() + "." : "";
+    return fail(
+        Trouble::io,
+        fmt::format("The recording {}. It is not whole and did not take its name.{} Make room or choose another "
+                    "place, and run again.",
+                    trouble_, kept),
+        {}, path_);
+}
+
+Result<void> File::close() {
+    MOTIONRACK_CHECK(close_library());
+    const bool device = made_.path_until_whole() == path_;
+    if (!device && !is_as_written()) {
+        trouble_ = "could not be read back as it was written";
+        return close_library();
+    }
+    if (const Result<void> done = made_.commit(); !done && trouble_.empty())
+        trouble_ = "could not be written: " + done.error().message;
+    return close_library();
 }
 
 // ---- opening to read
@@ -246,11 +271,18 @@ constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '
 /// Whether the file begins as ours do. Errors: io, bad_input.
 Result<void> check_signature(const std::string& path) {
     std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (file == nullptr)
+    if (file == nullptr) {
+        const int why_not = errno;
+        const std::string part = path + disk::beside;
+        if (why_not == ENOENT && ::access(part.c_str(), F_OK) == 0)
+            return fail(Trouble::io,
+                        fmt::format("The file is not there, but one that was cut off, or is being written: {}.", part),
+                        {}, path);
         return fail(Trouble::io,
                     fmt::format("The file cannot be read: {}. Check the name and the rights.",
-                                std::generic_category().message(errno)),
+                                std::generic_category().message(why_not)),
                     {}, path);
+    }
     unsigned char begin[sizeof signature];
     errno = 0;
     const std::size_t got = std::fread(begin, 1, sizeof begin, file);

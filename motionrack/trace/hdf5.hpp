@@ -4,7 +4,7 @@
 //   create ──► groups, texts, columns ──► begin_streaming ──► append, flush, append, flush ...  ──► close
 //                                              │ from here on nothing else may be made (SWMR: one writes, many read);
 //                                              │ what was flushed stays readable, whatever becomes of the writer
-//   reopen ──► more groups, texts ──► close    ▼
+//   reopen ──► more groups, texts ──► close: read back whole, and put in its place
 //   open   ──► read; a file that its writer never closed opens, too, and says so
 //
 // Everything is compressed and carries checksums, the library's own structures too, so that damage is found and told.
@@ -12,8 +12,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <motionrack/base/result.hpp>
+#include <motionrack/disk/new_file.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,6 +73,16 @@ struct ColumnSettings {
     double scale = 1;             ///< a stored number times this is in the unit
 };
 
+/// What a column or an attribute must be found with when the file is read back.
+struct Written {
+    Type type = Type::int64;
+    std::uint64_t size = 0;      ///< elements; bytes of an attribute
+    std::size_t text_bytes = 0;  ///< of each element, if it is text
+    unsigned long checksum = 0;  ///< CRC-32 of its bytes
+
+    void add(const void* data, std::size_t bytes);
+};
+
 /// One dataset that is written at its end.
 class Writer {
   public:
@@ -85,6 +97,7 @@ class Writer {
     Type type_ = Type::int64;
     std::size_t text_bytes_ = 0;
     std::uint64_t size_ = 0;
+    std::shared_ptr<Written> written_;
 };
 
 /// One dataset that is read in pieces.
@@ -111,10 +124,8 @@ class Reader {
 
 class File {
   public:
-    /// Over what was there. Errors: io.
+    /// It takes its name when it is closed: what was there stays until then. Errors: io.
     static Result<File> create(const std::string& path);
-    /// For more, after a writer closed it. Errors: io.
-    static Result<File> reopen(const std::string& path);
     /// For reading. Errors: io (it is not there, it cannot be read), bad_input (it is no such file, it is damaged).
     static Result<File> open(const std::string& path);
 
@@ -131,11 +142,15 @@ class File {
     void set(const std::string& object, const char* name, std::string_view text);
     void set(const std::string& object, const char* name, double value);
     void set(const std::string& object, const char* name, std::int64_t value);
-    /// From now on columns grow, and nothing else may be made.
+    /// From now on columns grow, and nothing else may be made. What there is of the file stays from now on, beside its
+    /// name, whatever becomes of the writer.
     void begin_streaming();
     /// All that was appended can be read from now on, even if this program is killed.
     void flush();
-    /// Columns and other handles must be gone. Errors: io, the first trouble since the file was created.
+    /// Ends the streaming: more may be made. Columns and other handles must be gone. Errors: as close.
+    Result<void> reopen();
+    /// Columns and other handles must be gone. All of the file is read once more before it takes its name. Errors: io,
+    /// the first trouble since the file was created.
     Result<void> close();
     const std::string& trouble() const { return trouble_; }
     /// What close() tells if there was none before: "could not be written".
@@ -155,12 +170,17 @@ class File {
 
   private:
     bool good(std::int64_t code, const char* what);
+    Result<void> close_library();
+    bool is_as_written() const;
     void put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value);
 
     std::string path_;
-    Handle file_;
+    disk::NewFile made_;  ///< of one that is written
+    Handle file_;         ///< of the library; closed first
     bool unfinished_ = false;
     std::string trouble_;
+    std::map<std::string, std::shared_ptr<Written>> columns_;            ///< by their paths
+    std::map<std::pair<std::string, std::string>, Written> attributes_;  ///< by object and name
 };
 
 }  // namespace motionrack::trace::hdf5

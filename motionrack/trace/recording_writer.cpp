@@ -199,10 +199,8 @@ Result<void> RecordingWriter::close(const RecordingEnd& end) {
     signals_.clear();
     samples_.reset();
     for (hdf5::Writer* writer : {&input_times_, &input_texts_, &flushed_}) *writer = hdf5::Writer();
-    const std::string path = file_.path();
     if (!good_) file_.set_trouble("could not be written, perhaps for want of room on the disk");
-    MOTIONRACK_CHECK(file_.close());
-    MOTIONRACK_TRY(file_, hdf5::File::reopen(path));
+    MOTIONRACK_CHECK(file_.reopen());
     file_.make_group("outcome");
     for (const Fact& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
     file_.write_text("run/report", report_json(end.report));

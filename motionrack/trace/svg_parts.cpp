@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <motionrack/disk/new_file.hpp>
 #include <motionrack/trace/svg_parts.hpp>
 #include <motionrack/trace/text.hpp>
 #include <motionrack/trace/thin.hpp>
-#include <system_error>
 
 namespace motionrack::trace {
 
@@ -158,16 +157,11 @@ double nice_step(double span, int parts) {
 }
 
 Result<void> write_text(const std::string& text, const std::string& path) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    int trouble = file == nullptr ? errno : 0;
-    if (file != nullptr) {
-        if (std::fwrite(text.data(), 1, text.size(), file) != text.size()) trouble = errno;
-        if (std::fclose(file) != 0 && trouble == 0) trouble = errno;
-    }
-    if (trouble == 0) return {};
+    const Result<void> done = disk::write_whole(path, text);
+    if (done) return {};
     return fail(Trouble::io,
                 fmt::format("The file of {} bytes could not be written: {}. Make room or choose another place.",
-                            text.size(), std::generic_category().message(trouble)),
+                            text.size(), done.error().message),
                 {}, path);
 }
 

@@ -3,12 +3,9 @@
 
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <motionrack/trace/vcd.hpp>
-#include <system_error>
 #include <utility>
 
 namespace motionrack::trace {
@@ -18,10 +15,6 @@ namespace {
 constexpr std::size_t vcd_buffer_size = 256 * 1024;
 constexpr std::size_t longest_change = 128;  ///< a time and a value: 1 + 19 + 1 + 1 + 64 + 1 + 6 + 1
 constexpr std::int64_t low_base = 100'000'000;
-
-std::FILE* vcd_file(void* file) {
-    return static_cast<std::FILE*>(file);
-}
 
 constexpr std::array<char, 200> make_pairs() {
     std::array<char, 200> pairs{};
@@ -92,17 +85,15 @@ Result<VcdWriter> VcdWriter::create(const std::string& path, const VcdSettings& 
                         "from 100 ps to 1 s. Nothing was written; take 1 ns.",
                         settings.timescale.count() * 100));
     }
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
+    Result<disk::NewFile> file = disk::NewFile::create(path, disk::NewFile::Part::keep);
+    if (!file) {
         return fail(Trouble::io,
-                    fmt::format("The VCD file could not be made: {}. Choose another place.",
-                                std::generic_category().message(errno)),
-                    {}, path);
+                    fmt::format("The VCD file could not be made: {}. Choose another place.", file.error().message), {},
+                    path);
     }
-    std::setvbuf(file, nullptr, _IONBF, 0);
     VcdWriter writer;
     writer.path_ = path;
-    writer.file_ = file;
+    writer.file_ = std::move(*file);
     writer.timescale_ = settings.timescale.count();
     writer.full_names_ = settings.full_names;
     writer.buffer_.resize(vcd_buffer_size);
@@ -119,10 +110,10 @@ VcdWriter::VcdWriter(VcdWriter&& other) noexcept {
 
 VcdWriter& VcdWriter::operator=(VcdWriter&& other) noexcept {
     if (this == &other) return *this;
-    if (file_ != nullptr) static_cast<void>(close(now_));
+    if (file_) flush();
     path_ = std::move(other.path_);
-    file_ = std::exchange(other.file_, nullptr);
-    trouble_ = other.trouble_;
+    file_ = std::move(other.file_);
+    trouble_ = std::move(other.trouble_);
     timescale_ = other.timescale_;
     variables_ = std::move(other.variables_);
     names_ = std::move(other.names_);
@@ -130,7 +121,6 @@ VcdWriter& VcdWriter::operator=(VcdWriter&& other) noexcept {
     full_names_ = other.full_names_;
     buffer_ = std::move(other.buffer_);
     used_ = std::exchange(other.used_, 0);
-    written_ = other.written_;
     declaring_ = other.declaring_;
     now_ = other.now_;
     unit_ = other.unit_;
@@ -141,8 +131,9 @@ VcdWriter& VcdWriter::operator=(VcdWriter&& other) noexcept {
     return *this;
 }
 
+// Not closed: an error unwinds, and what is written so far does not take the name.
 VcdWriter::~VcdWriter() {
-    if (file_ != nullptr) static_cast<void>(close(now_));
+    if (file_) flush();
 }
 
 std::string VcdWriter::unique_name(std::string_view name) {
@@ -243,19 +234,18 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
 }
 
 Result<void> VcdWriter::close(Instant end) {
-    if (file_ == nullptr) return {};
+    if (!file_) return {};
     if (declaring_) end_declarations();
     room(longest_change);
     if (end > now_) advance(end);
     flush();
-    if (std::fclose(vcd_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
-    if (trouble_ == 0) return {};
-    return fail(
-        Trouble::io,
-        fmt::format("Only about {} bytes of the VCD file could be written: {}. What was written is kept but ends "
-                    "too early; make room or choose another place, and run again.",
-                    written_, std::generic_category().message(trouble_)),
-        {}, path_);
+    if (const Result<void> done = file_.commit(); !done && trouble_.empty()) trouble_ = done.error().message;
+    if (trouble_.empty()) return {};
+    return fail(Trouble::io,
+                fmt::format("Only about {} bytes of the VCD file could be written: {}. What was written is kept in {}, "
+                            "but ends too early; make room or choose another place, and run again.",
+                            file_.written(), trouble_, file_.path_until_whole()),
+                {}, path_);
 }
 
 void VcdWriter::put(std::string_view text) {
@@ -294,12 +284,7 @@ void VcdWriter::room(std::size_t bytes) {
 }
 
 void VcdWriter::flush() {
-    if (trouble_ == 0 && used_ > 0) {
-        errno = 0;
-        const std::size_t done = std::fwrite(buffer_.data(), 1, used_, vcd_file(file_));
-        if (done != used_) trouble_ = errno != 0 ? errno : EIO;
-        written_ += done;
-    }
+    if (trouble_.empty() && used_ > 0 && !file_.write({buffer_.data(), used_})) trouble_ = file_.trouble();
     used_ = 0;
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <motionrack/disk/new_file.hpp>
 #include <set>
 #include <string>
 #include <string_view>
@@ -60,11 +61,12 @@ class VcdWriter {
     void change_real(Id id, double value, Instant at);
 
     /// Bytes handed over so far, those in the buffer included.
-    std::uint64_t bytes() const { return written_ + used_; }
+    std::uint64_t bytes() const { return file_.written() + used_; }
     const std::string& path() const { return path_; }
 
     /// Ends the file at `end` (not before the last change), so that viewers show the time after the last change.
-    /// Errors: io, the first error met. A writer that is destroyed unclosed ends the file at its last change.
+    /// Errors: io, the first error met. What a writer that is destroyed unclosed wrote stays in
+    /// `NAME.new`.
     Result<void> close(Instant end);
 
   private:
@@ -89,8 +91,8 @@ class VcdWriter {
     void put_time(std::int64_t units);
 
     std::string path_;
-    void* file_ = nullptr;
-    int trouble_ = 0;  ///< errno of the first failed write
+    disk::NewFile file_;
+    std::string trouble_;  ///< of the first failed write
     std::int64_t timescale_ = 1;
     std::vector<Variable> variables_;
     std::vector<std::set<std::string>> names_;  ///< those of each open scope
@@ -98,7 +100,6 @@ class VcdWriter {
     bool full_names_ = false;
     std::vector<char> buffer_;
     std::size_t used_ = 0;
-    std::uint64_t written_ = 0;
     bool declaring_ = true;
     Instant now_{0};
     std::int64_t unit_ = -1;  ///< time last written

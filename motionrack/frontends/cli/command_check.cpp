@@ -205,6 +205,7 @@ void add_new(CLI::App& app, Action& chosen) {
                     return exit_refused;
                 }
             }
+            if (!may_write({}, {options->file})) return exit_refused;
             const Result<void> written = write_text(options->file, *text);
             if (!written) return report(written.error());
             fmt::print("{} written. Next: motionrack check {}\n", options->file, options->file);

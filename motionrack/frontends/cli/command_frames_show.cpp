@@ -139,6 +139,18 @@ int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options
     return frames_agree(watch) ? exit_done : exit_machine;
 }
 
+/// The files that are read: what is wrong with the program is told later.
+std::vector<std::string> inputs_of(const ShowOptions& options, const rack::RackConfig& config) {
+    std::vector<std::string> out = {options.rack, options.program};
+    if (options.program.empty() || options.program == "-") return out;  // standard input is read once
+    const Result<ProgramText> program = load_program(options.program);
+    if (!program) return out;
+    control::gcode::Settings settings = program_settings(config, program->name);
+    note_subprograms(settings, program->name, out);
+    (void)control::gcode::check_program(program->text, settings, most_problems_of_run, program->name);
+    return out;
+}
+
 int show_frames(const ShowOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e5) || !(options.every > 0 && options.every <= 1e3)) {
         print_error(fmt::format(
@@ -156,6 +168,7 @@ int show_frames(const ShowOptions& options) {
             "for one that has.");
         return exit_usage;
     }
+    if (!may_write(inputs_of(options, *config), {options.vcd, options.picture})) return exit_refused;
     rack::FrameWatch watch(rack);
     std::unique_ptr<rack::WireTap> tap;
     std::unique_ptr<rack::WaveRecorder> recorder;

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <memory>
+#include <motionrack/disk/new_file.hpp>
+#include <motionrack/disk/outputs.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
@@ -29,14 +29,14 @@ struct SubscribeOptions {
 /// Every used frame as a row.
 class CsvFile {
   public:
-    ~CsvFile() {
-        if (file_) std::fclose(file_);
-    }
     Result<void> open(const std::string& path) {
         if (path.empty()) return {};
-        file_ = std::fopen(path.c_str(), "wb");
+        MOTIONRACK_CHECK(disk::may_write({}, {path}));
         path_ = path;
-        return file_ ? Result<void>{} : broken();
+        Result<disk::NewFile> made = disk::NewFile::create(path, disk::NewFile::Part::keep);
+        if (!made) return broken(made.error().message);
+        file_ = std::move(*made);
+        return {};
     }
     void add(const dds::Frame& frame, Instant since_start) {
         if (!file_) return;
@@ -52,23 +52,21 @@ class CsvFile {
         for (const std::uint32_t count : frame.positions())
             fmt::format_to(end, ",{}", static_cast<std::int32_t>(count));
         row_ += '\n';
-        if (std::fwrite(row_.data(), 1, row_.size(), file_) != row_.size()) good_ = false;
+        (void)file_.write(row_);
     }
     Result<void> finish() {
-        if (!file_) return {};
-        good_ = std::fclose(file_) == 0 && good_;
-        file_ = nullptr;
-        return good_ ? Result<void>{} : broken();
+        const Result<void> done = file_.commit();
+        return done ? done : broken(done.error().message);
     }
 
   private:
-    Result<void> broken() const {
-        return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path_,
-                                             std::strerror(errno)));
+    Result<void> broken(const std::string& reason) const {
+        return fail(Trouble::io,
+                    fmt::format("{} cannot be written: {}. Choose another name or make room.", path_, reason));
     }
-    std::FILE* file_ = nullptr;
+    disk::NewFile file_;
     std::string path_, row_;
-    bool begun_ = false, good_ = true;
+    bool begun_ = false;
 };
 
 /// What is on the screen, or goes into a pipe.

@@ -32,6 +32,14 @@ std::string picture_name(const std::string& path, char axis, std::size_t axes) {
     return path.substr(0, at) + "_" + axis + path.substr(at);
 }
 
+/// All names that a picture may have.
+std::vector<std::string> pictures_of(const HomeOptions& options, const rack::RackConfig& config) {
+    if (options.picture.empty()) return {};
+    std::vector<std::string> out = {options.picture};
+    for (const rack::RackAxis& axis : config.axes) out.push_back(picture_name(options.picture, axis.letter, 2));
+    return out;
+}
+
 int write_pictures(const rack::HomingOutcome& outcome, const HomeOptions& options) {
     int code = exit_done;
     for (const rack::HomedAxis& axis : outcome.axes) {
@@ -49,6 +57,7 @@ int home(const HomeOptions& options) {
     int code = exit_done;
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
+    if (!may_write({options.rack}, pictures_of(options, *config))) return exit_refused;
     rack::Rack rack(*config);
     std::unique_ptr<rack::FaultPlan> faults;
     if (!options.faults.empty()) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/png.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/mark/show.hpp>
@@ -103,27 +103,6 @@ Result<void> write_files(const MarkOptions& options, const mark::Job& job, const
     return {};
 }
 
-/// An output must be neither something that was read nor another output.
-Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<std::string> taken) {
-    const auto place = [](const std::string& path) {
-        std::error_code none;
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
-    };
-    for (const std::string& path : outputs) {
-        if (path == "-") continue;
-        for (const std::string& other : taken)
-            if (place(path) == place(other))
-                return fail(Trouble::bad_input,
-                            fmt::format("{} is already the name of the job, of a file that it reads, or of another "
-                                        "output; it would be overwritten. "
-                                        "Nothing was marked; give --picture or --report another name.",
-                                        path));
-        taken.push_back(path);
-        MOTIONRACK_CHECK(check_writable(path));
-    }
-    return {};
-}
-
 int run_mark(const MarkOptions& options) {
     const Result<std::string> text = read_text(options.job, read_limits::toml);
     if (!text) return report(text.error());
@@ -141,7 +120,9 @@ int run_mark(const MarkOptions& options) {
     if (!prepared) return report(prepared.error());
     std::vector<std::string> files = options.pictures;
     if (!options.report.empty()) files.push_back(options.report);
-    if (const Result<void> good = check_outputs(files, inputs); !good) return report(good.error());
+    if (!may_write(inputs, files)) return exit_refused;
+    for (const std::string& file : files)
+        if (const Result<void> good = check_writable(file); !good) return report(good.error());
     stop_on_signals();
     ProgressLine progress(options.quiet || options.json);
     const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};

@@ -163,13 +163,16 @@ int plan(const PlanOptions& options) {
                                                      config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
-    const auto reading = program_settings(*config, program->name, options.reading, code);
+    auto reading = program_settings(*config, program->name, options.reading, code);
     if (!reading) return code;
+    std::vector<std::string> inputs = {options.program, options.rack, options.reading.tools};
+    note_subprograms(*reading, program->name, inputs);
     const control::gcode::Settings& settings = *reading;
     if (const int bad = print_problems(
             control::gcode::check_program(program->text, settings, most_problems, program->name), program->name);
         bad != exit_done)
         return bad;
+    if (!may_write(inputs, {options.picture})) return exit_refused;
     std::vector<Move> moves;
     control::gcode::Reader reader(program->text, settings, program->name);
     for (auto step = reader.next(); step && *step != nullptr; step = reader.next())

@@ -6,6 +6,7 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/recorded_job.hpp>
@@ -85,10 +86,7 @@ int replay(const ReplayOptions& options) {
     const Result<trace::RecordingReader> recording = trace::RecordingReader::open(options.recording);
     if (!recording) return report(recording.error());
     if (!recording->whole()) print_warning(recording->cut_sentence());
-    std::error_code none;
-    if (!options.record.empty() && std::filesystem::equivalent(options.record, options.recording, none))
-        return report({Trouble::refused,
-                       "The replay would be written over its recording; choose another name. Nothing was run."});
+    if (!may_write({options.recording}, {options.record})) return exit_refused;
     const Scratch scratch;
     if (options.record.empty() && scratch.folder.empty())
         return report(

@@ -93,14 +93,16 @@ void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request
 
 int run(const RunOptions& options) {
     rack::JobRequest request;
-    if (!may_write({options.program, options.rack, options.reading.tools},
-                   {options.files.page(), options.record, options.vcd, options.files.csv, options.files.events}))
-        return exit_refused;
+    std::vector<std::string> inputs = {options.program, options.rack, options.reading.tools};
+    const std::vector<std::string> outputs = {options.files.page(), options.record, options.vcd, options.files.csv,
+                                              options.files.events};
+    if (!may_write(inputs, outputs)) return exit_refused;
     if (const int bad = read_request(options, request); bad != exit_done) return bad;
     int unread = exit_done;
     std::optional<control::gcode::Settings> settings =
         program_settings(request.config, request.program_name, options.reading, unread);
     if (!settings) return unread;
+    note_subprograms(*settings, request.program_name, inputs);
     keep_subprograms(*settings, request.subprograms);
     request.tools = settings->tools;
     if (const Result<void> good = control::gcode::check_settings(*settings); !good) return report(good.error());
@@ -110,6 +112,7 @@ int run(const RunOptions& options) {
         request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
     if (!options.stream)
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
+    if (!may_write(inputs, outputs)) return exit_refused;
 
     rack::JobWatchers watchers;
     watchers.recording = options.record;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <motionrack/authority/private_files.hpp>
 #include <motionrack/authority/secrets.hpp>
+#include <motionrack/disk/outputs.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/line_output.hpp>
@@ -83,6 +84,11 @@ class Serving {
         settings.version = MOTIONRACK_VERSION;
         settings.boot = authority::random_token().substr(0, 8);
         settings.door = door_settings();
+        // A journal behind a link is written where it is: it is never made anew.
+        std::error_code none;
+        const std::string journal =
+            options_.journal.empty() ? std::string() : fs::weakly_canonical(options_.journal, none).string();
+        MOTIONRACK_CHECK(disk::may_write({options_.rack, options_.certificate, options_.key}, {users_file_, journal}));
         settings.server = server_settings();
         settings.grbl = grbl_settings();
         MOTIONRACK_TRY(settings.page, load_page(options_.page));

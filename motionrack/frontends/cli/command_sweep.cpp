@@ -56,7 +56,9 @@ Result<sweep::SweepFiles> load_files(const std::string& file, const sweep::Sweep
     if (settings.tools) {
         MOTIONRACK_TRY(out.tools, load_beside(file, *settings.tools, out.tools_name, loaded));
     }
-    out.subprogram = program_settings({}, out.program_name).subprogram;
+    control::gcode::Settings reading = program_settings({}, out.program_name);
+    note_subprograms(reading, out.program_name, loaded.inputs);
+    out.subprogram = std::move(reading.subprogram);
     return out;
 }
 

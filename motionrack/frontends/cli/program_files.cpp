@@ -1,7 +1,9 @@
 // Loading what a command works on.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <motionrack/disk/outputs.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
@@ -73,33 +75,20 @@ std::optional<control::gcode::Settings> program_settings(const rack::RackConfig&
     return settings;
 }
 
+void note_subprograms(control::gcode::Settings& settings, const std::string& program, std::vector<std::string>& files) {
+    if (!settings.subprogram) return;
+    settings.subprogram = [load = settings.subprogram, folder = std::filesystem::path(program).parent_path(),
+                           &files](const std::string& name) -> Result<std::string> {
+        std::string file = (folder / (name + ".ngc")).string();
+        if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
+        return load(name);
+    };
+}
+
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
-    const auto same = [](const std::string& a, const std::string& b) {
-        std::error_code none;
-        return !a.empty() && !b.empty() &&
-               (std::filesystem::equivalent(a, b, none) ||
-                std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none));
-    };
-    const auto is_device = [](const std::string& path) {
-        std::error_code none;
-        return std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none);
-    };
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        if (is_device(outputs[i])) continue;
-        for (const std::string& input : inputs)
-            if (same(input, outputs[i]))
-                return print_error(fmt::format(
-                           "{} is read, so nothing can be written there; choose another name. Nothing was done.",
-                           outputs[i])),
-                       false;
-        for (std::size_t k = 0; k < i; ++k)
-            if (same(outputs[k], outputs[i]))
-                return print_error(fmt::format(
-                           "Two things would be written to {}; choose another name for one. Nothing was done.",
-                           outputs[i])),
-                       false;
-    }
-    return true;
+    const Result<void> may = disk::may_write(inputs, outputs);
+    if (!may) print_error(may.error().message);
+    return may.has_value();
 }
 
 int print_problems(const control::gcode::Check& check, const std::string& name) {

@@ -52,8 +52,10 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
 std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path,
                                                          const ReadingOptions& options, int& exit_code);
 
-/// Whether none of the files that are to be written is one that is read, or another one of them. False: it was told
-/// which.
+/// Adds the file of each subprogram that is read from now on to `files`, once.
+void note_subprograms(control::gcode::Settings& settings, const std::string& program, std::vector<std::string>& files);
+
+/// Whether the outputs of a command may be written: see disk::may_write. False: it was told which may not.
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /// How many problems a check for people collects; of a program that is to run the first ones are enough.

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <motionrack/disk/new_file.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 
@@ -44,9 +45,11 @@ Result<std::string> read_text(const std::string& path, const ReadLimit& limit) {
 
 namespace {
 
-tl::unexpected<Error> not_writable(const std::string& path, int why) {
-    return fail(Trouble::io,
-                fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
+tl::unexpected<Error> not_writable(const std::string& path, std::string_view why) {
+    return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, why));
+}
+tl::unexpected<Error> not_writable(const std::string& path, int code) {
+    return not_writable(path, std::string_view(std::strerror(code)));
 }
 
 }  // namespace
@@ -65,13 +68,13 @@ Result<void> check_writable(const std::string& path) {
 }
 
 Result<void> write_text(const std::string& path, std::string_view text) {
-    std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
-    bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    int why = errno;
-    // What is short stays in the buffer until the file is closed: a full disk is noticed there.
-    if (file != nullptr && (file == stdout ? std::fflush(file) : std::fclose(file)) != 0 && good)
-        good = false, why = errno;
-    return good ? Result<void>{} : not_writable(path, why);
+    if (path != "-") {
+        const Result<void> done = disk::write_whole(path, text);
+        return done ? done : not_writable(path, std::string_view(done.error().message));
+    }
+    // What is short stays in the buffer: a full disk is noticed when it is flushed.
+    const bool good = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    return good ? Result<void>{} : not_writable(path, errno);
 }
 
 int report(const Error& error) {

@@ -86,6 +86,18 @@ TEST(WriteEventsCsv, TellsBlocksWarningsWorstDeviationAndStopInOrderOfTime) {
               "7,warning,,,,,Later than the path\r\n");
 }
 
+TEST(CsvWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
+    const Scratch scratch;
+    std::ofstream(scratch.path("a.csv")) << "old";
+    {
+        auto csv = CsvWriter::create(scratch.path("a.csv"), {"a"});
+        ASSERT_TRUE(csv);
+        csv->add(std::string_view("half"));
+    }
+    EXPECT_EQ(file_text(scratch.path("a.csv")), "old");
+    EXPECT_NE(file_text(scratch.path("a.csv.new")).find("half"), std::string::npos);
+}
+
 TEST(CsvWriter, SaysOnceAtTheEndThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
     auto csv = CsvWriter::create("/dev/full", {"a"});

@@ -144,6 +144,17 @@ TEST(VcdWriter, SaysOnceAtTheEndThatTheDiskIsFull) {
     EXPECT_TRUE(vcd.close(whole_seconds(1)));
 }
 
+TEST(VcdWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
+    const Scratch vcd_scratch;
+    std::ofstream(vcd_scratch.path("a.vcd")) << "old";
+    {
+        VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
+        vcd.change(vcd.add_wire("w"), 1, Instant{10});
+    }
+    EXPECT_EQ(file_text(vcd_scratch.path("a.vcd")), "old");
+    EXPECT_NE(file_text(vcd_scratch.path("a.vcd.new")).find("$var"), std::string::npos);
+}
+
 TEST(VcdWriter, SaysThatAFileCannotBeMade) {
     const auto writer = VcdWriter::create("/nowhere/at/all/a.vcd");
     ASSERT_FALSE(writer);

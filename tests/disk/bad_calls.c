@@ -1,0 +1,210 @@
+/* A disk whose nth call fails, between a program and its files: loaded in front of the C library (LD_PRELOAD).
+
+   MOTIONRACK_BAD_FOLDER  only files in it are meant
+   MOTIONRACK_BAD_CALL    "fail 12", "tear 12", "drop 12": what becomes of the 12th call; without it all go through
+   MOTIONRACK_BAD_WHILE   while this file is there, every call that changes files fails: a full disk
+   MOTIONRACK_BAD_COUNT   file that says, when the program ends, how many calls there were
+
+   Calls: open for writing, write, writev, pwrite, read, pread, ftruncate, fsync, fdatasync, rename. `fail`: nothing is
+   done and an error comes back; `tear`: half is written and an error comes back, or half of what was asked for is read,
+   which is no error; `drop`: nothing is done and success comes back, of a call that changes files. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+enum fault { none, fail, tear, drop };
+
+static atomic_long calls;
+static enum fault fault = none;
+static long nth;
+static const char *folder, *full;
+
+__attribute__((constructor)) static void begin(void) {
+    const char* plan = getenv("MOTIONRACK_BAD_CALL");
+    folder = getenv("MOTIONRACK_BAD_FOLDER");
+    full = getenv("MOTIONRACK_BAD_WHILE");
+    if (plan == NULL || strlen(plan) < 6) return;
+    fault = strncmp(plan, "fail", 4) == 0 ? fail : strncmp(plan, "tear", 4) == 0 ? tear : drop;
+    nth = atol(plan + 5);
+}
+
+__attribute__((destructor)) static void end(void) {
+    const char* path = getenv("MOTIONRACK_BAD_COUNT");
+    if (path == NULL) return;
+    char text[32];
+    const int size = snprintf(text, sizeof text, "%ld\n", (long)calls);
+    const int file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (file < 0) return;
+    syscall(SYS_write, file, text, (size_t)size);
+    close(file);
+}
+
+static int is_meant(const char* path) {
+    return folder != NULL && strncmp(path, folder, strlen(folder)) == 0;
+}
+
+static enum fault next_call(int changes) {
+    if (changes && full != NULL && syscall(SYS_faccessat, AT_FDCWD, full, F_OK) == 0) return fail;
+    return atomic_fetch_add(&calls, 1) + 1 == nth ? fault : none;
+}
+
+/* What becomes of a call on an open file. */
+static enum fault on_file(int file, int changes) {
+    char link[64], path[4096];
+    snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    const ssize_t size = readlink(link, path, sizeof path - 1);
+    if (size <= 0) return none;
+    path[size] = '\0';
+    return is_meant(path) ? next_call(changes) : none;
+}
+
+ssize_t write(int file, const void* bytes, size_t count) {
+    switch (on_file(file, 1)) {
+        case none:
+            return syscall(SYS_write, file, bytes, count);
+        case drop:
+            return (ssize_t)count;
+        case tear:
+            syscall(SYS_write, file, bytes, count / 2);
+            break;
+        case fail:
+            break;
+    }
+    errno = ENOSPC;
+    return -1;
+}
+
+ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
+    switch (on_file(file, 1)) {
+        case none:
+            return syscall(SYS_pwrite64, file, bytes, count, at);
+        case drop:
+            return (ssize_t)count;
+        case tear:
+            syscall(SYS_pwrite64, file, bytes, count / 2, at);
+            break;
+        case fail:
+            break;
+    }
+    errno = ENOSPC;
+    return -1;
+}
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
+    return pwrite64(file, bytes, count, at);
+}
+
+/* The C++ library writes a long text together with what it has kept. */
+ssize_t writev(int file, const struct iovec* parts, int count) {
+    size_t size = 0;
+    for (int i = 0; i < count; ++i) size += parts[i].iov_len;
+    switch (on_file(file, 1)) {
+        case none:
+            return syscall(SYS_writev, file, parts, count);
+        case drop:
+            return (ssize_t)size;
+        case tear:
+            syscall(SYS_writev, file, parts, count / 2);
+            break;
+        case fail:
+            break;
+    }
+    errno = ENOSPC;
+    return -1;
+}
+
+/* A short read is none that fails. */
+static size_t less(enum fault what, size_t count) {
+    return what == tear && count > 1 ? count / 2 : count;
+}
+
+ssize_t read(int file, void* bytes, size_t count) {
+    const enum fault what = on_file(file, 0);
+    if (what != fail) return syscall(SYS_read, file, bytes, less(what, count));
+    errno = EIO;
+    return -1;
+}
+
+ssize_t pread64(int file, void* bytes, size_t count, off64_t at) {
+    const enum fault what = on_file(file, 0);
+    if (what != fail) return syscall(SYS_pread64, file, bytes, less(what, count), at);
+    errno = EIO;
+    return -1;
+}
+ssize_t pread(int file, void* bytes, size_t count, off_t at) {
+    return pread64(file, bytes, count, at);
+}
+
+static int open_file(const char* path, int flags, mode_t mode) {
+    char whole[4096], cut[4096];
+    if ((flags & O_ACCMODE) != O_RDONLY && strlen(path) < sizeof cut) {
+        /* It may not be there: its folder is. */
+        strcpy(cut, path);
+        char* const slash = strrchr(cut, '/');
+        if (slash != NULL) *slash = '\0';
+        const char* const parent = realpath(slash == NULL ? "." : cut, whole);
+        const size_t size = parent == NULL ? 0 : strlen(parent);
+        if (parent != NULL && size + 2 < sizeof whole) {
+            strcpy(whole + size, "/");
+            const enum fault what = is_meant(whole) ? next_call(1) : none;
+            if (what == fail || what == tear) {
+                errno = ENOSPC;
+                return -1;
+            }
+        }
+    }
+    return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+}
+
+int open(const char* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return open_file(path, flags, mode);
+}
+int open64(const char* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return open_file(path, flags | O_LARGEFILE, mode);
+}
+
+/* Of a call that is done whole or not at all. */
+static int instead(enum fault what, long number, long first, long second) {
+    if (what == none) return (int)syscall(number, first, second);
+    if (what == drop) return 0;
+    errno = EIO;
+    return -1;
+}
+
+int ftruncate64(int file, off64_t size) {
+    return instead(on_file(file, 1), SYS_ftruncate, file, size);
+}
+int ftruncate(int file, off_t size) {
+    return ftruncate64(file, size);
+}
+/* No power is lost here: a sync that goes well is none of the real disk's, which would take its time. */
+int fsync(int file) {
+    const enum fault what = on_file(file, 1);
+    if (what == none || what == drop) return 0;
+    errno = EIO;
+    return -1;
+}
+int fdatasync(int file) {
+    return fsync(file);
+}
+int rename(const char* from, const char* to) {
+    char whole[4096];
+    const char* path = realpath(from, whole);
+    return instead(path != NULL && is_meant(path) ? next_call(1) : none, SYS_rename, (long)from, (long)to);
+}

@@ -1,0 +1,136 @@
+// Every command that writes, on a disk whose nth call fails, is torn or is lost, reads among them: with exit code 0 all
+// results are as they are on a good disk; else a sentence says what is wrong, and under each name stands what stood
+// there before, or the whole result.
+#include <gmock/gmock.h>
+
+#include <motionrack/rack/template.hpp>
+#include <motionrack/trace/diff.hpp>
+#include <tests/environment.hpp>
+#include <tests/ran.hpp>
+
+namespace motionrack {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Scenario {
+    const char* name;
+    const char* command;
+    std::vector<const char*> results;
+};
+
+const Scenario scenarios[] = {
+    {"recording", "run part.ngc -q --no-report --record a.h5", {"a.h5"}},
+    {"recording_with_faults", "run part.ngc -q --no-report --record a.h5 --at feed=0.5@0.1s", {"a.h5"}},
+    {"recording_of_subprograms", "run call.ngc -q --no-report --record a.h5", {"a.h5"}},
+    {"waves", "run part.ngc -q --no-report --vcd a.vcd --signals X.enc_?", {"a.vcd"}},
+    {"samples", "run part.ngc -q --no-report --csv a.csv", {"a.csv"}},
+    {"events", "run part.ngc -q --no-report --events a.csv", {"a.csv"}},
+    {"page", "run part.ngc -q --report a.html", {"a.html"}},
+    {"all_of_a_run",
+     "run part.ngc -q --report a.html --csv a.csv --events b.csv --vcd a.vcd --record a.h5",
+     {"a.html", "a.csv", "b.csv", "a.vcd", "a.h5"}},
+    {"trace", "trace part.ngc a.vcd -q --signals X.step", {"a.vcd"}},
+    {"page_of_a_recording", "report given.h5 --report a.html --csv a.csv --events b.csv", {"a.html", "a.csv", "b.csv"}},
+    {"replay", "replay given.h5 -q --record a.h5", {"a.h5"}},
+    {"sweep_to_csv", "sweep sweep.toml -q --jobs 1 --fresh -o a.csv", {"a.csv"}},
+    {"sweep_to_hdf5", "sweep sweep.toml -q --jobs 1 --fresh -o a.h5", {"a.h5"}},
+    {"sweep_with_a_picture", "sweep sweep.toml -q --jobs 1 --fresh -o a.csv --picture a.svg", {"a.csv", "a.svg"}},
+    {"plan", "plan part.ngc --picture a.svg", {"a.svg"}},
+    {"homing", "home X --picture a.svg -q", {"a.svg"}},
+    {"mark", "mark job.toml -q --picture a.svg --report a.html", {"a.svg", "a.html"}},
+    {"mark_as_png", "mark job.toml -q --picture a.png", {"a.png"}},
+    {"rack_file", "new router a.toml --force", {"a.toml"}},
+    {"frames", "frames stage.toml -q --for 0.002 --vcd a.vcd --picture a.svg", {"a.vcd", "a.svg"}},
+};
+
+class ABadDisk : public InFolder, public testing::WithParamInterface<Scenario> {
+  protected:
+    void SetUp() override {
+        InFolder::SetUp();
+        write("part.ngc", "G21 G90\nG1 X2 Y1 F1200\nX0 Y0\nM2\n");
+        write("call.ngc", "o<side> call [1]\nM2\n");
+        write("side.ngc", "o<side> sub\nG21 G1 X#1 F1200\no<side> endsub\n");
+        write(
+            "sweep.toml",
+            "[sweep]\nprogram = \"part.ngc\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 3 }\n");
+        write("job.toml", "[drawing]\ntext = 'A'\n");
+        write("stage.toml", text_of(source_root / "examples/13_stage/machine.toml"));
+        const std::string command = GetParam().command;
+        if (command.find("given.h5") != std::string::npos) {
+            ASSERT_EQ(motionrack("run part.ngc -q --no-report --record given.h5").code, 0);
+        }
+    }
+    /// Runs it in a folder `on` with results of a run before; `plan`: what goes wrong.
+    Ran run_on(const std::string& plan) {
+        for (const char* result : GetParam().results) write(result, old_text(result));
+        fs::remove(folder / "a.csv.part");
+        fs::remove(folder / "a.h5.part");
+        return shell("MOTIONRACK_BAD_FOLDER=\"$PWD/\" MOTIONRACK_BAD_CALL='" + plan +
+                     "' MOTIONRACK_BAD_COUNT=/tmp/count_" + std::to_string(::getpid()) +
+                     " LD_PRELOAD=" + MOTIONRACK_BAD_CALLS + " " MOTIONRACK_PROGRAM " " + GetParam().command);
+    }
+    std::int64_t calls() const {
+        const fs::path path = "/tmp/count_" + std::to_string(::getpid());
+        const std::int64_t count = std::atoll(text_of(path).c_str());
+        fs::remove(path);
+        return count;
+    }
+    /// A table of a sweep is only written over a table of a sweep.
+    static std::string old_text(const std::string& result) {
+        return std::string(GetParam().command).find("sweep") == 0 && result != "a.svg" ? "" : "old " + result;
+    }
+    /// Some of the calls, the same in every run; MOTIONRACK_CALLS=1000000: all.
+    static std::vector<std::int64_t> chosen(std::int64_t calls) {
+        const auto count = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 2, 12));
+        std::vector<std::int64_t> out;
+        for (std::int64_t i = 0; i < std::min(calls, count); ++i)
+            out.push_back(calls - i * calls / std::min(calls, count));
+        return out;
+    }
+    void check(const Ran& ran, const std::map<std::string, std::string>& good) const {
+        // A recording of which something cannot be read is called damaged.
+        const bool reads = std::string(GetParam().command).find("given.h5") != std::string::npos;
+        EXPECT_TRUE(ran.code == 0 || ran.code == 5 || (reads && ran.code == 2)) << ran.code << ": " << ran.out;
+        if (ran.code != 0) {
+            EXPECT_THAT(ran.out, HasSubstr("error: "));
+        }
+        for (const auto& [result, text] : good) {
+            const std::string now = text_of(folder / result);
+            const bool whole = now == text || same_recording(result, text);
+            EXPECT_TRUE(whole || (ran.code != 0 && now == old_text(result)))
+                << result << " has " << now.size() << " bytes; on a good disk " << text.size() << ". Exit code "
+                << ran.code << ": " << ran.out;
+        }
+    }
+    /// Bytes that nobody reads may differ.
+    bool same_recording(const std::string& result, const std::string& text) const {
+        if (!result.ends_with(".h5") || text_of(folder / result).size() < 100) return false;
+        write("good.h5", text);
+        const auto diff = trace::diff_files((folder / "good.h5").string(), (folder / result).string());
+        return diff && diff->same();
+    }
+};
+
+TEST_P(ABadDisk, LeavesTheOldResultOrTheWholeNewOne) {
+    const Ran first = run_on("fail 0");
+    ASSERT_EQ(first.code, 0) << first.out;
+    const std::int64_t count = calls();
+    ASSERT_GT(count, 0);
+    std::map<std::string, std::string> good;
+    for (const char* result : GetParam().results) good[result] = text_of(folder / result);
+    for (const std::int64_t nth : chosen(count))
+        for (const char* fault : {"fail", "tear", "drop"}) {
+            const std::string plan = fault + (" " + std::to_string(nth));
+            SCOPED_TRACE(plan + " of " + std::to_string(count));
+            check(run_on(plan), good);
+        }
+    calls();
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, ABadDisk, testing::ValuesIn(scenarios),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace motionrack
