@@ -192,10 +192,28 @@ TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
 TEST_F(MarkCommand, SaysThatADrawingIsOutsideTheField) {
     write("job.toml", square + "[fly]\nmode = 'off'\n");
     EXPECT_EQ(motionrack("mark job.toml -q --picture ''").code, 0);
-    write("job.toml", "[drawing]\ntext = 'I'\nx_mm = 200\n");
+    write("job.toml", "[drawing]\ntext = 'I'\nheight_mm = 200\n");
     const Ran ran = motionrack("mark job.toml -q --picture ''");
     EXPECT_EQ(ran.code, 4);
     EXPECT_THAT(ran.out, HasSubstr("outside the field"));
+}
+
+TEST_F(MarkCommand, RefusesADrawingThatDoesNotReachTheField) {
+    for (const char* drawing : {"x_mm = 200", "y_mm = -900", "x_mm = 700\nscale = 10"}) {
+        write("job.toml", std::string("[drawing]\ntext = 'I'\n") + drawing + "\n");
+        const Ran ran = motionrack("mark job.toml -q --picture a.svg");
+        EXPECT_EQ(ran.code, 3) << ran.out;
+        EXPECT_THAT(ran.out, HasSubstr("Nothing was marked")) << drawing;
+        EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
+    }
+    write("job.toml", "[drawing]\ntext = 'I'\nx_mm = 200\n");
+    EXPECT_THAT(motionrack("mark job.toml -q --picture ''").out,
+                AllOf(HasSubstr("The drawing goes from X 199.167 to 200.833 mm and from Y -2.500 to 2.500 mm"),
+                      HasSubstr("outside the field, which goes from -60.569 to 60.569 mm each way")));
+    write("job.toml", "[drawing]\ntext = 'I'\ny_mm = 1000\nscale = 1e6\n");
+    const Ran far = motionrack("mark job.toml -q --picture ''");
+    EXPECT_EQ(far.code, 2);
+    EXPECT_THAT(far.out, HasSubstr("more than 100000 mm from the field's middle"));
 }
 
 TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {

@@ -1,6 +1,7 @@
 // Millimetres become bits, speeds bits/ms, the belt's movement a scale.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/plan.hpp>
@@ -180,6 +181,23 @@ Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, c
     return {};
 }
 
+/// Of a drawing on a part that stands nothing would be marked but a line on the field's edge.
+Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const Following& following) {
+    const auto& profile = following.track.profile;
+    const bool carried =
+        following.mode != FlyMode::off &&
+        std::any_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed != 0; });
+    const Box box = box_of(drawing);
+    if (carried || (box.low.x <= field.high.x && box.high.x >= field.low.x && box.low.y <= field.high.y &&
+                    box.high.y >= field.low.y))
+        return {};
+    return fail(Trouble::refused,
+                fmt::format("The drawing goes from X {:.3f} to {:.3f} mm and from Y {:.3f} to {:.3f} mm, and so lies "
+                            "outside the field, which goes from {:.3f} to {:.3f} mm each way; nothing carries it in. "
+                            "Nothing was marked; move the drawing or make it smaller.",
+                            box.low.x, box.high.x, box.low.y, box.high.y, field.low.x, field.high.x));
+}
+
 }  // namespace
 
 Box Prepared::field() const {
@@ -266,8 +284,9 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
 
 Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following,
                                            std::size_t marked) {
-    List list(prepared.bits_per_mm);
     const Drawing& drawing = prepared.of(marked).drawing;
+    if (job.fly.waits == Waits::none) MOTIONRACK_CHECK(check_reaches_field(drawing, prepared.field(), following));
+    List list(prepared.bits_per_mm);
     if (job.parts && job.parts->start == PartStart::equidistant && marked + 1 < job.parts->size())
         list.put(Op::simulate_ext_start, {counts_of(job, following, job.parts->spacing), 0});
     put_settings(list, job);

@@ -48,7 +48,7 @@ double counts_per_unit(const Job& job, const Following& following);
 double counts_of(const Job& job, const Following& following, double way);
 
 /// The list of the part that is marked `marked`th, up to and with set_end_of_list. Errors: refused: a speed, place or
-/// scale that the card does not take; with waits, a drawing that does not come into the field.
+/// scale that the card does not take; a drawing that does not come into the field.
 Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following,
                                            std::size_t marked = 0);
 /// Before the first start: asks for the encoders to become 0 at it. Errors: as list_of.

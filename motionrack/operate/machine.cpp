@@ -249,14 +249,27 @@ void Machine::reset(const StopOrigin& by) {
     tell_stop(report, status_.why, stop_listeners_);
 }
 
+namespace {
+
+/// The axis refuses it, too, but only when the order is begun: who gave it has his answer then.
+Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
+    if (std::fabs(speed) <= axis.max_speed) return {};
+    return fail(Trouble::refused,
+                fmt::format("Not jogged: the speed is {:g} {}/s, but may be up to {:g} for axis {}. Nothing was moved.",
+                            std::fabs(speed), axis.unit(), axis.max_speed, axis.letter));
+}
+
+}  // namespace
+
 Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
-    MOTIONRACK_CHECK(axis_named(rack_.config(), "Not jogged", axis));
+    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
+    MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     jogs_.hold(axis, speed, origin.session);
     enter(MachineState::jogging);
     return {};
@@ -266,9 +279,16 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
-    MOTIONRACK_CHECK(axis_named(rack_.config(), "Not jogged", axis));
+    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
         return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
+    MOTIONRACK_CHECK(check_jog_speed(*found, speed));
+    const double travel = found->max_position - found->min_position;
+    if (trusted(*found) && std::fabs(distance) > travel)
+        return fail(Trouble::refused,
+                    fmt::format("Not jogged: the distance is {:g} {}, but the whole travel of axis {} is {:g}. Nothing "
+                                "was moved.",
+                                std::fabs(distance), found->unit(), axis, travel));
     jogs_.move(axis, distance, speed);
     enter(MachineState::jogging);
     return {};

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/control/gcode/empty_program.hpp>
 #include <motionrack/control/gcode/reader.hpp>
 
 namespace motionrack::control::gcode {
@@ -98,6 +99,7 @@ Check check_program(std::string_view text, const Settings& settings, std::size_t
     }
     check.lines = reader.walk().furthest();
     check.ended = reader.interpreter().modes().ended;
+    if (check.problems.empty() && is_empty_program(text)) check.problems.push_back(empty_program_problem(text, file));
     return check;
 }
 

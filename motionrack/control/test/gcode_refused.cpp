@@ -274,6 +274,21 @@ TEST(GcodeCheck, CollectsProblemsUpToANumber) {
     EXPECT_TRUE(two.more_problems);
 }
 
+TEST(GcodeCheck, RefusesAProgramWithoutAnyWord) {
+    for (const char* text :
+         {"", "\n\n", "; done\n", "(MSG,hello)", "(a part)\n\n%\n", "\xEF\xBB\xBF", "%\n%\nG1 X1 F100\n"}) {
+        const Check check = check_program(text, testing::machine(), 10, "a.ngc");
+        ASSERT_EQ(check.problems.size(), 1u) << text;
+        EXPECT_THAT(check.problems[0].text(), HasSubstr("a.ngc:1:1: the program is empty")) << text;
+    }
+    EXPECT_THAT(check_program("\n;\n", testing::machine(), 10).problems[0].message, HasSubstr("its 2 lines"));
+    for (const char* text : {"M2", "G21", "#1=2", "/G0 X1", "%\nM2\n%\n", "X0", "o1 if [0]\no1 endif\n"}) {
+        const Check check = check_program(text, testing::machine(), 10, "a.ngc");
+        EXPECT_TRUE(check.problems.empty()) << text;
+    }
+    EXPECT_THAT(check_program("(never closed", testing::machine(), 10).problems[0].message, HasSubstr("this comment"));
+}
+
 TEST(GcodeSettings, RefusesNumbersThatAreNone) {
     Settings settings = testing::machine();
     EXPECT_TRUE(check_settings(settings));

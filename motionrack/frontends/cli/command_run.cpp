@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <motionrack/control/gcode/empty_program.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
@@ -110,7 +111,7 @@ int run(const RunOptions& options) {
     // Without a check first it is read all the same: for the subprograms that it calls.
     const control::gcode::Check check = control::gcode::check_program(
         request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
-    if (!options.stream)
+    if (!options.stream || control::gcode::is_empty_program(request.program))
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
     if (!may_write(inputs, outputs)) return exit_refused;
 

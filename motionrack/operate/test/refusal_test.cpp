@@ -103,6 +103,31 @@ TEST(AMachine, MovesNoAxisThatIsDisabled) {
     EXPECT_DOUBLE_EQ(o.y(), 5);
 }
 
+TEST(AMachine, RefusesAJogThatItsAxisCannotDoInTheAnswerToTheOrder) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        const auto refused = [](const Result<void>& order) { return order ? std::string() : order.error().message; };
+        EXPECT_THAT(refused(m.jog('X', 1e6)), HasSubstr("the speed is 1e+06 mm/s, but may be up to"));
+        EXPECT_THAT(refused(m.jog('X', -1e6)), HasSubstr("Nothing was moved"));
+        EXPECT_THAT(refused(m.jog_by('X', 1, 1e6)), HasSubstr("the speed is 1e+06 mm/s, but may be up to"));
+        EXPECT_THAT(refused(m.jog_by('X', -1e6, 5)), HasSubstr("the distance is 1e+06 mm, but the whole travel"));
+        EXPECT_EQ(m.state(), MachineState::standstill);
+    });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 1, 5)); });
+    o.run(1);
+    EXPECT_DOUBLE_EQ(o.x(), 11);
+}
+
+TEST(AMachine, RefusesAProgramWithoutAnyWord) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_THAT(m.begin_program("; nothing\n", "p").error().message, HasSubstr("the program is empty"));
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_TRUE(m.begin_program("G21\n", "p"));
+    });
+    o.run(1);
+}
+
 TEST(AMachine, DisabledAfterAnErrorStaysSoWhenItIsReset) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
