@@ -21,7 +21,7 @@ namespace motionrack {
 /// `motionrack serve`, until it is killed.
 class Served {
   public:
-    explicit Served(const std::vector<std::string>& arguments) {
+    explicit Served(const std::vector<std::string>& arguments, bool must_start = true) {
         int ends[2];
         if (::pipe(ends) != 0) return;
         child_ = ::fork();
@@ -41,7 +41,7 @@ class Served {
         read_until("Ctrl-C");
         const std::size_t at = said.find("http://127.0.0.1:");
         if (at != std::string::npos) port_ = std::stoi(said.substr(at + 17));
-        connect();
+        if (port_ != 0 || must_start) connect();
     }
     ~Served() { end(SIGKILL); }
     Served(const Served&) = delete;
@@ -95,7 +95,7 @@ class Served {
     /// Nothing reads its output any more.
     void close_output() { ::close(std::exchange(output_, -1)); }
     pid_t process() const { return child_; }
-    int port() const { return port_; }
+    int port() const { return port_; }  ///< 0: it did not start
 
     std::string said;
 

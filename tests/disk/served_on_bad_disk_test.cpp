@@ -1,0 +1,255 @@
+// A served rack whose disk fails: an order that is not recorded is not acknowledged, the machine holds, and the next
+// start trusts no position. A pairing that is not written is not acknowledged either.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <motionrack/journal/journal.hpp>
+#include <tests/environment.hpp>
+#include <tests/ran.hpp>
+#include <tests/served_program.hpp>
+
+namespace motionrack {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// What programs that are started while it lives have for a disk.
+class BadDiskAhead {
+  public:
+    /// `plan`: "fail 12"; `full`: a file: the disk is full while it is there.
+    BadDiskAhead(const std::string& folder, const std::string& plan, const std::string& full,
+                 const std::string& count) {
+        ::setenv("MOTIONRACK_BAD_FOLDER", (folder + "/").c_str(), 1);
+        ::setenv("MOTIONRACK_BAD_CALL", plan.c_str(), 1);
+        ::setenv("MOTIONRACK_BAD_WHILE", full.c_str(), 1);
+        ::setenv("MOTIONRACK_BAD_COUNT", count.c_str(), 1);
+        ::setenv("LD_PRELOAD", MOTIONRACK_BAD_CALLS, 1);
+    }
+    ~BadDiskAhead() {
+        for (const char* name : {"MOTIONRACK_BAD_FOLDER", "MOTIONRACK_BAD_CALL", "MOTIONRACK_BAD_WHILE",
+                                 "MOTIONRACK_BAD_COUNT", "LD_PRELOAD"})
+            ::unsetenv(name);
+    }
+    BadDiskAhead(const BadDiskAhead&) = delete;
+    BadDiskAhead& operator=(const BadDiskAhead&) = delete;
+};
+
+class AServedRackOnABadDisk : public InFolder {
+  protected:
+    void SetUp() override {
+        InFolder::SetUp();
+        std::filesystem::create_directory(folder / "data");
+        write("table.toml",
+              "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_mm "
+              "= 1000\n");
+    }
+    std::string at(const char* name) const { return (folder / name).string(); }
+    std::vector<std::string> arguments() const {
+        return {at("table.toml"), "--port",        "0", "--no-pairing", "--journal", at("data/table.journal"),
+                "--users",        at("users.json")};
+    }
+    std::vector<std::string> with_pairing() const {
+        return {at("table.toml"), "--port", "0", "--users", at("data/users.json")};
+    }
+    std::int64_t calls() const { return std::atoll(text_of(folder / "count").c_str()); }
+    static bool is_done(const json& answer) { return answer.is_object() && answer.contains("done"); }
+    /// While a position is declared nothing begins.
+    static json begin(Served& served, const std::string& name, const std::string& text) {
+        json answer;
+        do answer = served.post("begin", {{"name", name}, {"text", text}});
+        while (answer.dump().find("try again at once") != std::string::npos);
+        return answer;
+    }
+    /// Orders that were acknowledged, of a short session.
+    struct Session {
+        std::vector<std::string> acknowledged;
+        bool started = false, arrived = false;
+        int code = -1;
+    };
+    /// A program that goes to `x`, and an end that is asked for.
+    Session short_session(const std::string& plan, double x) const {
+        const BadDiskAhead disk(at("data"), plan, "", at("count"));
+        Session out;
+        Served served(arguments(), false);
+        out.started = served.port() != 0;
+        const auto took = [&](const json& answer, const std::string& in_journal) {
+            if (is_done(answer)) out.acknowledged.push_back(in_journal);
+            return is_done(answer);
+        };
+        if (out.started) {
+            took(served.post("take_control"), "take_control");
+            took(served.post("enable", {{"on", true}}), "enable on=true");
+            took(served.post("declare_position", {{"axis", "X"}, {"position", 0}}), "declare_position");
+        }
+        const std::string name = "to_" + json(x).dump() + ".ngc";
+        if (out.started && took(begin(served, name, "G1 F6000 X" + json(x).dump() + "\nM30\n"), name))
+            while (!out.arrived) {
+                const json status = served.status();
+                if (!status.contains("state")) break;
+                out.arrived = status["axes"][0]["commanded"] == x && status["state"] == "standstill";
+                if (status["state"] != "moving" && status["state"] != "standstill") break;
+            }
+        out.code = served.end(SIGTERM);
+        return out;
+    }
+    /// By a disk that is good again. `lies`: the disk said that it had done what it had not.
+    void check(const Session& session, bool lies) const {
+        if (session.code != 0) {
+            EXPECT_EQ(session.code, 5);
+        }
+        if (!lies) {
+            auto book = journal::Journal::open(at("data/table.journal"));
+            ASSERT_TRUE(book) << book.error().message;
+            const auto read = (*book)->read({0, "order", 10000});
+            ASSERT_TRUE(read);
+            std::string orders;
+            for (const journal::Entry& entry : *read) orders += entry.text + " " + entry.data + "\n";
+            for (const std::string& one : session.acknowledged) EXPECT_THAT(orders, HasSubstr(one));
+        }
+    }
+    /// `before`: where the session before this one left the axis; this one went to `x`.
+    void check_trust(const Session& session, bool lies, double before, double x) const {
+        Served next(arguments(), false);
+        if (next.port() == 0) {
+            EXPECT_TRUE(lies) << next.said;
+            return;
+        }
+        const json status = next.status();
+        ASSERT_TRUE(status.contains("axes")) << next.said;
+        if (status["axes"][0]["trusted"].get<bool>()) {
+            EXPECT_TRUE(session.code == 0 || !session.started);
+            EXPECT_EQ(status["axes"][0]["commanded"], session.started ? x : before);
+        } else if (!lies) {
+            EXPECT_NE(session.code, 0) << next.said;
+        }
+    }
+};
+
+TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndTrustsNoPlaceAfterwards) {
+    const BadDiskAhead disk(at("data"), "", at("full"), at("count"));
+    {
+        Served served(arguments());
+        EXPECT_TRUE(is_done(served.post("take_control")));
+        EXPECT_TRUE(is_done(served.post("enable", {{"on", true}})));
+        EXPECT_TRUE(is_done(served.post("declare_position", {{"axis", "X"}, {"position", 0}})));
+        EXPECT_TRUE(is_done(begin(served, "a.ngc", "G1 X500 F3000\nX0\nM30\n")));
+        while (served.status()["axes"][0]["commanded"].get<double>() < 2) continue;
+        write("full", "");
+        const json answer = served.post("set_overrides", {{"feed", 0.5}});
+        EXPECT_FALSE(is_done(answer)) << answer;
+        EXPECT_THAT(answer.dump(), HasSubstr("'set_overrides' is not recorded. The machine holds"));
+        while (served.status()["state"] == "moving") continue;
+        const json status = served.status();
+        EXPECT_EQ(status["state"], "hold");
+        ASSERT_EQ(status["alarms"].size(), 1u) << status["alarms"];
+        EXPECT_EQ(status["alarms"][0]["source"], "journal");
+        std::filesystem::remove(folder / "full");
+        for (const char* order : {"resume", "home"}) EXPECT_FALSE(is_done(served.post(order))) << order;
+        EXPECT_TRUE(is_done(served.post("stop")));
+        EXPECT_FALSE(is_done(served.post("begin", {{"name", "b.ngc"}, {"text", "G1 X0 F3000\n"}})));
+        EXPECT_EQ(served.end(SIGTERM), 5);
+    }
+    Served served(arguments());
+    EXPECT_THAT(served.said, HasSubstr("cut off"));
+    const json status = served.status();
+    EXPECT_FALSE(status["axes"][0]["trusted"]);
+    EXPECT_EQ(status["alarms"].size(), 1u);
+}
+
+TEST_F(AServedRackOnABadDisk, DoesNotStartWhereTheDiskIsFull) {
+    const BadDiskAhead disk(at("data"), "", at("full"), at("count"));
+    write("full", "");
+    Served served(arguments(), false);
+    EXPECT_EQ(served.port(), 0);
+    EXPECT_THAT(served.said, HasSubstr("table.journal"));
+    EXPECT_EQ(served.end(SIGTERM), 5);
+}
+
+TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndTrustsNothingWrong) {
+    for (const bool first_run : {true, false}) {
+        const double before = first_run ? 0 : 0.5, x = 1.5;
+        const auto start_anew = [&] {
+            std::filesystem::remove_all(folder / "data");
+            std::filesystem::create_directory(folder / "data");
+            if (!first_run) {
+                ASSERT_EQ(short_session("", before).code, 0);
+            }
+        };
+        start_anew();
+        const Session good = short_session("", x);
+        ASSERT_TRUE(good.arrived);
+        ASSERT_EQ(good.code, 0);
+        const std::int64_t count = calls();
+        check_trust(good, false, before, x);
+        const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 2, 12));
+        for (std::int64_t i = 0; i < std::min(count, tried); ++i)
+            for (const char* fault : {"fail", "tear", "drop"}) {
+                const std::int64_t nth = count - i * count / std::min(count, tried);
+                const std::string plan = fault + (" " + std::to_string(nth));
+                SCOPED_TRACE(plan + " of about " + std::to_string(count) + (first_run ? ", first run" : ""));
+                start_anew();
+                const Session session = short_session(plan, x);
+                const bool lies = fault[0] == 'd';
+                check_trust(session, lies, before, x);
+                check(session, lies);
+            }
+    }
+}
+
+TEST_F(AServedRackOnABadDisk, AcknowledgesNoPairingThatIsNotWritten) {
+    const auto pair = [](Served& served, const char* name) {
+        const std::size_t at = served.said.find("#pair=");
+        return served.post("pair", {{"code", served.said.substr(at + 6, 9)}, {"name", name}});
+    };
+    const auto names = [&] {
+        std::string out;
+        const json users = json::parse(text_of(folder / "data/users.json"), nullptr, false);
+        EXPECT_FALSE(users.is_discarded());
+        if (users.is_object())
+            for (const json& one : users["users"]) out += one["name"].get<std::string>() + " ";
+        return out;
+    };
+    std::int64_t before = 0;
+    {
+        const BadDiskAhead disk(at("data"), "fail 0", "", at("count"));
+        {
+            Served served(with_pairing());
+            ASSERT_TRUE(pair(served, "anna").contains("token"));
+            EXPECT_EQ(served.end(SIGTERM), 0);
+        }
+        const std::string old = text_of(folder / "data/users.json");
+        EXPECT_EQ(Served(with_pairing()).end(SIGTERM), 0);
+        before = calls();
+        {
+            Served served(with_pairing());
+            ASSERT_TRUE(pair(served, "berta").contains("token"));
+            EXPECT_EQ(served.end(SIGTERM), 0);
+        }
+        write("data/users.json", old);
+    }
+    const std::int64_t count = calls(), first = before + 1;
+    ASSERT_GE(count, first);
+    const std::string old = text_of(folder / "data/users.json");
+    const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 3, 20));
+    const std::int64_t step = std::max<std::int64_t>(1, (count - before) / tried);
+    for (std::int64_t nth = first; nth <= count; nth += step)
+        for (const char* fault : {"fail", "tear", "drop"}) {
+            const std::string plan = fault + (" " + std::to_string(nth));
+            SCOPED_TRACE(plan + " of " + std::to_string(before) + " and " + std::to_string(count));
+            write("data/users.json", old);
+            const BadDiskAhead disk(at("data"), plan, "", at("count"));
+            Served served(with_pairing());
+            const json answer = pair(served, "berta");
+            if (answer.contains("token")) {
+                EXPECT_EQ(names(), "anna berta ");
+            } else {
+                EXPECT_THAT(answer.dump(), HasSubstr("users file"));
+                EXPECT_TRUE(text_of(folder / "data/users.json") == old || names() == "anna berta ");
+            }
+            EXPECT_EQ(served.end(SIGTERM), 0);
+        }
+}
+
+}  // namespace
+}  // namespace motionrack
