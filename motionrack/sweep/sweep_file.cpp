@@ -260,6 +260,7 @@ double tidied(double value, const NumberRange& range) {
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream in(text);
+    in.exceptions(std::ios::badbit);  // else missing memory would look like the end of the text
     std::vector<std::string> out;
     for (std::string word; in >> word;) out.push_back(word);
     return out;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/trace/recording_parts.hpp>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <type_traits>
@@ -126,6 +127,8 @@ Result<RecordingHead> head_from_json(std::string_view text) {
             head.signals.push_back({signal.at("name"), path_of(signal), kind_of(signal.at("kind")), signal.at("unit"),
                                     signal.at("initial")});
         if (head.axes.size() > 6 || head.sample_period <= Duration{0}) throw std::runtime_error("no head");
+    } catch (const std::bad_alloc&) {
+        throw;  // the recording is not to blame
     } catch (const std::exception&) {
         return fail(Trouble::bad_input, "The recording is damaged: what it says of its run cannot be read.");
     }

@@ -1,6 +1,7 @@
 // One list of fields for each struct, read and written by it.
 #include <limits>
 #include <motionrack/trace/report_json.hpp>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -167,6 +168,8 @@ Result<ReportData> report_from_json(std::string_view text) {
         ReportJson json = ReportJson::parse(text);
         Fields fields(json, true);
         fields_of(data, fields);
+    } catch (const std::bad_alloc&) {
+        throw;  // the recording is not to blame
     } catch (const std::exception&) {
         return fail(Trouble::bad_input, "The recording is damaged: what its report says cannot be read.");
     }

@@ -224,6 +224,7 @@ std::string source_html(const ReportData& data) {
     if (!data.source) return {};
     std::string lines;
     std::istringstream in(cut_text(data.source->text, longest_source));
+    in.exceptions(std::ios::badbit);  // else missing memory would look like the end of the text
     for (std::string line; std::getline(in, line);) lines += escaped(line) + "\n";
     return section("source", shown(data.source->title).c_str(), "<pre class=\"card\">" + lines + "</pre>\n");
 }

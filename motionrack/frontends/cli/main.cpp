@@ -1,13 +1,16 @@
 // The motionrack program: the command line and nothing else.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <new>
 
 namespace {
 
@@ -40,9 +43,30 @@ int flushed(int code) {
     return code == exit_done ? static_cast<int>(exit_io) : code;
 }
 
-}  // namespace
+/// Needs no memory itself.
+int say_out_of_memory() {
+    static constexpr char sentence[] =
+        "error: There is not enough memory. Nothing more was done: files written before this are whole, all others as "
+        "they were. Close other programs, or give this one less to do.\n";
+    static_cast<void>(!::write(STDERR_FILENO, sentence, sizeof sentence - 1));
+    return motionrack::cli::exit_io;
+}
 
-int main(int argc, char** argv) {
+std::terminate_handler terminate_before = nullptr;
+
+/// Memory that is missing in a thread, or where nothing may be thrown, ends the program with the same sentence.
+[[noreturn]] void end_now() {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        std::_Exit(say_out_of_memory());
+    } catch (...) {
+    }
+    terminate_before();
+    std::abort();
+}
+
+int run_command(int argc, char** argv) {
     using namespace motionrack::cli;
     CLI::App app{"Motionrack: a rack of motion-control cards, in software.", "motionrack"};
     app.footer(footer);
@@ -77,8 +101,18 @@ int main(int argc, char** argv) {
         // Help and version are no errors; everything else is a wrong command line.
         return app.exit(e) == 0 ? exit_done : exit_usage;
     }
+    return chosen ? flushed(chosen()) : exit_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace motionrack::cli;
+    terminate_before = std::set_terminate(end_now);
     try {
-        return chosen ? flushed(chosen()) : exit_usage;
+        return run_command(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return say_out_of_memory();
     } catch (const std::exception& e) {
         print_error(fmt::format("{}. Nothing more was done; files written before this are whole.", e.what()));
         return exit_io;
