@@ -215,13 +215,14 @@ std::span<std::byte> bytes_of_vector(std::vector<T>& v) {
 
 }  // namespace
 
-/// Calls visit(span) for every piece of the rack's state, always in the same order; conditions are what was told of it.
+/// Calls visit(span) for every piece of the rack's state, always in the same order, those of a device as `of` gives
+/// them; conditions are what was told of it.
 template <class Visit>
-void Kernel::each_piece(Visit visit) {
+void Kernel::each_piece(Visit visit, std::span<std::byte> (Device::*of)()) {
     visit(bytes_of(state_));
     visit(bytes_of_vector(due_));
     visit(bytes_of_vector(wire_state_));
-    for (Slot& slot : devices_) visit(slot.device->state());
+    for (Slot& slot : devices_) visit((slot.device->*of)());
 }
 
 /// Those that are kept, in the order of the ring.
@@ -234,12 +235,12 @@ Snapshot Kernel::snapshot() {
     MOTIONRACK_ASSERT(started_);
     Snapshot out;
     std::size_t size = condition_bytes().size();
-    each_piece([&size](std::span<std::byte> piece) { size += piece.size(); });
+    each_piece([&size](std::span<std::byte> piece) { size += piece.size(); }, &Device::state);
     out.bytes.reserve(size);
     const auto append = [&out](std::span<std::byte> piece) {
         out.bytes.insert(out.bytes.end(), piece.begin(), piece.end());
     };
-    each_piece(append);
+    each_piece(append, &Device::state);
     append(condition_bytes());
     return out;
 }
@@ -252,7 +253,7 @@ void Kernel::restore(const Snapshot& snapshot) {
         std::memcpy(piece.data(), snapshot.bytes.data() + at, piece.size());
         at += piece.size();
     };
-    each_piece(take);
+    each_piece(take, &Device::state);
     take(condition_bytes());  // their number has just been taken
     MOTIONRACK_ASSERT(at == snapshot.bytes.size());
     queue_head_ = queue_size_ = 0;
@@ -260,9 +261,10 @@ void Kernel::restore(const Snapshot& snapshot) {
 
 std::uint64_t Kernel::state_hash() {
     std::uint64_t h = 0xCBF29CE484222325ull;
-    each_piece([&h](std::span<const std::byte> piece) {
+    const auto mix = [&h](std::span<const std::byte> piece) {
         for (const std::byte b : piece) h = (h ^ static_cast<std::uint64_t>(b)) * 0x100000001B3ull;
-    });
+    };
+    each_piece(mix, &Device::hashed_state);
     return h;
 }
 

@@ -173,7 +173,7 @@ class Kernel {
     void change(WireId wire, int level);
     void mix(std::uint64_t value);
     template <class Visit>
-    void each_piece(Visit visit);
+    void each_piece(Visit visit, std::span<std::byte> (Device::*of)());
     std::span<std::byte> condition_bytes();
 
     std::vector<Slot> devices_;

@@ -10,7 +10,9 @@ class HeldState final : public Device {
   public:
     void act(Instant) override {}
     std::span<std::byte> state() override { return bytes; }
+    std::span<std::byte> hashed_state() override { return hashed ? bytes : std::span<std::byte>{}; }
     std::span<std::byte> bytes;
+    bool hashed = true;  ///< false: another state has a hash of them
 };
 
 }  // namespace motionrack::sim

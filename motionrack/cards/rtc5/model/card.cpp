@@ -18,6 +18,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     : kernel_(kernel), engine_(settings) {
     id_ = kernel.add(*this, sim::Phase::cards, name);
     lists_.bytes = std::as_writable_bytes(engine_.memory());
+    lists_.hashed = false;  // State::memory_hash
     inputs_.bytes = sim::bytes_of(lines_);
     kernel.add(lists_, sim::Phase::cards, name + ".lists");
     kernel.add(inputs_, sim::Phase::cards, name + ".lines");

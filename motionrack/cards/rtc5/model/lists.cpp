@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
@@ -40,6 +41,26 @@ Result<void> check_position(std::int64_t position) {
     if (position >= 0 && position < greatest_list_memory) return {};
     return fail(Trouble::refused, fmt::format("the list position {} is outside 0 to {}; nothing was changed", position,
                                               greatest_list_memory - 1));
+}
+
+/// Hash of a command at its place; 0 where nothing was put.
+std::uint64_t hash_at(std::int64_t position, const Command& c) {
+    if (c.op == Op::none) return 0;
+    std::uint64_t h = static_cast<std::uint64_t>(position) << 16 ^ static_cast<std::uint64_t>(c.op);
+    const auto mix = [&h](std::uint64_t value) {
+        h = (h ^ value) * 0xD6E8FEB86659FD93ull;
+        h ^= h >> 32;
+    };
+    mix(static_cast<std::uint32_t>(c.head));
+    for (const double p : c.p) mix(std::bit_cast<std::uint64_t>(p));
+    return h;
+}
+
+/// The hash of the memory is the sum over its places, so that a command costs two of them and not 42 MB.
+void store(std::span<Command> memory, std::uint64_t& memory_hash, std::int64_t position, const Command& command) {
+    Command& stored = memory[static_cast<std::size_t>(position)];
+    memory_hash += hash_at(position, command) - hash_at(position, stored);
+    stored = command;
 }
 
 /// 0 list 1, 1 list 2; without memory list 2 is list 1.
@@ -112,8 +133,8 @@ Result<void> Engine::put(const Command& command) {
                                                   "it. Split the job over two lists (auto_change), or give "
                                                   "the list more memory (config_list)",
                                                   what.name, l.input));
-    memory_[static_cast<std::size_t>(l.input)] = command;
-    for (int i = 1; i < what.positions; ++i) memory_[static_cast<std::size_t>(l.input + i)] = {};
+    store(memory(), state_.memory_hash, l.input, command);
+    for (int i = 1; i < what.positions; ++i) store(memory(), state_.memory_hash, l.input + i, {});
     l.input += what.positions;
     if (command.op == Op::list_return && l.loading) {
         // The subroutine is complete; without a command there is none.

@@ -200,6 +200,7 @@ struct State {
     Recording recording;
     Sender sender;
     Output output;
+    std::uint64_t memory_hash = 0;  ///< of the lists' memory: every command at its place; 0: nothing was put
 };
 
 }  // namespace motionrack::rtc5

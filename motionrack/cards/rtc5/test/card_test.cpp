@@ -166,5 +166,51 @@ TEST(Rtc5Card, ASnapshotBringsTheSameFutureAndRunsDoNotAllocate) {
     EXPECT_GT(first.size(), 1000u);
 }
 
+/// The hash of a card whose positions 0, 1, .. of list 1 have these commands.
+std::uint64_t hash_of(std::initializer_list<Command> list) {
+    sim::Kernel kernel;
+    Card card(kernel, "scan", small);
+    kernel.start();
+    load(card.engine(), list);
+    EXPECT_TRUE(card.engine().set_start_list(1));
+    return kernel.state_hash();
+}
+
+TEST(Rtc5Card, TheStateHashTellsListsApartAndDependsOnTheirContentsOnly) {
+    const Command a = *list_command(Op::mark_abs, {5000, 100}), b = *list_command(Op::mark_abs, {5000, 101}),
+                  rel = *list_command(Op::mark_rel, {5000, 100}), nop = *list_command(Op::list_nop, {});
+    const std::vector<std::uint64_t> hashes = {hash_of({}),     hash_of({a}),      hash_of({b}),
+                                               hash_of({rel}),  hash_of({a, b}),   hash_of({b, a}),
+                                               hash_of({a, a}), hash_of({nop, a}), hash_of({nop, nop})};
+    for (std::size_t i = 0; i < hashes.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) EXPECT_NE(hashes[i], hashes[k]) << i << ' ' << k;
+
+    sim::Kernel kernel;
+    Card card(kernel, "scan", small);
+    kernel.start();
+    load(card.engine(), {b, nop});
+    const sim::Snapshot other = kernel.snapshot();
+    load(card.engine(), {a, b});
+    ASSERT_TRUE(card.engine().set_start_list(1));
+    EXPECT_EQ(kernel.state_hash(), hashes[4]) << "what was overwritten is not in it";
+    kernel.restore(other);
+    ASSERT_TRUE(card.engine().set_start_list(1));
+    EXPECT_EQ(kernel.state_hash(), hash_of({b, nop}));
+}
+
+TEST(Rtc5Card, TheStateHashReadsKilobytesNotTheListMemory) {
+    sim::Kernel kernel;
+    Card card(kernel, "scan");
+    kernel.start();
+    std::size_t held = 0, hashed = 0;
+    for (std::size_t i = 0; i < kernel.device_count(); ++i) {
+        sim::Device& device = kernel.device(static_cast<sim::DeviceId>(i));
+        held += device.state().size();
+        hashed += device.hashed_state().size();
+    }
+    EXPECT_GT(held, sizeof(Command) * greatest_list_memory) << "a snapshot holds all";
+    EXPECT_LT(hashed, 16'384u);
+}
+
 }  // namespace
 }  // namespace motionrack::rtc5

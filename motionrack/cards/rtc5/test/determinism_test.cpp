@@ -1,6 +1,7 @@
 // The same bits from every compiler and at every level of optimisation: random jobs' samples and states, as one number.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstring>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 #include <motionrack/cards/rtc5/test/job.hpp>
@@ -40,7 +41,7 @@ TEST(Rtc5Card, SamplesAndStatesHaveTheSameBitsOnEveryCompiler) {
         card.run_until(20'000, &mixer);
         std::array<unsigned char, sizeof(State)> bytes{};
         std::memcpy(bytes.data(), &card.state(), sizeof(State));
-        for (const unsigned char byte : bytes) mixer.mix(byte);
+        for (std::size_t i = 0; i < offsetof(State, memory_hash); ++i) mixer.mix(bytes[i]);
     }
     // The number of g++ 12 -O3 and clang 14 -O0; it changes when the rules or the random jobs do.
     EXPECT_EQ(mixer.hash, 0xD2B23084994F2867ull);
