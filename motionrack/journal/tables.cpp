@@ -12,6 +12,8 @@ namespace {
 constexpr std::int64_t version = 2;
 constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": tells a journal from other files of SQLite
 
+constexpr std::int64_t max_number = 1'000'000'000'000'000;  // of an entry or run: none is counted so far
+
 constexpr const char* tables = R"(
     CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER,
                       seal TEXT NOT NULL DEFAULT '');
@@ -67,10 +69,26 @@ Result<void> upgrade(const Database& database) {
     return done;
 }
 
-/// Structure of the file: pages, records, order of rows.
-Result<void> quick_check(const Database& database, const std::string& path) {
+/// Structure of the file: pages, records, order of rows. "ok", or what is wrong.
+std::string structure_of(const Database& database) {
     Statement check(database.get(), "PRAGMA quick_check(1)");
-    const std::string found = check.row() ? check.text(0) : database.what();
+    return check.row() ? check.text(0) : database.what();
+}
+
+/// Numbers that what follows may count on from. "ok", or what is wrong.
+std::string numbers_of(const Database& database) {
+    for (const char* sql :
+         {"SELECT max(number) FROM entry", "SELECT min(number) FROM entry", "SELECT max(number) FROM run",
+          "SELECT min(number) FROM run", "SELECT max(number) FROM chain", "SELECT min(number) FROM chain",
+          "SELECT max(seq) FROM sqlite_sequence", "SELECT min(seq) FROM sqlite_sequence"})
+        if (const std::int64_t number = database.number(sql); number < 0 || number > max_number)
+            return fmt::format("it has a number of {}, outside 0 to {}", number, max_number);
+    return "ok";
+}
+
+Result<void> quick_check(const Database& database, const std::string& path) {
+    std::string found = structure_of(database);
+    if (found == "ok") found = numbers_of(database);
     if (found == "ok") return {};
     return fail(
         Trouble::io,

@@ -150,6 +150,21 @@ TEST_F(ADamagedJournal, IsRefusedWhereItsStructureIsBroken) {
     EXPECT_THAT(refused.error().message, HasSubstr("Nothing was started. Keep the file"));
 }
 
+TEST_F(ADamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
+    for (const char* sql :
+         {"UPDATE entry SET number = 9223372036854775807 WHERE number = 3",
+          "UPDATE entry SET number = -5 WHERE number = 1", "UPDATE run SET number = 9223372036854775807",
+          "UPDATE run SET number = -1", "UPDATE chain SET number = 1000000000000001",
+          "UPDATE sqlite_sequence SET seq = 9223372036854775807"}) {
+        make();
+        change(sql);
+        const auto refused = Journal::open(path_);
+        ASSERT_FALSE(refused) << sql;
+        EXPECT_THAT(refused.error().message,
+                    testing::AllOf(HasSubstr("outside 0 to"), HasSubstr("Nothing was started")));
+    }
+}
+
 TEST_F(ADamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
     change(R"(
         CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
