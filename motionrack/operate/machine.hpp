@@ -172,7 +172,7 @@ class Machine {
     void access_bus();
     void change_positions();
     void failed(const Error& error);
-    void raise(std::string source, std::string text);
+    void raise(std::string source, std::string text, char axis = '\0');
     std::string at_work() const;
     void come_to_rest();
     void take_stop();
@@ -217,6 +217,7 @@ class Machine {
     std::optional<std::string> home_wanted_;
     std::vector<std::pair<char, double>> positions_wanted_;  ///< until all of them are declared
     std::optional<rack::HomingOutcome> homed_;
+    rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};
     std::vector<std::pair<BusAccess, std::function<void(std::uint32_t)>>> accesses_;
     // told

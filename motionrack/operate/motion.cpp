@@ -94,7 +94,10 @@ void Machine::slice() {
         }
         for (const std::function<void()>& one : work) one();
         take_stop();
-        if (!hands_over_) tell();
+        if (hands_over_) continue;
+        if (!stands(state_))  // a move may take long
+            for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+        tell();
     }
 }
 
@@ -123,6 +126,18 @@ std::string alarm_source(const rack::StopLatch& latch) {
     return latch.is_ordered() ? std::string() : std::string(rack::name_of(latch.cause()));
 }
 
+/// The alarm that is raised next says it of these axes, too.
+void supersede(std::vector<Alarm>& alarms, std::string_view axes) {
+    for (Alarm& alarm : alarms)
+        if (alarm.axis != '\0' && axes.find(alarm.axis) != std::string_view::npos)
+            alarm.active = false, alarm.acknowledged = true;
+}
+
+/// An axis that a search for home, or its own card, has left without a position says so itself.
+bool says_lost(const std::string& text) {
+    return text.find("not trusted") != std::string::npos;
+}
+
 /// What stopped the machine, or who, and what to do.
 std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_by) {
     const bool ordered = latch.is_ordered() && !ordered_by.empty();
@@ -134,7 +149,7 @@ std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_b
 void Machine::step() {
     if (!accesses_.empty()) return access_bus();
     if (jogs_.any()) return jog_all();
-    for (std::string& lost : trust_.look(now(), state_)) raise("position", std::move(lost));
+    for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     if (walk_ || over_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
@@ -149,13 +164,21 @@ void Machine::step() {
 /// Everything stands. Without a source there is no alarm: who asked for the stop needs none.
 void Machine::enter_error_stop(std::string source, std::string text) {
     rack::StopLatch& latch = rack_.stop_latch();
+    std::string lost;
     if (latch.latched()) {
         latch.settle();
         stop_taken_ = true;
-        for (const rack::RackAxis& axis : rack_.config().axes)
-            if (!latch.keeps_position(axis.index())) trust_.set(axis.letter, false);
-        text += ' ' + latch.position_sentence();
+        for (const rack::RackAxis& axis : rack_.config().axes) {
+            if (latch.keeps_position(axis.index())) continue;
+            trust_.set(axis.letter, false);
+            lost += axis.letter;
+        }
+        if (!lost.empty() || !says_lost(text)) text += ' ' + latch.position_sentence();
     }
+    const std::string unknown = trust_.lose_unknown();
+    if (!unknown.empty() && !says_lost(text))
+        text += fmt::format(" The position of {} is not trusted any more; home again.", unknown);
+    if (!source.empty()) supersede(status_.alarms, lost + unknown);
     tools_off();
     if (!source.empty()) raise(std::move(source), text);
     enter(MachineState::error_stop, std::move(text));
@@ -240,11 +263,11 @@ void Machine::jog_all() {
         status_.why = one.how.error().message;
         if (one.trusted || !trust_.of(one.letter)) continue;
         trust_.set(one.letter, false);  // it stopped without a ramp, or does not know its counts
+        supersede(status_.alarms, {&one.letter, 1});
         jogs_.let_go();
         stop_wanted_ = true;
         failed(one.how.error());
     }
-    for (std::string& lost : trust_.look(now(), state_)) raise("position", std::move(lost));
     if (jogs_.any()) return host().pass(settings_.slice);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.why, {}));
@@ -255,6 +278,7 @@ void Machine::home_all() {
     settings.axes = *std::exchange(home_wanted_, std::nullopt);
     settings.stop = &home_stop_;
     settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
+    settings.seen_indexes = &seen_indexes_;
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
@@ -298,13 +322,15 @@ void Machine::failed(const Error& error) {
     enter_error_stop(known ? alarm_source(latch) : what, error.text());
 }
 
-void Machine::raise(std::string source, std::string text) {
+void Machine::raise(std::string source, std::string text, char axis) {
     std::vector<Alarm>& alarms = status_.alarms;
+    if (axis != '\0') supersede(alarms, {&axis, 1});
     alarms.erase(std::remove_if(alarms.begin(), alarms.end(),
                                 [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),
                  alarms.end());
     if (alarms.size() >= settings_.most_alarms) alarms.erase(alarms.begin());
     alarms.push_back({next_alarm_++, now(), std::move(source), std::move(text)});
+    alarms.back().axis = axis;
 }
 
 void Machine::enter(MachineState state, std::string why) {

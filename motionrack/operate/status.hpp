@@ -37,10 +37,11 @@ struct Alarm {
     std::int64_t number = 0;  ///< from 1
     Instant at{};
     std::string source;  ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine",
-                         ///< "position", "journal"
+                         ///< "position", "following error", "stage", "journal"
     std::string text;
     bool active = true, acknowledged = false;
     bool stays = false;  ///< no reset ends its cause
+    char axis = '\0';    ///< that is not trusted, or stays behind: an alarm that stops the machine for it replaces this
 };
 
 struct AxisStatus {

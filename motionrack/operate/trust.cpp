@@ -24,20 +24,40 @@ void Trust::set(char letter, bool on) {
 }
 
 /// While axes search home nothing is known of them yet; while a stop comes its own alarm says what is lost by it.
-std::vector<std::string> Trust::look(Instant now, MachineState state) {
-    std::vector<std::string> out;
+std::vector<Alarm> Trust::look(Instant now, MachineState state) {
+    std::vector<Alarm> out;
     if (state == MachineState::homing || now < due_) return out;
     rack_.stop_latch().following().look(now);
     if (rack_.stop_latch().latched() && state != MachineState::error_stop) return out;
     due_ = now + look_every;
     const bool stand = stands(state), stood = std::exchange(stood_, stand);
     for (const rack::TrustFinding& found : watch_.look(stand && stood)) {
+        if (found.axis == rack::TrustFinding::no_axis) {
+            Alarm& alarm = out.emplace_back();
+            alarm.source = "stage";
+            alarm.text = fmt::format("{}.", found.text);
+            continue;
+        }
         const char letter = rack_.axes()[found.axis].config.letter;
         if (!of(letter)) continue;  // known, and its counters mean nothing
         if (found.lost) set(letter, false);
-        out.push_back(found.lost
-                          ? fmt::format("{}. The position of axis {} is not trusted any more.", found.text, letter)
-                          : fmt::format("{}.", found.text));
+        Alarm& alarm = out.emplace_back();
+        alarm.source = found.follows_badly ? "following error" : "position";
+        alarm.text = found.lost
+                         ? fmt::format("{}. The position of axis {} is not trusted any more.", found.text, letter)
+                         : fmt::format("{}.", found.text);
+        if (found.lost || found.follows_badly) alarm.axis = letter;
+    }
+    return out;
+}
+
+std::string Trust::lose_unknown() {
+    std::string out;
+    for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
+        const char letter = rack_.axes()[i].config.letter;
+        if (!of(letter) || watch_.knows_itself(i)) continue;
+        set(letter, false);
+        out += fmt::format("{}{}", out.empty() ? "" : ", ", letter);
     }
     return out;
 }

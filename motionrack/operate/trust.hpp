@@ -18,8 +18,11 @@ class Trust {
 
     bool of(char letter) const { return trusted_[index(letter)]; }
     void set(char letter, bool on);
-    /// What was lost since the last look, or counts wrongly: sentences for alarms. Now and then, between drives.
-    std::vector<std::string> look(Instant now, MachineState state);
+    /// What was lost since the last look, counts wrongly or stays behind: alarms with source, text and axis. Now
+    /// and then, between drives.
+    std::vector<Alarm> look(Instant now, MachineState state);
+    /// At standstill: takes the trust from axes that do not know their positions any more. Their letters: "X, Y".
+    std::string lose_unknown();
 
   private:
     std::size_t index(char letter) const;

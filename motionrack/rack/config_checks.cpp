@@ -175,6 +175,12 @@ class AxisCheck {
             warn("home_type", "homing",
                  fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
                              axis_.letter, h.type));
+        const RackCard* card = config_.card(axis_.card);
+        const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
+        if (h.index_after && type != nullptr && type->position_loop)
+            warn("index_after_{u}", "homing",
+                 fmt::format("index_after_{} of axis {} is not looked at: its card takes the index under the cam only.",
+                             axis_.unit(), axis_.letter));
     }
 
     void motor() {

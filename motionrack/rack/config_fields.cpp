@@ -104,7 +104,7 @@ constexpr std::array<Field, 8> homing_table = {
     absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
                                                  "how far behind the switch the index is (types 3 and 4); one that is "
                                                  "off by more than a quarter of a motor turn is not trusted"),
-                 "the first one"),
+                 "the first one; a served machine, the one of its first search"),
     field<&RackHoming::clearance>("clearance_{u}", 0, 1000, "{u}", "way driven on after the switch is released"),
     field<&RackHoming::order>("order", 0, 5, "", "0 is homed first; axes of the same number together"),
 };

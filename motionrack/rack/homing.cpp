@@ -125,6 +125,8 @@ class Homing {
             RackAxis config = running->config;
             if (settings_.type) config.homing.type = *settings_.type;
             MOTIONRACK_TRY(work.order, home_order(rack_.config(), config));
+            if (settings_.seen_indexes != nullptr && config.homing.type >= 3 && !work.order.index_after)
+                work.order.index_after = (*settings_.seen_indexes)[static_cast<std::size_t>(config.index())];
             MOTIONRACK_TRY(work.axis, running->card->axis(rack_.config(), letter));
             works_.push_back(std::move(work));
         }
@@ -229,6 +231,9 @@ class Homing {
             one.order = work.order;
             one.begun = work.begun;
             if (work.begun) one.outcome = work.axis->home_outcome();
+            if (settings_.seen_indexes != nullptr && one.outcome.homed && one.outcome.switch_to_index)
+                (*settings_.seen_indexes)[static_cast<std::size_t>(work.running->config.index())] =
+                    work.order.index_after.value_or(*one.outcome.switch_to_index);
             one.began_s = work.begun ? to_seconds(work.at - began_) : 0;
             one.counter_position = work.axis->position();
             one.measured_position = work.axis->measured_position();

@@ -3,6 +3,7 @@
 //   rack file ──► HomeOrder of each axis ──► control::Axis of its card, those of one order number at once ──► HomedAxis
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <motionrack/control/axis.hpp>
@@ -24,11 +25,15 @@ struct HomingProgress {
     std::string states;  ///< "X SLOW_WAIT, Y HOMED"
 };
 
+/// How far behind its switch the index of each axis was when it was homed first.
+using SeenIndexes = std::array<std::optional<double>, control::axis_count>;
+
 struct HomingSettings {
-    std::string axes;                                          ///< letters; "": every axis that has a home switch
-    std::optional<int> type;                                   ///< 1 .. 4 for all of them, instead of the rack file's
-    Duration timeout = whole_seconds(3600);                    ///< of each group
-    const std::atomic<bool>* stop = nullptr;                   ///< Ctrl-C
+    std::string axes;                         ///< letters; "": every axis that has a home switch
+    std::optional<int> type;                  ///< 1 .. 4 for all of them, instead of the rack file's
+    Duration timeout = whole_seconds(3600);   ///< of each group
+    const std::atomic<bool>* stop = nullptr;  ///< Ctrl-C
+    SeenIndexes* seen_indexes = nullptr;  ///< of searches before, which one whose place no key gives must agree with
     std::function<void(const HomingProgress&)> progress = {};  ///< every 50 ms of virtual time
 };
 

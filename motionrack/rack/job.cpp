@@ -185,6 +185,7 @@ JobOutcome Job::run() {
     collect_conditions(out);
     collect_breaches(out);
     for (TrustFinding& found : trust.look(true)) {
+        if (found.axis == TrustFinding::no_axis) continue;  // told with the conditions
         if (found.lost)
             out.position_trusted = false;
         else

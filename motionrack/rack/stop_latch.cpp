@@ -182,6 +182,7 @@ void StopLatch::trip(StopSource source, int input, Instant now) {
 void StopLatch::stays_behind(std::size_t axis, Instant now) {
     if (state_.latched != 0) {
         state_.lost |= 1u << rack_.axes()[axis].config.index();
+        state_.unfollowed |= 1u << rack_.axes()[axis].config.index();
         return;
     }
     for (std::size_t i = 0; i < inputs_.size(); ++i)
@@ -196,8 +197,10 @@ void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
     for (std::size_t a = 0; a < axes.size(); ++a) {
         const RunningAxis& axis = axes[a];
         if (source == StopSource::watchdog && is_on_card(axis, *input)) state_.lost |= 1u << axis.config.index();
-        if (source == StopSource::following_error && input->axis == static_cast<int>(a))
+        if (source == StopSource::following_error && input->axis == static_cast<int>(a)) {
             state_.lost |= 1u << axis.config.index();
+            state_.unfollowed |= 1u << axis.config.index();
+        }
         if (rack_.config().positions_alone(axis.config)) continue;
         const double speed = std::fabs(axis.speed(now));
         const bool without_ramp = source == StopSource::emergency_stop && speed > axis.config.start_speed;
@@ -314,12 +317,23 @@ std::string StopLatch::sentence() const {
 }
 
 std::string StopLatch::position_sentence() const {
-    std::string lost;
-    for (const RunningAxis& axis : rack_.axes())
-        if (!keeps_position(axis.config.index()))
-            lost += fmt::format("{}{}", lost.empty() ? "" : ", ", axis.config.letter);
-    if (lost.empty()) return "The positions are kept.";
-    return fmt::format("The position of {} is not trusted any more: steps may have been lost; home again.", lost);
+    constexpr std::array<std::string_view, 3> reasons = {"its motor did not follow, or its encoder does not count",
+                                                         "its card was reset and counts anew",
+                                                         "steps may have been lost"};
+    std::array<std::string, reasons.size()> lost;
+    for (const RunningAxis& axis : rack_.axes()) {
+        const int index = axis.config.index();
+        if (keeps_position(index)) continue;
+        const bool unfollowed = (state_.unfollowed & 1u << index) != 0;
+        std::string& axes = lost[unfollowed ? 0 : rack_.config().positions_alone(axis.config) ? 1 : 2];
+        axes += fmt::format("{}{}", axes.empty() ? "" : ", ", axis.config.letter);
+    }
+    std::string out;
+    for (std::size_t i = 0; i < reasons.size(); ++i)
+        if (!lost[i].empty())
+            out += fmt::format("{}The position of {} is not trusted any more: {}; home again.", out.empty() ? "" : " ",
+                               lost[i], reasons[i]);
+    return out.empty() ? "The positions are kept." : out;
 }
 
 std::string_view StopLatch::advice() const {

@@ -71,13 +71,14 @@ class StopLatch final : public sim::Device {
     Instant at() const { return state_.at; }
     /// Whether this source has set it, first or later.
     bool tripped_by(StopSource source) const { return (state_.tripped & bit(source)) != 0; }
-    /// False where steps may have been lost: the motor was faster than it can stop without a ramp, or its drive failed
-    /// while it moved. `axis`: 0 .. 5.
+    /// False where steps may have been lost (the motor was faster than it can stop without a ramp, or its drive failed
+    /// while it moved), where the axis did not follow, or where its card was reset. `axis`: 0 .. 5.
     bool keeps_position(int axis) const { return (state_.lost & 1u << axis) == 0; }
 
     /// "The emergency stop was pressed at 1.200 s."
     std::string sentence() const;
-    /// "The positions of X are not trusted any more: steps may have been lost." or that they are kept.
+    /// "The position of X is not trusted any more: steps may have been lost; home again.", by each reason that there
+    /// is, or that they are kept.
     std::string position_sentence() const;
     /// "Release it, then reset."
     std::string_view advice() const;
@@ -104,8 +105,8 @@ class StopLatch final : public sim::Device {
         std::int32_t input = -1;  ///< that set it; -1: an order
         std::int32_t behind = 0;  ///< a limit switch behind an axis that moved: its direction
         std::int32_t heeds_door = 1, by_door = 0;
-        std::uint32_t tripped = 0, pending = 0, lost = 0;  ///< bits: sources; sources; axes
-        std::uint32_t unused = 0;  ///< in place of padding, which would get into the state's hash
+        std::uint32_t tripped = 0, pending = 0;  ///< bits: sources
+        std::uint32_t lost = 0, unfollowed = 0;  ///< bits: axes; of these, those with a following error
     };
     static constexpr std::uint32_t bit(StopSource source) { return 1u << static_cast<unsigned>(source); }
 

@@ -80,7 +80,11 @@ A position is kept where no step can have been lost, and dropped where one may h
   which it reaches and leaves at once; so do all axes in a dwell, a hold or at standstill;
 - an axis with a following error above its limit is not trusted: its motor does not follow, or its encoder is dead;
 - an axis whose drive reports an alarm while it moves is not trusted: its motor may not have followed;
-- an axis that a DataBoard 4002 positions by its encoder is still counted, unless its watchdog has reset the card.
+- an axis that a DataBoard 4002 positions by its encoder is still counted, unless its watchdog has reset the card, or it
+  does not follow.
+
+The sentence of the stop says which of these it was. A served machine raises one alarm for a cause, within 20 ms: the
+warning of a following error is replaced by the alarm that follows it.
 
 )";
 

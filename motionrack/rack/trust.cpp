@@ -30,7 +30,7 @@ std::vector<TrustFinding> TrustWatch::look(bool standing) {
     std::vector<TrustFinding> out;
     look_at_conditions(out);
     for (FollowingWatch::Warning& warning : rack_.stop_latch().following().take_warnings())
-        out.push_back({warning.axis, warning.at, std::move(warning.text), false});
+        out.push_back({warning.axis, warning.at, std::move(warning.text), false, true});
     for (std::size_t i = 0; standing && i < watched_.size(); ++i) compare(i, out);
     return out;
 }
@@ -44,14 +44,20 @@ void TrustWatch::lose(std::size_t axis, Instant at, std::string text, std::vecto
 void TrustWatch::look_at_conditions(std::vector<TrustFinding>& out) {
     const std::vector<sim::Condition> all = rack_.kernel().conditions();
     const std::uint64_t first = rack_.kernel().dropped_conditions();
-    for (std::uint64_t i = std::max(seen_, first); i < first + all.size(); ++i) {
-        const sim::Condition& condition = all[static_cast<std::size_t>(i - first)];
-        if (condition.code != static_cast<std::uint16_t>(parts::AxisCondition::lost_steps)) continue;
-        for (std::size_t k = 0; k < watched_.size(); ++k)
-            if (condition.device == rack_.axes()[k].machine->id() && condition.at > watched_[k].since)
-                lose(k, condition.at, rack_.describe(condition), out);
-    }
+    for (std::uint64_t i = std::max(seen_, first); i < first + all.size(); ++i)
+        look_at(all[static_cast<std::size_t>(i - first)], out);
     seen_ = first + all.size();
+}
+
+void TrustWatch::look_at(const sim::Condition& condition, std::vector<TrustFinding>& out) {
+    for (const RunningStage& stage : rack_.stages())
+        if (stage.processor != nullptr && stage.processor->id() == condition.device &&
+            stage.config.output == condition.a)
+            out.push_back({TrustFinding::no_axis, condition.at, rack_.describe(condition)});
+    if (condition.code != static_cast<std::uint16_t>(parts::AxisCondition::lost_steps)) return;
+    for (std::size_t k = 0; k < watched_.size(); ++k)
+        if (condition.device == rack_.axes()[k].machine->id() && condition.at > watched_[k].since)
+            lose(k, condition.at, rack_.describe(condition), out);
 }
 
 void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
@@ -91,7 +97,6 @@ bool TrustWatch::is_counted(std::size_t axis) const {
     });
 }
 
-/// Of an axis that positions by itself; others are told where they are.
 bool TrustWatch::knows_itself(std::size_t axis) {
     RunningAxis& running = rack_.axes()[axis];
     if (!rack_.config().positions_alone(running.config)) return true;

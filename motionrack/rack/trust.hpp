@@ -5,6 +5,7 @@
 //   an axis that positions by itself does not know where it is ──► lost
 //   a card's encoder counter is off from what the motor turned ──► told; the pulses that drive the axis are right
 //   a following error above its warning limit ───────────────────► told; above its alarm limit the stop latch says it
+//   a stage's card opened its loop ──────────────────────────────► told
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,14 @@
 
 namespace motionrack::rack {
 
-/// What is wrong with the position of an axis.
+/// What is wrong with the position of an axis, or with a stage.
 struct TrustFinding {
-    std::size_t axis = 0;  ///< of Rack::axes()
+    static constexpr std::size_t no_axis = ~std::size_t{0};
+    std::size_t axis = 0;  ///< of Rack::axes(); no_axis: a stage, whose loop was opened
     Instant at{};
-    std::string text;   ///< without a full stop
-    bool lost = false;  ///< the position is not to be trusted
+    std::string text;            ///< without a full stop
+    bool lost = false;           ///< the position is not to be trusted
+    bool follows_badly = false;  ///< a following error above its warning limit
 };
 
 class TrustWatch {
@@ -33,6 +36,9 @@ class TrustWatch {
     /// What was found since the last look, each once until begin(). `standing`: nothing moves, so counters and rotors
     /// can be compared and axes asked.
     std::vector<TrustFinding> look(bool standing);
+    /// At standstill: false where an axis that positions by itself has lost its position; others are told where they
+    /// are.
+    bool knows_itself(std::size_t axis);
 
   private:
     struct Watched {
@@ -43,11 +49,11 @@ class TrustWatch {
         bool lost = false, told_counts = false;
     };
     bool is_counted(std::size_t axis) const;
-    bool knows_itself(std::size_t axis);
     std::int64_t lost_pulses(std::size_t axis) const;
     std::int64_t counted_wrongly(std::size_t axis) const;
     void lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out);
     void look_at_conditions(std::vector<TrustFinding>& out);
+    void look_at(const sim::Condition& condition, std::vector<TrustFinding>& out);
     void compare(std::size_t axis, std::vector<TrustFinding>& out);
 
     Rack& rack_;

@@ -45,6 +45,8 @@ class Operated {
             std::find_if(orders_.begin(), orders_.end(), [&](const Order& one) { return one.seconds > seconds; });
         orders_.insert(later, {seconds, std::move(order)});
     }
+    /// Sees the status of every slice.
+    void each_status(std::function<void(const Status&)> see) { see_ = std::move(see); }
     /// Until `seconds`.
     void run(double seconds) {
         at(seconds, [](Machine& m) { m.quit(); });
@@ -71,6 +73,7 @@ class Operated {
         }
     }
     void look(const Status& status) {
+        if (see_) see_(status);
         if (states.empty() || states.back() != name_of(status.state)) states.emplace_back(name_of(status.state));
         for (const AxisStatus& axis : status.axes) {
             top_speed = std::max(top_speed, std::fabs(axis.speed));
@@ -78,6 +81,7 @@ class Operated {
         }
     }
     std::deque<Order> orders_;
+    std::function<void(const Status&)> see_;
 };
 
 }  // namespace motionrack::operate

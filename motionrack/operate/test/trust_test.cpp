@@ -10,7 +10,6 @@
 namespace motionrack::operate {
 namespace {
 
-using testing::Contains;
 using testing::HasSubstr;
 
 rack::RackConfig carriage() {
@@ -83,7 +82,7 @@ TEST_P(AJogThatBreaks, IsTrustedAsAProgramIsAndAnAlarmSaysSo) {
     if (*one.alarm == '\0') {
         EXPECT_THAT(alarms, testing::IsEmpty());
     } else {
-        EXPECT_THAT(alarms, Contains(HasSubstr(one.alarm)));
+        EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr(one.alarm))) << "one cause, one alarm";
     }
 }
 
@@ -104,6 +103,53 @@ TEST(AMachine, TrustsAnAxisAgainThatIsDeclaredAfterItLostSteps) {
     EXPECT_TRUE(o.machine->status().axes[0].trusted);
     EXPECT_NEAR(o.x(), 15, 1e-3);
     EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "what was lost before it was declared is told once";
+}
+
+TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X60 F300\nM2\n", "p")); });
+    o.at(0.5, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "encoder.broken_a", "X")); });
+    o.at(0.65, [](Machine& m) {
+        ASSERT_THAT(m.status().alarms, testing::SizeIs(1)) << "above 0.5 mm";
+        EXPECT_EQ(m.status().alarms[0].source, "following error");
+        EXPECT_THAT(m.status().alarms[0].text, HasSubstr("above 0.5 mm, where it is told"));
+        EXPECT_EQ(m.state(), MachineState::moving);
+    });
+    o.run(2);
+    const Status& status = o.machine->status();
+    ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "above 1 mm the alarm takes its place";
+    EXPECT_THAT(status.alarms[0].text, HasSubstr("above its limit of 1 mm"));
+    EXPECT_EQ(status.state, MachineState::error_stop);
+    EXPECT_FALSE(status.axes[0].trusted);
+}
+
+/// X has its index at 0 mm, 2 mm behind its switch.
+const char* const with_index =
+    "[axis.X.switches]\nlimit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 2\n[axis.X.homing]\nhome_type = 4\n";
+
+TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
+    Operated o(two_axes(with_index));
+    bool disturbs = false, at_switch = false, pulsed = false;
+    o.each_status([&](const Status& status) {
+        const auto is_in = [&](const char* state) { return status.homing.find(state) != std::string::npos; };
+        at_switch = at_switch || (disturbs && is_in("SLOW_WAIT"));
+        if (!at_switch || pulsed || !is_in("INDEX_WAIT") || status.axes[0].place > 1.6) return;
+        pulsed = true;
+        EXPECT_TRUE(o.machine->wires().set("m.xin2", 1));
+    });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(20, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill) << m.status().why;
+        EXPECT_TRUE(m.status().axes[0].trusted);
+        disturbs = true;
+        EXPECT_TRUE(m.home("X"));
+    });
+    o.run(40);
+    EXPECT_TRUE(pulsed);
+    const Status& status = o.machine->status();
+    EXPECT_FALSE(status.axes[0].trusted);
+    ASSERT_THAT(status.alarms, testing::SizeIs(1));
+    EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch, where it should be 2.0000 mm behind it"));
 }
 
 }  // namespace

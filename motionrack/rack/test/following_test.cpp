@@ -100,6 +100,8 @@ TEST_P(AServoThatDoesNotFollow, StopsAtItsLimit) {
     ASSERT_FALSE(outcome.ended);
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 10."));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 10 mm at 1.5"));
+    EXPECT_THAT(outcome.ended.error().message, HasSubstr("its motor did not follow, or its encoder does not count"));
+    EXPECT_THAT(outcome.ended.error().message, testing::Not(HasSubstr("steps")));
     EXPECT_FALSE(outcome.position_trusted);
 }
 

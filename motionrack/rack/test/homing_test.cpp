@@ -153,6 +153,34 @@ TEST(RackHomes, AProgramRunsAfterwardsOnTheSameCard) {
     EXPECT_TRUE(home_axes(rack, again).all_homed());
 }
 
+TEST(RackHomes, ToNoOtherIndexThanTheFirstTime) {
+    Rack rack(config_of(two_axes));
+    rack.start();
+    SeenIndexes seen;
+    HomingSettings settings;
+    settings.axes = "X";
+    settings.seen_indexes = &seen;
+    ASSERT_TRUE(home_axes(rack, settings).all_homed());
+    EXPECT_NEAR(seen[0].value_or(0), 2, 1e-9) << "learned";
+    EXPECT_TRUE(home_axes(rack, settings).all_homed()) << "the same again";
+    seen[0] = 4;  // as if another index had come first
+    const HomingOutcome moved = home_axes(rack, settings);
+    ASSERT_FALSE(moved.ended);
+    EXPECT_THAT(moved.ended.error().message, HasSubstr("2.0000 mm behind the switch, where it should be 4.0000 mm"));
+    EXPECT_FALSE(moved.all_homed());
+    EXPECT_EQ(seen[0], 4) << "a search that failed teaches nothing";
+}
+
+TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
+    const RackReading reading = read_rack_text(
+        "[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\n[axis.X.servo]\n[axis.X.switches]\n"
+        "cam_from_mm = 20\ncam_to_mm = 25\n[axis.X.homing]\nhome_type = 4\nindex_after_mm = 1\n");
+    ASSERT_TRUE(reading.config);
+    std::string warnings;
+    for (const Error& warning : reading.warnings) warnings += warning.message + "\n";
+    EXPECT_THAT(warnings, HasSubstr("index_after_mm of axis X is not looked at"));
+}
+
 TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
     Rack rack(config_of(two_axes));
     rack.start();

@@ -121,6 +121,7 @@ TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
     EXPECT_THAT(ran.error(), HasSubstr("The watchdog of card board restarted it"));
     EXPECT_NEAR(ran.x(), 200, 1);
     EXPECT_FALSE(ran.outcome.position_trusted) << "its counter begins anew";
+    EXPECT_THAT(ran.error(), HasSubstr("its card was reset and counts anew"));
 }
 
 TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {
@@ -155,6 +156,20 @@ TEST(AStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
     EXPECT_THAT(ran.error(), HasSubstr("The - limit switch of X became active while X moved in + direction"));
     EXPECT_TRUE(ran.outcome.position_trusted) << "a ramp loses nothing";
     EXPECT_LT(ran.x(), 32);
+}
+
+TEST(AStop, OfABrokenWireOfACardComesFromItsInput) {
+    const std::string program = "G21 G90\nG1 X2000 F12000\nM2\n";
+    const StoppedRun behind = run_stopped(carriage(), program, {"board.esl.broken@2s"});
+    ASSERT_FALSE(behind.outcome.ended) << "the wire of the end stop behind the axis";
+    EXPECT_THAT(behind.error(), HasSubstr("The - limit switch of X became active while X moved in + direction"));
+    EXPECT_LT(behind.x(), 600);
+    EXPECT_TRUE(behind.outcome.position_trusted);
+    const StoppedRun dwells =
+        run_stopped(carriage(), "G21 G90\nG0 X200\nG4 P2\nG0 X300\nM2\n", {"board.ems.broken@2s"});
+    ASSERT_FALSE(dwells.outcome.ended) << "that of the emergency stop, at standstill";
+    EXPECT_THAT(dwells.error(), HasSubstr("The emergency stop was pressed at 2.000 s"));
+    EXPECT_NEAR(dwells.x(), 200, 1);
 }
 
 }  // namespace

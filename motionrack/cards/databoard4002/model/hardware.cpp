@@ -62,11 +62,18 @@ bool Card::fault(std::string_view name, double value, Instant now) {
     constexpr struct {
         std::string_view name;
         std::uint8_t bit;
-    } wires[] = {
-        {"esl.broken", stat::ESL}, {"esr.broken", stat::ESR}, {"ems.broken", stat::EMS}, {"ref.broken", stat::REF}};
+        Pin pin;
+    } wires[] = {{"esl.broken", stat::ESL, esl_pin},
+                 {"esr.broken", stat::ESR, esr_pin},
+                 {"ems.broken", stat::EMS, ems_pin},
+                 {"ref.broken", stat::REF, ref_pin}};
     for (const auto& wire : wires) {
         if (wire.name != name) continue;
         state_.broken = static_cast<std::uint8_t>(value != 0 ? state_.broken | wire.bit : state_.broken & ~wire.bit);
+        if (value != 0)
+            kernel_.force(wires_[wire.pin], 1);  // the pin shows it to everything else that listens
+        else
+            kernel_.release(wires_[wire.pin]);
         look_at_zero(now);
         put_out(now);
         want_pass(now);
