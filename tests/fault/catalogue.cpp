@@ -1,6 +1,7 @@
 // Reading the catalogue.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <motionrack/rack/toml_reader.hpp>
 #include <tests/fault/catalogue.hpp>
 #include <tests/text_of.hpp>
@@ -85,6 +86,10 @@ bool take(Fault& fault, const TomlNode& entry) {
         fault.trusted = entry.flag;
     else if (entry.key == "exit")
         fault.exit = static_cast<int>(entry.integer);
+    else if (entry.key == "alarms")
+        fault.alarms = texts_in(entry);
+    else if (entry.key == "state")
+        fault.state = entry.text;
     else
         return false;
     return true;
@@ -120,6 +125,26 @@ std::string Fault::at_point(std::string text, const Point& point) {
             text.replace(at, place.size(), value);
     }
     return text;
+}
+
+bool Fault::is_served() const {
+    const bool of_parts = std::all_of(inject.begin(), inject.end(),
+                                      [](const std::string& option) { return option.rfind("--fault ", 0) == 0; });
+    const bool of_stage = setup.by == "frames" && !alarms_when_served().empty();
+    return of_parts && (setup.by == "run" || setup.by == "home" || of_stage);
+}
+
+std::string Fault::state_when_served() const {
+    if (!state.empty()) return state;
+    return within_ms && setup.by != "frames" ? "error stop" : "standstill";
+}
+
+std::vector<std::string> Fault::alarms_when_served() const {
+    const std::string of_stage = "opened its loop";
+    if (!alarms.empty()) return alarms;
+    if (setup.by == "frames" && std::find(says.begin(), says.end(), of_stage) != says.end()) return {of_stage};
+    if (setup.by == "frames" || exit == 0 || says.empty()) return {};
+    return {says.front()};
 }
 
 Result<std::vector<Group>> read_catalogue(const std::filesystem::path& file) {

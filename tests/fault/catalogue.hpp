@@ -45,7 +45,17 @@ struct Fault {
     std::string keeps;                   ///< what is kept, in words
     std::optional<bool> trusted;         ///< of run: whether the positions are
     int exit = 0;                        ///< the program's exit code
+    std::vector<std::string> alarms;     ///< words of a served machine's alarms; empty: the first of `says`
+    std::string state;                   ///< of a served machine afterwards; empty: see state_when_served()
     Setup setup;                         ///< the group's, with what the fault has in its place
+
+    /// Whether a served machine is broken in the same way, too: by faults of parts, cards and wires in a program, in a
+    /// search for home, or of a stage.
+    bool is_served() const;
+    /// "error stop" where something must stop, "standstill" where a program goes on to its end.
+    std::string state_when_served() const;
+    /// What its alarms say, in order.
+    std::vector<std::string> alarms_when_served() const;
 
     /// `text` with the point's values in place.
     static std::string at_point(std::string text, const Point& point);

@@ -4,6 +4,7 @@
 #include <motionrack/rack/toml_reader.hpp>
 #include <tests/fault/coverage.hpp>
 #include <tests/text_of.hpp>
+#include <utility>
 
 namespace motionrack::faults {
 
@@ -40,14 +41,36 @@ Result<CoveredFault> covered_fault(const rack::TomlNode& node) {
     return out;
 }
 
-std::string tried_by(const CoveredFault& fault) {
+const Fault* find_row(const std::vector<Group>& catalogue, const std::string& row) {
+    for (const Group& group : catalogue)
+        for (const Fault& fault : group.faults)
+            if (group.name + ": " + fault.name == row) return &fault;
+    return nullptr;
+}
+
+std::string names_of(const std::vector<Point>& points) {
     std::string out;
-    const auto add = [&out](const std::string& text) { out += (out.empty() ? "" : "<br>") + text; };
-    for (const std::string& row : fault.rows) add("[" + row + "](faults.md)");
+    for (const Point& point : points) out += (out.empty() ? "" : ", ") + point.name;
+    return out;
+}
+
+/// The cells of what tries a fault, line for line: what it is, and at which points by itself and in a served machine.
+std::string tried_by(const CoveredFault& fault, const std::vector<Group>& catalogue) {
+    std::string what, alone, served;
+    bool first = true;
+    const auto add = [&](const std::string& a, const std::string& b = "", const std::string& c = "") {
+        const char* const line = std::exchange(first, false) ? "" : "<br>";
+        what += line + a, alone += line + b, served += line + c;
+    };
+    for (const std::string& row : fault.rows) {
+        const Fault* found = find_row(catalogue, row);
+        const std::string points = found == nullptr ? "?" : names_of(found->setup.points);
+        add("[" + row + "](faults.md)", points, found != nullptr && found->is_served() ? points : "-");
+    }
     for (const std::string& test : fault.tests) add("`" + test + "`");
     if (!fault.reason.empty()) add(fault.reason);
     if (!fault.missing.empty()) add("**missing**: " + fault.missing);
-    return out;
+    return what + " | " + alone + " | " + served;
 }
 
 }  // namespace
@@ -71,18 +94,19 @@ Result<std::vector<CoverageSection>> read_coverage(const std::filesystem::path& 
     return out;
 }
 
-std::string coverage_page(const std::vector<CoverageSection>& sections) {
+std::string coverage_page(const std::vector<CoverageSection>& sections, const std::vector<Group>& catalogue) {
     std::size_t all = 0, tried = 0, missing = 0;
     std::string tables;
     for (const CoverageSection& section : sections) {
-        tables += fmt::format("\n## {}\n| | fault | tried by |\n|---|---|---|\n", section.name);
+        tables +=
+            fmt::format("\n## {}\n| | fault | tried by | at | served at |\n|---|---|---|---|---|\n", section.name);
         for (const CoveredFault& fault : section.faults) {
             ++all;
             if (!fault.missing.empty())
                 ++missing;
             else if (!fault.rows.empty() || !fault.tests.empty())
                 ++tried;
-            tables += fmt::format("| {} | {} | {} |\n", fault.id, fault.about, tried_by(fault));
+            tables += fmt::format("| {} | {} | {} |\n", fault.id, fault.about, tried_by(fault, catalogue));
         }
     }
     return fmt::format(
@@ -90,7 +114,10 @@ std::string coverage_page(const std::vector<CoverageSection>& sections) {
                "tests/fault/coverage.toml -->\n\n{} faults of machines, cards, programs, networks and people. {} are "
                "tried by a row of [the catalogue of faults](faults.md), which has what stops, how soon and with which "
                "words, or by the test that is named; {} cannot happen here, for the reason that stands beside them; {} "
-               "are missing.\n",
+               "are missing.\n\nA row is passed at two operating points. Where they stand under \"served at\", too, a "
+               "machine that people operate is broken in the same way at both: it raises one alarm with the words of "
+               "the run, and trusts its positions exactly as the run does. The other rows are of files, of the process "
+               "and of the network, or of parts that no program drives.\n",
                all, tried, all - tried - missing, missing) +
            tables;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <motionrack/base/result.hpp>
 #include <string>
+#include <tests/fault/catalogue.hpp>
 #include <vector>
 
 namespace motionrack::faults {
@@ -26,7 +27,7 @@ struct CoverageSection {
 /// Errors: bad_input with line and column, of the first thing that is wrong; io.
 Result<std::vector<CoverageSection>> read_coverage(const std::filesystem::path& file);
 
-/// The page of reference.
-std::string coverage_page(const std::vector<CoverageSection>& sections);
+/// The page of reference, with the operating points of the rows of `catalogue`.
+std::string coverage_page(const std::vector<CoverageSection>& sections, const std::vector<Group>& catalogue);
 
 }  // namespace motionrack::faults

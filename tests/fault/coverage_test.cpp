@@ -29,7 +29,7 @@ std::string texts_below(const std::filesystem::path& folder, const std::set<std:
 }
 
 TEST(FaultCoverage, IsThePageOfTheReference) {
-    EXPECT_EQ(text_of(source_root / "docs/reference/fault-coverage.md"), coverage_page(coverage()))
+    EXPECT_EQ(text_of(source_root / "docs/reference/fault-coverage.md"), coverage_page(coverage(), catalogue()))
         << "make it anew: fault_page coverage > docs/reference/fault-coverage.md";
 }
 
