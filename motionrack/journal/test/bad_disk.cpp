@@ -1,5 +1,6 @@
 #include "bad_disk.hpp"
 
+#include <condition_variable>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -20,6 +21,8 @@ struct Call {
 
 struct Record {
     std::mutex lock;
+    std::condition_variable released;
+    bool held = false;
     BadDisk::Plan plan;
     std::int64_t count = 0;
     std::vector<Call> calls;
@@ -28,7 +31,8 @@ Record record;
 
 /// Counts a call; what becomes of it.
 BadDisk::Fault next_call(Call call) {
-    const std::lock_guard<std::mutex> alone(record.lock);
+    std::unique_lock<std::mutex> alone(record.lock);
+    record.released.wait(alone, [] { return !record.held; });
     record.calls.push_back(std::move(call));
     const std::int64_t at = ++record.count;
     if (record.plan.fault == BadDisk::Fault::stay)
@@ -147,6 +151,7 @@ void put(std::string& file, const Call& call, std::size_t count) {
 }  // namespace
 
 BadDisk::BadDisk(const Plan& plan) {
+    record.held = false;
     record.plan = plan;
     record.count = 0;
     record.calls.clear();
@@ -162,6 +167,12 @@ BadDisk::BadDisk(const Plan& plan) {
 BadDisk::~BadDisk() {
     sqlite3_vfs_unregister(&disk);
     sqlite3_vfs_register(under, 1);
+}
+
+void BadDisk::hold(bool on) {
+    const std::lock_guard<std::mutex> alone(record.lock);
+    record.held = on;
+    record.released.notify_all();
 }
 
 std::int64_t BadDisk::calls() const {

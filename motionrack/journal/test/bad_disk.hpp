@@ -35,6 +35,8 @@ class BadDisk {
     BadDisk& operator=(const BadDisk&) = delete;
 
     std::int64_t calls() const;
+    /// Writing calls wait while it is held.
+    void hold(bool on);
     /// The files as a computer finds them that lost power after the call `calls`: what was synced is there; of the rest
     /// each write may be there, be torn or be lost, as `random` says.
     void write_state(std::int64_t calls, std::mt19937& random, const std::string& from, const std::string& to) const;

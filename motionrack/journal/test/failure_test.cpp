@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
+#include <atomic>
 #include <csignal>
 #include <fstream>
 
+#include "bad_disk.hpp"
 #include "journal_file.hpp"
 
 namespace motionrack::journal {
@@ -74,6 +76,27 @@ TEST_F(AJournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
         EXPECT_EQ(write(*journal, "state", "not there"), -1) << told << ": nothing is acknowledged that is lost";
         EXPECT_FALSE(journal->close()) << told;
     }
+}
+
+TEST_F(AJournalOnABadDisk, ThatTakesSecondsForAWriteHoldsUpNoThreadThatWrites) {
+    BadDisk disk;
+    auto journal = open();
+    disk.hold(true);
+    std::atomic<int> acknowledged = 0;
+    for (int i = 0; i < 1000; ++i) {
+        journal->keep("machine", std::to_string(i));
+        journal->write(Instant{i}, "state", "moves on", "{}",
+                       [&](const Result<std::int64_t>& number) { acknowledged += number.has_value(); });
+    }
+    EXPECT_EQ(acknowledged, 0) << "the thread that moves came here while nothing was written";
+    disk.hold(false);
+    EXPECT_TRUE(journal->close());
+    EXPECT_EQ(acknowledged, 1000);
+    journal.reset();
+    const auto next = open();
+    ASSERT_TRUE(next->before());
+    EXPECT_TRUE(next->before()->clean);
+    EXPECT_EQ(next->before()->kept.at("machine"), "999");
 }
 
 TEST_F(AJournalOnABadDisk, FailsWhereTooManyEntriesWait) {
