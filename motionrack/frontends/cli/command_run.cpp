@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <motionrack/control/gcode/empty_program.hpp>
+#include <motionrack/frontends/cli/changed_files.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
@@ -137,6 +138,7 @@ int run(const RunOptions& options) {
     if (!done) code = report(done.error());
     if (!outcome.ended) code = report(outcome.ended.error());
     print_outcome(**job, request, outcome, options);
+    warn_of_changes(options.program, request.program, request.subprograms);
     const int wrote = write_results(**job, options, done.has_value());
     if (code == exit_done) code = wrote;
     return code == exit_done && !outcome.good() ? static_cast<int>(exit_machine) : code;
