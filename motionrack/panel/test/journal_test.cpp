@@ -82,8 +82,11 @@ TEST(AJournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
     a.good(0.3, "begin", {{"name", "part.ngc"}, {"text", "G1 X200 F600\nX0\nM30\n"}});
     a.at(1.0, [&] { std::filesystem::remove(folder.path / "rack.journal"); });
     a.at(1.1, anna, "set_overrides", {{"feed", 0.5}}, [](const Answer& answer) {
-        EXPECT_EQ(answer.status, 500);
-        EXPECT_THAT(answer.body.dump(), HasSubstr("'set_overrides' is not recorded. The machine holds"));
+        // On a busy machine the journal's watch may have noticed before.
+        const bool noticed = answer.status == 409;
+        EXPECT_TRUE(noticed || answer.status == 500) << answer.status;
+        EXPECT_THAT(answer.body.dump(), HasSubstr(noticed ? "was deleted while it was in use. The machine holds"
+                                                          : "'set_overrides' is not recorded. The machine holds"));
         EXPECT_THAT(answer.body.dump(), Not(HasSubstr("carried out")));
     });
     double held = 0;
