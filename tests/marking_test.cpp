@@ -164,7 +164,8 @@ TEST_F(MarkCommand, RefusesWrongDrawingsAndTablesWithTheirPlaces) {
 
 TEST_F(MarkCommand, SaysBeforeTheRunThatAFileCannotBeWritten) {
     const std::string marking = "mark examples/marking/square.toml ";
-    for (const char* option : {"--picture no_such_folder/p.png --report r.html", "--picture p.svg --report examples"}) {
+    std::filesystem::create_directories(folder / "results");
+    for (const char* option : {"--picture no_such_folder/p.png --report r.html", "--picture p.svg --report results"}) {
         const Ran ran = motionrack(marking + option);
         EXPECT_EQ(ran.code, 5) << ran.out;
         EXPECT_THAT(ran.out, HasSubstr("cannot be written"));

@@ -113,8 +113,8 @@ std::string coverage_page(const std::vector<CoverageSection>& sections, const st
                "# What can go wrong, and what tries it\n\n<!-- written by `fault_page coverage`, from "
                "tests/fault/coverage.toml -->\n\n{} faults of machines, cards, programs, networks and people. {} are "
                "tried by a row of [the catalogue of faults](faults.md), which has what stops, how soon and with which "
-               "words, or by the test that is named; {} cannot happen here, for the reason that stands beside them; {} "
-               "are missing.\n\nA row is passed at two operating points. Where they stand under \"served at\", too, a "
+               "words, or by the test that is named; {} cannot happen here, for the reason that stands beside them; "
+               "missing: {}.\n\nA row is passed at two operating points. Where they stand under \"served at\", too, a "
                "machine that people operate is broken in the same way at both: it raises one alarm with the words of "
                "the run, and trusts its positions exactly as the run does. The other rows are of files, of the process "
                "and of the network, or of parts that no program drives.\n",

@@ -22,7 +22,8 @@ HOW = {"dynamic", "headers", "bundled", "loaded", "tool"}
 MADE = {"sample.h", "rtc5sim_cards.h"}  # by idlc and by CMake, in the build folder
 # Of C, POSIX and Linux: all below these folders, and these; what has neither folder nor ending is of C++.
 SYSTEM = re.compile(
-    r"(sys|linux|netinet|arpa)/.*|(dlfcn|errno|fcntl|immintrin|math|poll|sched|std\w+|string|termios|ucontext|unistd)\.h|\w+"
+    r"(sys|linux|netinet|arpa)/.*"
+    r"|(dlfcn|errno|fcntl|immintrin|math|poll|sched|std\w+|string|termios|ucontext|unistd)\.h|\w+"
 )
 
 

@@ -282,7 +282,7 @@ TEST(GcodeCheck, RefusesAProgramWithoutAnyWord) {
         EXPECT_THAT(check.problems[0].text(), HasSubstr("a.ngc:1:1: the program is empty")) << text;
     }
     EXPECT_THAT(check_program("\n;\n", testing::machine(), 10).problems[0].message, HasSubstr("its 2 lines"));
-    for (const char* text : {"M2", "G21", "#1=2", "/G0 X1", "%\nM2\n%\n", "X0", "o1 if [0]\no1 endif\n"}) {
+    for (const char* text : {"M2", "G21", "#1=2", "/G0 X1", "%\nM2\n%\n", "G0 X0", "o1 if [0]\no1 endif\n"}) {
         const Check check = check_program(text, testing::machine(), 10, "a.ngc");
         EXPECT_TRUE(check.problems.empty()) << text;
     }
