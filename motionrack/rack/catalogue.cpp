@@ -96,6 +96,7 @@ class Mcx314Card final : public MotionCard {
             before_singles_ = stand_now();
             axes_.reset();
             MOTIONRACK_CHECK(mcx314::SingleAxis::prepare(driver_));
+            MOTIONRACK_CHECK(restore_counters(before_singles_));
             singles_ready_ = true;
         }
         std::unique_ptr<mcx314::SingleAxis>& one = single_[static_cast<std::size_t>(found->index())];
@@ -174,6 +175,14 @@ class Mcx314Card final : public MotionCard {
         for (const auto& one : single_)
             if (one) read(static_cast<std::size_t>(one->channel()), one->trusted());
         return out;
+    }
+    /// The chip's reset has cleared those of all channels, and one that nobody takes stands where it stood.
+    Result<void> restore_counters(const Stand& stand) {
+        for (std::size_t c = 0; c < stand.pulses.size(); ++c) {
+            if (stand.pulses[c] != 0) MOTIONRACK_CHECK(driver_.LPS(1u << c, stand.pulses[c]));
+            if (stand.counts[c] != 0) MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[c]));
+        }
+        return {};
     }
     control::Point position_of(const RackConfig& config, const Stand& stand) const {
         const mcx314::AxisMap map = axis_map(config);

@@ -340,5 +340,19 @@ TEST(AMachine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
     }
 }
 
+TEST(AMachine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
+    Operated o(two_axes());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('Y', 50)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 20)); });
+    double told = 0;
+    o.at(0.5, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::jogging);
+        told = m.status().axes[1].commanded;
+    });
+    o.run(3);
+    EXPECT_EQ(told, 50);
+    EXPECT_EQ(o.y(), 50);
+}
+
 }  // namespace
 }  // namespace motionrack::operate
