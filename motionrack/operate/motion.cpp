@@ -363,9 +363,10 @@ AxisStatus Machine::look_at(rack::RunningAxis& axis) {
     out.enabled = enabled_[static_cast<std::size_t>(axis.config.index())];
     out.pulses = axis.card->pulse_counter(axis.channel);
     out.counts = axis.card->encoder_counter(axis.channel);
-    out.commanded = static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
+    const double origin = axis.card->counter_origin();
+    out.commanded = origin + static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
     const double counts = axis.config.counts_per_unit();
-    out.actual = counts > 0 ? static_cast<double>(out.counts) / counts : out.commanded;
+    out.actual = counts > 0 ? origin + static_cast<double>(out.counts) / counts : out.commanded;
     out.place = axis.machine->position(now());
     out.speed = axis.speed(now());
     return out;

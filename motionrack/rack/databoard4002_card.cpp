@@ -170,6 +170,7 @@ class Databoard4002Card final : public MotionCard {
     std::int64_t pulses_made(int) override { return 0; }
     std::int64_t pulse_counter(int) override { return card_.position(); }
     std::int64_t encoder_counter(int) override { return card_.position(); }
+    double counter_origin() const override { return axis_ ? axis_->counter_origin() : 0; }
 
     std::span<const std::string_view> fault_names() const override { return db::Card::fault_names(); }
     bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }

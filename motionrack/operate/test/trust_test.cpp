@@ -153,5 +153,19 @@ TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
     EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch, where it should be 2.0000 mm behind it"));
 }
 
+TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    double told = 0;
+    o.at(0.2, [&](Machine& m) {
+        told = m.status().axes[0].commanded;
+        EXPECT_NEAR(m.status().axes[0].actual, 100, 0.011);
+        EXPECT_TRUE(m.jog_by('X', 20, 50));
+    });
+    o.run(3);
+    EXPECT_NEAR(told, 100, 0.011);
+    EXPECT_NEAR(o.x(), 120, 0.3);
+}
+
 }  // namespace
 }  // namespace motionrack::operate

@@ -55,6 +55,8 @@ class PositionAxis final : public control::Axis {
     bool trusted() const override { return trusted_; }
     double position() override;
     double measured_position() override { return position(); }
+    /// The position where the card's counter is 0.
+    double counter_origin() const { return offset_; }
     std::string_view home_state() const override { return search_.state_name(); }
     control::HomeOutcome home_outcome() const override { return search_.outcome(); }
 
