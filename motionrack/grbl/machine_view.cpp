@@ -30,6 +30,10 @@ bool has_alarm(const operate::Machine& machine) {
     return std::any_of(alarms.begin(), alarms.end(), [](const operate::Alarm& alarm) { return alarm.active; });
 }
 
+bool is_stop_ordered(operate::Machine& machine) {
+    return machine.rack().stop_latch().is_ordered();
+}
+
 int alarm_of_stop(operate::Machine& machine) {
     for (const rack::RackAxis& axis : machine.rack().config().axes)
         if (limit_active(machine, axis.letter)) return alarm_hard_limit;

@@ -14,6 +14,8 @@ bool limit_active(operate::Machine& machine, char letter);
 bool contact_open(operate::Machine& machine, const std::string& wire);
 /// Something stopped the machine that nobody ordered.
 bool has_alarm(const operate::Machine& machine);
+/// A STOP is in force, and nothing else stopped the machine: a sender ends it with $X.
+bool is_stop_ordered(operate::Machine& machine);
 /// ALARM:N of a machine that stopped by itself.
 int alarm_of_stop(operate::Machine& machine);
 /// Along the path, mm/min; degrees/min where only rotary axes move.

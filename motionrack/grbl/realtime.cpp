@@ -46,7 +46,7 @@ void Session::act(Realtime what) {
             status_wanted_ = true;
             return;
         case Realtime::reset:
-            return reset();
+            return reset(true);
         case Realtime::feed_hold:
             return hold();
         case Realtime::door:
@@ -139,7 +139,8 @@ void Session::resume() {
 }
 
 /// What another drives goes on, but where the settings say otherwise.
-void Session::reset() {
+/// A stop that is in force ends only with a reset that the sender asks for, not with what resets a Grbl by itself.
+void Session::reset(bool is_asked_for) {
     const MachineState state = machine_.state();
     const bool stands = operate::idle(state);
     const Result<void> may = stands || !settings_.may_stop ? Result<void>() : settings_.may_stop();
@@ -155,7 +156,7 @@ void Session::reset() {
     held_ = door_ = asleep_ = critical_ = stopped_ = was_g80_ = spindle_stopped_ = false;
     spindle_override_ = 100;
     line_number_ = 0;
-    if (may) {
+    if (may && (is_asked_for || !machine_.rack().stop_latch().latched())) {
         machine_.set_overrides(1, 1);
         resets_ = true;
         machine_.reset(stands             ? operate::StopOrigin{}

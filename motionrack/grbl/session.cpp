@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <motionrack/grbl/line_rules.hpp>
+#include <motionrack/grbl/machine_view.hpp>
 #include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
@@ -254,7 +255,7 @@ void Session::end_program() {
 
 void Session::finish_boot() {
     const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
-    if (machine_.state() == MachineState::error_stop) {
+    if (machine_.state() == MachineState::error_stop && !(after_reset && alarm_ && is_stop_ordered(machine_))) {
         critical_ = true;
         say(machine_.status().why);
     }

@@ -126,7 +126,7 @@ class Session {
     void hold();
     void open_door();
     void resume();
-    void reset();
+    void reset(bool is_asked_for = false);
     void begin_again(bool after_reset);
     void watch_machine();
     bool locked() const;

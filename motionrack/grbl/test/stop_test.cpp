@@ -150,5 +150,23 @@ INSTANTIATE_TEST_SUITE_P(By, AStop,
                          testing::Combine(testing::Range(std::size_t{0}, sources.size()),
                                           testing::Range(std::size_t{0}, doings.size())));
 
+/// What the sender says in the slice of the stop.
+class AStoppedHoming : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(AndThen, AStoppedHoming, testing::Values("", "!", "$C\n"));
+
+TEST_P(AStoppedHoming, StaysStoppedUntilAReset) {
+    Bench b(router());
+    b.ask("$H\n", 0.3);
+    ASSERT_EQ(b.machine->state(), operate::MachineState::homing);
+    b.machine->stop({"anna", "", "STOP"});
+    EXPECT_THAT(b.ask(GetParam(), 2), HasSubstr("ALARM:"));
+    EXPECT_EQ(b.machine->state(), operate::MachineState::error_stop) << name_of(b.machine->state());
+    b.ask("$C\n", 0.1);
+    EXPECT_TRUE(b.machine->rack().stop_latch().latched());
+    EXPECT_THAT(b.report(), HasSubstr("Alarm"));
+    b.ask("\x18", 0.5);
+    EXPECT_EQ(b.machine->state(), operate::MachineState::standstill);
+}
+
 }  // namespace
 }  // namespace motionrack::grbl
