@@ -12,7 +12,9 @@
 #include <motionrack/grbl/session.hpp>
 #include <motionrack/rack/template.hpp>
 #include <mutex>
+#include <optional>
 #include <sstream>
+#include <tests/invariants/watch.hpp>
 #include <thread>
 
 namespace motionrack::grbl {
@@ -55,6 +57,7 @@ class Bench {
         auto made = operate::Machine::make(config, std::move(machine_settings));
         EXPECT_TRUE(made) << made.error().message;
         machine = std::move(*made);
+        watch.emplace(*machine);
         machine->listen([](const operate::Status&) {},
                         [this](const operate::StopReport& report) { session->stopped(report); });
         session = std::make_unique<Session>(*machine, std::move(settings));
@@ -97,6 +100,7 @@ class Bench {
     double axis(int index) { return machine->status().axes[static_cast<std::size_t>(index)].commanded; }
 
     std::unique_ptr<operate::Machine> machine;
+    std::optional<test::MachineWatch> watch;
     std::unique_ptr<Session> session;
 
   private:

@@ -9,7 +9,9 @@
 #include <memory>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/template.hpp>
+#include <optional>
 #include <string>
+#include <tests/invariants/watch.hpp>
 #include <vector>
 
 namespace motionrack::operate {
@@ -38,6 +40,7 @@ class Operated {
         auto made = Machine::make(config, std::move(settings));
         EXPECT_TRUE(made) << made.error().message;
         machine = std::move(*made);
+        watch.emplace(*machine);
         EXPECT_TRUE(machine->enable(true));
     }
     void at(double seconds, std::function<void(Machine&)> order) {
@@ -56,6 +59,7 @@ class Operated {
     double y() const { return machine->status().axes[1].commanded; }
 
     std::unique_ptr<Machine> machine;
+    std::optional<test::MachineWatch> watch;
     std::vector<std::string> states;  ///< as they followed each other
     std::vector<control::gcode::StepKind> events;
     double top_speed = 0, stood_since = 0;

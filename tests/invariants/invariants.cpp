@@ -1,0 +1,326 @@
+// The rules, each by itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/gcode/reader.hpp>
+#include <tests/invariants/invariants.hpp>
+#include <utility>
+
+namespace motionrack::test {
+
+namespace {
+
+using operate::MachineState;
+
+/// Velocities are means over at least so long.
+constexpr Duration interval = milliseconds(10);
+constexpr Duration lasers_off_within = milliseconds(4);
+/// A position that is off is found within a look or two while the machine stands, and a little later than the pulses
+/// that were lost while it moves.
+constexpr Duration off_standing = milliseconds(100), off_moving = milliseconds(40);
+
+/// Hysteresis of the switch, and what passes while it is seen.
+constexpr double home_tolerance = 0.5;
+
+bool moves(MachineState state) {
+    return !operate::stands(state);
+}
+
+}  // namespace
+
+std::string_view name_of(Rule rule) {
+    constexpr std::array<std::string_view, 15> names = {"motion needs an order",
+                                                        "a stop slows",
+                                                        "a stop stays",
+                                                        "a stop is taken",
+                                                        "a reset is needed",
+                                                        "a trusted position is true",
+                                                        "counters are pulses",
+                                                        "limits are kept",
+                                                        "travel is kept",
+                                                        "one alarm a cause",
+                                                        "time is monotone",
+                                                        "nothing that was taken is missing",
+                                                        "same seed, same history",
+                                                        "nothing is allocated in the kernel's run",
+                                                        "the machine can be used again"};
+    return names[static_cast<std::size_t>(rule)];
+}
+
+Invariants::Invariants(std::vector<AxisFacts> axes, const Settings& settings, Report report)
+    : facts_(std::move(axes)), settings_(settings), report_(std::move(report)), own_(facts_.size()) {}
+
+void Invariants::found(Rule rule, Instant at, std::string text) {
+    if (!told_.insert(rule).second) return;
+    findings_.push_back({rule, at, std::move(text)});
+    if (report_) report_(findings_.back());
+}
+
+void Invariants::ordered(Order order) {
+    knows_orders_ = true;
+    if (order == Order::motion) may_move_ = 3;
+    if (order == Order::position) may_declare_ = 25;
+    if (order == Order::position) alarm_texts_.clear();
+    if (order == Order::part) parts_stand_ = false;
+    if (order == Order::stop) stop_due_ = 2;
+    if (order == Order::reset) reset_ = true;
+}
+
+/// What is held or pushed by hand is off by right until it is looked at again.
+void Invariants::disturbed() {
+    may_declare_ = 25;
+}
+
+void Invariants::see(const Sight& now) {
+    if (std::exchange(first_, false)) {
+        base_at_ = now.at;
+        for (std::size_t i = 0; i < own_.size(); ++i)
+            own_[i].base = now.axes[i].sent, own_[i].offset = now.axes[i].place - now.axes[i].commanded;
+        last_ = now;
+        last_.alarms = nullptr;
+        return see_alarms(now);
+    }
+    see_time(now);
+    see_motion(now);
+    see_counters(now);
+    see_positions(now);
+    see_travel(now);
+    see_stop(now);
+    see_parts(now);
+    see_alarms(now);
+    if (now.latched && now.abrupt) jumped_ = true;
+    if (now.at - base_at_ >= interval) end_interval(now);
+    if (may_declare_ > 0) --may_declare_;
+    if (may_move_ > 0) --may_move_;
+    last_ = now;
+    last_.alarms = nullptr;
+}
+
+// ---- time
+
+void Invariants::see_time(const Sight& now) {
+    if (now.at < last_.at)
+        found(Rule::time_is_monotone, now.at,
+              fmt::format("the picture {} is of {:.6f} s, the one before of {:.6f} s", now.sequence, to_seconds(now.at),
+                          to_seconds(last_.at)));
+    if (now.sequence <= last_.sequence)
+        found(Rule::time_is_monotone, now.at,
+              fmt::format("picture {} came behind picture {}", now.sequence, last_.sequence));
+}
+
+// ---- who moves
+
+void Invariants::see_motion(const Sight& now) {
+    const bool stand = !moves(now.state) && !moves(last_.state);
+    for (std::size_t i = 0; i < facts_.size(); ++i) {
+        if (facts_[i].servo || !moved(i, now)) continue;  // a servo trembles
+        const auto pulses = now.axes[i].sent - last_.axes[i].sent;
+        if (stand)
+            found(Rule::motion_needs_order, now.at,
+                  fmt::format("axis {} was sent {} pulses in the state '{}'", facts_[i].letter, pulses,
+                              operate::name_of(now.state)));
+        if (!now.axes[i].enabled && !last_.axes[i].enabled)
+            found(Rule::motion_needs_order, now.at,
+                  fmt::format("axis {} is disabled and was sent {} pulses", facts_[i].letter, pulses));
+    }
+    if (!knows_orders_) return;
+    if (moves(now.state) && operate::idle(last_.state) && !may_move_)
+        found(Rule::motion_needs_order, now.at,
+              fmt::format("the machine went from '{}' to '{}', and no order was taken", operate::name_of(last_.state),
+                          operate::name_of(now.state)));
+}
+
+/// Where nothing is homed or declared counters change with the pulses.
+void Invariants::see_counters(const Sight& now) {
+    const bool by_order = now.state == MachineState::homing || last_.state == MachineState::homing ||
+                          (operate::idle(now.state) && (!knows_orders_ || may_declare_)) ||
+                          (operate::idle(last_.state) && (!knows_orders_ || may_declare_));
+    for (std::size_t i = 0; i < facts_.size() && !by_order; ++i) {
+        if (facts_[i].servo || !now.axes[i].trusted) continue;
+        const auto sent = now.axes[i].sent - last_.axes[i].sent, counted = now.axes[i].counter - last_.axes[i].counter;
+        if (static_cast<std::int32_t>(sent - counted) == 0) continue;  // counters have 32 bits
+        found(Rule::counters_are_pulses, now.at,
+              fmt::format("axis {} was sent {} pulses and its counter went by {} in the state '{}'", facts_[i].letter,
+                          sent, counted, operate::name_of(now.state)));
+    }
+}
+
+// ---- where it is
+
+void Invariants::see_positions(const Sight& now) {
+    for (std::size_t i = 0; i < facts_.size(); ++i) {
+        Own& own = own_[i];
+        const AxisSight &axis = now.axes[i], &before = last_.axes[i];
+        const double off = axis.place - axis.commanded;
+        // Declared: so it is what the person says. Homed: it is the place of the machine.
+        const bool homed = last_.state == MachineState::homing && now.state != MachineState::homing;
+        const bool declared = axis.trusted && !before.trusted && !homed;
+        const bool again = operate::idle(now.state) && (knows_orders_ ? may_declare_ : !moved(i, now)) &&
+                           axis.commanded != before.commanded;
+        if (homed || declared || again || !axis.trusted) own.offset = off;
+        if (axis.trusted && !before.trusted) alarm_texts_.clear();  // what took its trust may do so again
+        if (homed && axis.trusted && !before.trusted && std::fabs(off) > home_tolerance)
+            found(Rule::position_is_true, now.at,
+                  fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
+                              axis.place));
+        const double tolerance = facts_[i].servo ? 3 / facts_[i].pulses_per_unit : 1.5 / facts_[i].pulses_per_unit;
+        const double error = std::fabs(off - own.offset);
+        const bool wrong = axis.trusted && error > tolerance && now.state != MachineState::homing;
+        if (!wrong) {
+            own.off = false;
+            continue;
+        }
+        if (!std::exchange(own.off, true)) own.off_since = now.at;
+        const bool stand = operate::idle(now.state);
+        const bool late = now.at - own.off_since > (stand ? off_standing : off_moving);
+        const bool far = stand || (now.state != MachineState::stopping && error > 1.5 * facts_[i].following_alarm);
+        if (moves(now.state) && !far) own.off_since = now.at;
+        if (late && far)
+            found(Rule::position_is_true, now.at,
+                  fmt::format("axis {} is trusted and says {:.5f}, and it is {:.5f} off, since {:.4f} s (state '{}')",
+                              facts_[i].letter, axis.commanded, error, to_seconds(own.off_since),
+                              operate::name_of(now.state)));
+    }
+}
+
+void Invariants::see_travel(const Sight& now) {
+    if (now.state == MachineState::homing) return;
+    for (std::size_t i = 0; i < facts_.size(); ++i) {
+        const AxisSight &axis = now.axes[i], &before = last_.axes[i];
+        if (!axis.trusted || !before.trusted || facts_[i].servo || !moved(i, now)) continue;
+        const double slack = 1 / facts_[i].pulses_per_unit + control::gcode::limit_slack;
+        const double out = std::max(axis.commanded - facts_[i].max_position, facts_[i].min_position - axis.commanded);
+        const double was =
+            std::max(before.commanded - facts_[i].max_position, facts_[i].min_position - before.commanded);
+        if (out > slack && out > was)
+            found(Rule::travel_kept, now.at,
+                  fmt::format("axis {} went on to {:.5f}, beyond its travel from {:g} to {:g}", facts_[i].letter,
+                              axis.commanded, facts_[i].min_position, facts_[i].max_position));
+    }
+}
+
+// ---- stops
+
+void Invariants::see_stop(const Sight& now) {
+    if (stop_due_ > 0 && --stop_due_ == 0 && !now.latched && !reset_)
+        found(Rule::stop_is_taken, now.at,
+              fmt::format("a stop was ordered in the state '{}', and no stop is in force",
+                          operate::name_of(last_.state)));
+    if (last_.state == MachineState::error_stop && now.state != MachineState::error_stop) {
+        const bool rests = now.state == MachineState::standstill || now.state == MachineState::disabled;
+        if (now.latched || (knows_orders_ && !reset_) || (!rests && !(knows_orders_ && may_move_ > 0)))
+            found(Rule::reset_is_needed, now.at,
+                  fmt::format("the error stop ended in the state '{}' {}", operate::name_of(now.state),
+                              now.latched ? "while what stopped the machine is in force" : "without a reset"));
+    }
+    if (last_.latched && !now.latched && knows_orders_ && !reset_)
+        found(Rule::reset_is_needed, now.at, "the stop ended without a reset");
+    if (operate::idle(now.state) && now.state != MachineState::error_stop && !now.latched) reset_ = false;
+    if (now.latched == last_.latched) return;
+    latched_at_ = now.at;
+    stands_by_ = never;
+    stood_ = false;
+}
+
+void Invariants::see_parts(const Sight& now) {
+    if (now.latched) parts_stand_ = true;
+    if (!now.latched && parts_stand_ && knows_orders_ && now.belt_speed > last_.belt_speed)
+        found(Rule::stop_stays, now.at, "a belt or table goes on by a reset, without an order");
+    if (!now.latched || now.at - latched_at_ <= lasers_off_within) return;
+    if (now.lasers_on > 0)
+        found(Rule::stop_slows, now.at,
+              fmt::format("a laser is on {:.4f} s after a stop", to_seconds(now.at - latched_at_)));
+    if (now.belt_speed > last_.belt_speed && last_.latched)
+        found(Rule::stop_slows, now.at,
+              fmt::format("belts went from {:g} to {:g} a second after a stop", last_.belt_speed, now.belt_speed));
+}
+
+/// Of the intervals in which the stop was heard the fastest counts; from then on it only becomes slower.
+void Invariants::see_braking(double seconds, const Sight& now) {
+    double linear = 0, rotary = 0, noise = 0, min_accel = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < facts_.size(); ++i) {
+        if (facts_[i].servo) continue;
+        const bool is_linear = facts_[i].letter >= 'X';
+        (is_linear ? linear : rotary) += own_[i].velocity * own_[i].velocity;
+        noise += 2 * rounding(i, std::min(seconds, to_seconds(interval)));
+        if (own_[i].velocity != 0) min_accel = std::min(min_accel, facts_[i].max_accel);
+    }
+    const bool heard = now.latched && base_at_ >= latched_at_ + settings_.obeyed;
+    if (!heard) linear_moves_ = linear > 0 || (now.latched && linear_moves_);
+    const double speed = std::sqrt(linear_moves_ ? linear : rotary);
+    if (!heard) {
+        lowest_ = std::max(now.latched ? lowest_ : 0, speed);
+        if (now.latched && linear + rotary > 0)
+            stands_by_ = latched_at_ + from_seconds(0.3 + to_seconds(settings_.obeyed) + 2 * settings_.jerk_time_s +
+                                                    2.5 * std::sqrt(linear + rotary) / min_accel);
+        return;
+    }
+    if (stood_ && linear + rotary > 0)
+        found(Rule::stop_stays, now.at,
+              fmt::format("something moved at {:g} a second while a stop is in force, {:.3f} s after it", speed,
+                          to_seconds(now.at - latched_at_)));
+    if (linear + rotary == 0) stood_ = true;
+    if (speed > lowest_ * 1.02 + noise)
+        found(Rule::stop_slows, now.at,
+              fmt::format("{:.3f} s after a stop the speed grew from {:g} to {:g} a second",
+                          to_seconds(now.at - latched_at_), lowest_, speed));
+    lowest_ = std::min(lowest_, speed);
+    if (!stood_ && stands_by_ != never && now.at > stands_by_)
+        found(Rule::stop_slows, now.at,
+              fmt::format("{:.3f} s after a stop it still moves at {:g} a second", to_seconds(now.at - latched_at_),
+                          speed));
+}
+
+// ---- alarms
+
+void Invariants::see_alarms(const Sight& now) {
+    if (now.alarms == nullptr) return;
+    for (const operate::Alarm& alarm : *now.alarms) {
+        if (alarm.number <= last_alarm_) continue;
+        last_alarm_ = alarm.number;
+        if (alarm.at > now.at)
+            found(Rule::time_is_monotone, now.at,
+                  fmt::format("alarm {} is of {:.6f} s, which has not come", alarm.number, to_seconds(alarm.at)));
+        if (alarm.active && !alarm_texts_.insert(alarm.source + ": " + alarm.text).second)
+            found(Rule::one_alarm_a_cause, now.at, fmt::format("twice before a reset: {}", alarm.text));
+    }
+    if (std::none_of(now.alarms->begin(), now.alarms->end(), [](const auto& alarm) { return alarm.active; }))
+        alarm_texts_.clear();
+}
+
+// ---- velocities
+
+void Invariants::end_interval(const Sight& now) {
+    const double seconds = to_seconds(now.at - base_at_);
+    for (std::size_t i = 0; i < facts_.size(); ++i) {
+        Own& own = own_[i];
+        const double velocity = static_cast<double>(now.axes[i].sent - own.base) / facts_[i].pulses_per_unit / seconds;
+        if (!facts_[i].servo) see_limits(i, velocity, seconds, now);
+        own.velocity = velocity;
+        own.base = now.axes[i].sent;
+    }
+    see_braking(seconds, now);
+    last_seconds_ = seconds;
+    base_at_ = now.at;
+    jumped_ = now.latched && now.abrupt;
+}
+
+void Invariants::see_limits(std::size_t i, double velocity, double seconds, const Sight& now) {
+    const AxisFacts& facts = facts_[i];
+    if (std::fabs(velocity) > facts.max_velocity * 1.01 + 2 * rounding(i, seconds))
+        found(Rule::limits_kept, now.at,
+              fmt::format("axis {} went at {:g} a second, above its {:g}", facts.letter, velocity, facts.max_velocity));
+    if (jumped_ || last_seconds_ == 0) return;
+    const double change = std::fabs(velocity - own_[i].velocity);
+    const double allowed = facts.max_accel * 1.05 * (seconds + last_seconds_) / 2 + facts.velocity_step * 1.15 +
+                           2 * rounding(i, seconds) + 2 * rounding(i, last_seconds_);
+    if (change > allowed)
+        found(Rule::limits_kept, now.at,
+              fmt::format("the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its "
+                          "limits explain {:g} (state '{}')",
+                          facts.letter, own_[i].velocity, velocity, seconds, change, allowed,
+                          operate::name_of(now.state)));
+}
+
+}  // namespace motionrack::test
