@@ -264,7 +264,7 @@ for (const scheme of ['dark', 'light'])
 test('a picture of the phone', async () => {
   const tab = await openTab(all.browser, all.server, { width: 360, height: 740 });
   const lamps = await tab.page.locator('.lamps').first().boundingBox();
-  assert.ok(lamps.height < 40, `the lamps of an axis take ${lamps.height} px`);
+  assert.ok(lamps.height < 60, `the lamps of an axis take ${lamps.height} px`);
   await picture(tab, 'phone', 740);
   await tab.context.close();
 });
