@@ -36,7 +36,7 @@ motionrack_c_library(rtc5sim rtc5sim ${CMAKE_INSTALL_INCLUDEDIR})
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
         FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE
-        PATTERN wire.hpp EXCLUDE PATTERN "*_library.hpp" EXCLUDE PATTERN late_library.hpp)
+        PATTERN wire.hpp EXCLUDE PATTERN "*_library.hpp" EXCLUDE)
 
 install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas
         DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal COMPONENT dev)

@@ -26,4 +26,24 @@ class LateLibrary {
     std::string trouble_;
 };
 
+/// A library with the functions that are used of it: a `Table` has `find_in(LateLibrary&)`.
+template <class Table>
+class LateTable {
+  public:
+    /// Loads it with the first call; `soname` is always the same.
+    static const LateTable& loaded(const char* soname) {
+        static const LateTable once(soname);
+        return once;
+    }
+    const std::string& trouble() const { return library_.trouble(); }
+    /// Only without trouble.
+    const Table& table() const { return table_; }
+
+  private:
+    explicit LateTable(const char* soname) : library_(soname) { table_.find_in(library_); }
+
+    LateLibrary library_;
+    Table table_;
+};
+
 }  // namespace motionrack

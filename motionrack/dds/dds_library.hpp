@@ -4,6 +4,7 @@
 
 #include <dds/dds.h>
 
+#include <motionrack/base/late_library.hpp>
 #include <motionrack/base/result.hpp>
 
 // clang-format off
@@ -16,11 +17,16 @@
 
 namespace motionrack::dds {
 
-/// What this room takes from it.
+/// The functions of it that this room uses.
 struct Library {
 #define MOTIONRACK_DDS_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_DDS_FUNCTIONS(MOTIONRACK_DDS_MEMBER)
 #undef MOTIONRACK_DDS_MEMBER
+    void find_in(LateLibrary& file) {
+#define MOTIONRACK_DDS_FIND(name) file.find(#name, name##_);
+        MOTIONRACK_DDS_FUNCTIONS(MOTIONRACK_DDS_FIND)
+#undef MOTIONRACK_DDS_FIND
+    }
 };
 
 /// Errors: io, it is not installed. Once it is loaded it stays.

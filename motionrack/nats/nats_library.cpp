@@ -1,41 +1,23 @@
 // Loading of NATS.
 #include <fmt/format.h>
 
-#include <motionrack/base/late_library.hpp>
 #include <motionrack/nats/nats_library.hpp>
 
 namespace motionrack::nats {
 
-namespace {
-
-struct Loaded {
-    LateLibrary file{MOTIONRACK_NATS_SONAME};
-    Library library;
-    Loaded() {
-#define MOTIONRACK_NATS_FIND(name) file.find(#name, library.name##_);
-        MOTIONRACK_NATS_FUNCTIONS(MOTIONRACK_NATS_FIND)
-#undef MOTIONRACK_NATS_FIND
-    }
-};
-
-const Loaded& loaded() {
-    static const Loaded once;
-    return once;
-}
-
-}  // namespace
-
 Result<void> load_library() {
-    if (loaded().file.trouble().empty()) return {};
+    const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_NATS_SONAME).trouble();
+    if (trouble.empty()) return {};
     return fail(Trouble::io,
                 fmt::format("The library of NATS cannot be loaded: {}. No machine was asked; install it (on Debian "
                             "12: apt install libnats3.4).",
-                            loaded().file.trouble()));
+                            trouble));
 }
 
 const Library& library() {
-    MOTIONRACK_ASSERT(loaded().file.trouble().empty());
-    return loaded().library;
+    const LateTable<Library>& loaded = LateTable<Library>::loaded(MOTIONRACK_NATS_SONAME);
+    MOTIONRACK_ASSERT(loaded.trouble().empty());
+    return loaded.table();
 }
 
 }  // namespace motionrack::nats

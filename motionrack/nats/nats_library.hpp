@@ -4,6 +4,7 @@
 
 #include <nats/nats.h>
 
+#include <motionrack/base/late_library.hpp>
 #include <motionrack/base/result.hpp>
 
 // clang-format off
@@ -21,11 +22,16 @@
 
 namespace motionrack::nats {
 
-/// What this room takes from it.
+/// The functions of it that this room uses.
 struct Library {
 #define MOTIONRACK_NATS_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_NATS_FUNCTIONS(MOTIONRACK_NATS_MEMBER)
 #undef MOTIONRACK_NATS_MEMBER
+    void find_in(LateLibrary& file) {
+#define MOTIONRACK_NATS_FIND(name) file.find(#name, name##_);
+        MOTIONRACK_NATS_FUNCTIONS(MOTIONRACK_NATS_FIND)
+#undef MOTIONRACK_NATS_FIND
+    }
 };
 
 /// Errors: io, it is not installed. Once it is loaded it stays.

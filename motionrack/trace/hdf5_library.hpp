@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <motionrack/base/late_library.hpp>
 #include <motionrack/base/result.hpp>
 
 // clang-format off
@@ -27,12 +28,18 @@
 
 namespace motionrack::trace::hdf5 {
 
-/// What this room takes from it.
+/// The functions and numbers of it that this room uses.
 struct Library {
 #define MOTIONRACK_HDF5_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_HDF5_FUNCTIONS(MOTIONRACK_HDF5_MEMBER)
     MOTIONRACK_HDF5_NUMBERS(MOTIONRACK_HDF5_MEMBER)
 #undef MOTIONRACK_HDF5_MEMBER
+    void find_in(LateLibrary& file) {
+#define MOTIONRACK_HDF5_FIND(name) file.find(#name, name##_);
+        MOTIONRACK_HDF5_FUNCTIONS(MOTIONRACK_HDF5_FIND)
+        MOTIONRACK_HDF5_NUMBERS(MOTIONRACK_HDF5_FIND)
+#undef MOTIONRACK_HDF5_FIND
+    }
 };
 
 /// Errors: io, it is not installed. Once it is loaded it stays.
