@@ -166,6 +166,15 @@ Result<void> NewFile::commit() {
     return told();
 }
 
+Result<void> NewFile::told(std::string_view kind) const {
+    if (trouble_.empty()) return {};
+    return fail(Trouble::io,
+                fmt::format("Only about {} bytes of the {} file could be written: {}. What was written is kept in {}, "
+                            "but ends too early; make room or choose another place, and run again.",
+                            written_, kind, trouble_, made_),
+                {}, path_);
+}
+
 Result<void> write_whole(const std::string& path, std::string_view bytes, Rights rights) {
     MOTIONRACK_TRY(NewFile file, NewFile::create(path, NewFile::Part::remove, rights));
     (void)file.write(bytes);

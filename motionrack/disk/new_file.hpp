@@ -16,12 +16,12 @@
 
 namespace motionrack::disk {
 
-/// What is written beside a name until it is whole.
+/// The ending of a file that is being made, beside the name that it will take.
 inline constexpr const char* beside = ".new";
 
 enum class Rights : std::uint8_t {
     usual,  ///< those of the file that was there, or as the user's mask says
-    owner   ///< nobody else reads it
+    owner   ///< only the owner reads it
 };
 
 class NewFile {
@@ -53,12 +53,14 @@ class NewFile {
     std::uint64_t written() const { return written_; }
     /// The first reason of a failure; empty: none.
     const std::string& trouble() const { return trouble_; }
-    /// What does not become whole stays under path_until_whole(), from now on.
+    /// A file that does not become whole stays under path_until_whole(), from now on.
     void keep_part() { part_ = Part::keep; }
     bool is_part_kept() const { return part_ == Part::keep; }
     /// Puts it on the disk, compares what is there with what was written, and gives it its name. Errors: io, with the
     /// reason alone. Done once; later calls do nothing.
     Result<void> commit();
+    /// Errors: io, the first failure as a sentence, for a file whose part is kept; `kind`: "CSV".
+    Result<void> told(std::string_view kind) const;
 
   private:
     void swap(NewFile& other) noexcept;

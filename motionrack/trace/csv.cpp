@@ -78,7 +78,6 @@ Result<CsvWriter> CsvWriter::begin(Result<disk::NewFile> file, const std::string
                     path);
     }
     CsvWriter writer;
-    writer.path_ = path;
     writer.file_ = std::move(*file);
     writer.buffer_.reserve(csv_buffer_size + 4096);
     writer.columns_ = columns.size();
@@ -94,9 +93,7 @@ CsvWriter::CsvWriter(CsvWriter&& other) noexcept {
 CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
     if (this == &other) return *this;
     if (file_) write_out();
-    path_ = std::move(other.path_);
     file_ = std::move(other.file_);
-    trouble_ = std::move(other.trouble_);
     buffer_ = std::move(other.buffer_);
     columns_ = other.columns_;
     fields_ = other.fields_;
@@ -150,30 +147,21 @@ void CsvWriter::end_line() {
 }
 
 void CsvWriter::write_out() {
-    if (trouble_.empty() && !buffer_.empty() && !file_.write(buffer_)) trouble_ = file_.trouble();
+    (void)file_.write(buffer_);
     buffer_.clear();
 }
 
 Result<void> CsvWriter::flush() {
     MOTIONRACK_ASSERT(fields_ == 0);
     write_out();
-    return told();
+    return file_.told("CSV");
 }
 
 Result<void> CsvWriter::close() {
     if (!file_) return {};
     write_out();
-    if (const Result<void> done = file_.commit(); !done && trouble_.empty()) trouble_ = done.error().message;
-    return told();
-}
-
-Result<void> CsvWriter::told() const {
-    if (trouble_.empty()) return {};
-    return fail(Trouble::io,
-                fmt::format("Only about {} bytes of the CSV file could be written: {}. What was written is kept in {}, "
-                            "but ends too early; make room or choose another place, and run again.",
-                            file_.written(), trouble_, file_.path_until_whole()),
-                {}, path_);
+    (void)file_.commit();
+    return file_.told("CSV");
 }
 
 Result<void> write_csv(const ReportData& data, const std::string& path) {

@@ -53,11 +53,8 @@ class CsvWriter {
                                    const std::vector<std::string>& columns);
     void separate();
     void write_out();
-    Result<void> told() const;
 
-    std::string path_;
     disk::NewFile file_;
-    std::string trouble_;  ///< of the first failed write
     std::string buffer_;
     std::size_t columns_ = 0;
     std::size_t fields_ = 0;

@@ -65,8 +65,7 @@ class VcdWriter {
     const std::string& path() const { return path_; }
 
     /// Ends the file at `end` (not before the last change), so that viewers show the time after the last change.
-    /// Errors: io, the first error met. What a writer that is destroyed unclosed wrote stays in
-    /// `NAME.new`.
+    /// Errors: io, the first error met. The changes of a writer that is destroyed unclosed stay in `NAME.new`.
     Result<void> close(Instant end);
 
   private:
@@ -92,7 +91,6 @@ class VcdWriter {
 
     std::string path_;
     disk::NewFile file_;
-    std::string trouble_;  ///< of the first failed write
     std::int64_t timescale_ = 1;
     std::vector<Variable> variables_;
     std::vector<std::set<std::string>> names_;  ///< those of each open scope
