@@ -1,6 +1,7 @@
 // Asking: checked in the caller's thread, done on the motion thread.
 #include <fmt/format.h>
 
+#include <motionrack/base/fnv.hpp>
 #include <motionrack/operate/logbook.hpp>
 #include <motionrack/panel/desk.hpp>
 #include <motionrack/panel/panel.hpp>
@@ -18,9 +19,7 @@ const std::string& Picture::status_text() const {
 }
 
 std::string session_mark(std::string_view session) {
-    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-    for (const char c : session) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    return fmt::format("{:016x}", hash);
+    return fmt::format("{:016x}", fnv_of(session));
 }
 
 /// The motion thread's side.

@@ -22,8 +22,12 @@ Result<std::string> read(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::filesystem::path subprogram_file(const std::filesystem::path& folder, const std::string& name) {
+    return folder / (name + ".ngc");
+}
+
 control::gcode::SubprogramSource subprograms_in(std::filesystem::path folder) {
-    return [folder = std::move(folder)](const std::string& name) { return read(folder / (name + ".ngc")); };
+    return [folder = std::move(folder)](const std::string& name) { return read(subprogram_file(folder, name)); };
 }
 
 }  // namespace motionrack::rack

@@ -3,8 +3,12 @@
 
 #include <filesystem>
 #include <motionrack/control/gcode/settings.hpp>
+#include <string>
 
 namespace motionrack::rack {
+
+/// Where o<name> is: name.ngc in this folder.
+std::filesystem::path subprogram_file(const std::filesystem::path& folder, const std::string& name);
 
 /// o<name> as name.ngc in this folder; files of up to 64 MiB.
 control::gcode::SubprogramSource subprograms_in(std::filesystem::path folder);

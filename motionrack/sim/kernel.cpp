@@ -1,6 +1,7 @@
 // The run loop, the queue of wire changes, and snapshots.
 #include <algorithm>
 #include <cstring>
+#include <motionrack/base/fnv.hpp>
 #include <motionrack/sim/kernel.hpp>
 
 namespace motionrack::sim {
@@ -260,9 +261,9 @@ void Kernel::restore(const Snapshot& snapshot) {
 }
 
 std::uint64_t Kernel::state_hash() {
-    std::uint64_t h = 0xCBF29CE484222325ull;
+    std::uint64_t h = fnv_start;
     const auto mix = [&h](std::span<const std::byte> piece) {
-        for (const std::byte b : piece) h = (h ^ static_cast<std::uint64_t>(b)) * 0x100000001B3ull;
+        for (const std::byte b : piece) h = fnv_step(h, static_cast<std::uint64_t>(b));
     };
     each_piece(mix, &Device::hashed_state);
     return h;

@@ -1,22 +1,15 @@
 // Comparing files with the texts that were read from them.
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <filesystem>
+#include <motionrack/base/fnv.hpp>
 #include <motionrack/frontends/cli/changed_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <string_view>
+#include <motionrack/rack/subprograms.hpp>
 
 namespace motionrack::cli {
 
 namespace {
-
-/// FNV-1a: tells two texts apart for a person, guards nothing.
-std::uint64_t checksum_of(std::string_view text) {
-    std::uint64_t sum = 0xCBF29CE484222325ull;
-    for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
-    return sum;
-}
 
 void warn_of_change(const std::string& path, const std::string& text) {
     std::error_code unknown;
@@ -26,12 +19,12 @@ void warn_of_change(const std::string& path, const std::string& text) {
     const Result<std::string> now = read_text(path);
     if (!now)
         print_warning(fmt::format("{} cannot be read any more after it ran; what ran has the checksum {:016x}. {}",
-                                  path, checksum_of(text), advice));
+                                  path, fnv_of(text), advice));
     else if (*now != text)
         print_warning(
             fmt::format("{} was changed while it ran: what ran has the checksum {:016x}, the file now has "
                         "{:016x}. {}",
-                        path, checksum_of(text), checksum_of(*now), advice));
+                        path, fnv_of(text), fnv_of(*now), advice));
 }
 
 }  // namespace
@@ -41,7 +34,8 @@ void warn_of_changes(const std::string& program, const std::string& text,
     if (program.empty() || program == "-") return;
     warn_of_change(program, text);
     const std::filesystem::path folder = std::filesystem::path(program).parent_path();
-    for (const auto& [name, content] : subprograms) warn_of_change((folder / (name + ".ngc")).string(), content);
+    for (const auto& [name, content] : subprograms)
+        warn_of_change(rack::subprogram_file(folder, name).string(), content);
 }
 
 }  // namespace motionrack::cli

@@ -84,18 +84,30 @@ void run_for(Show& show, Duration time) {
     }
 }
 
-int run_program(Show& show, const ShowOptions& options) {
-    const Result<ProgramText> program = load_program(options.program);
+/// A program that was read and is right, and the files that it was read from.
+struct ReadProgram {
+    ProgramText text;
+    control::gcode::Settings reading;
+};
+
+int read_program(const std::string& path, const rack::RackConfig& config, ReadProgram& out,
+                 std::vector<std::string>& inputs) {
+    Result<ProgramText> program = load_program(path);
     if (!program) return report(program.error());
-    const control::gcode::Settings settings = program_settings(show.rack.config(), program->name);
-    if (const int bad = print_problems(
-            control::gcode::check_program(program->text, settings, most_problems_of_run, program->name), program->name);
-        bad != exit_done)
-        return bad;
+    out.text = std::move(*program);
+    out.reading = program_settings(config, out.text.name);
+    inputs.push_back(path);
+    control::gcode::Settings noted = out.reading;
+    note_subprograms(noted, out.text.name, inputs);
+    return print_problems(control::gcode::check_program(out.text.text, noted, most_problems_of_run, out.text.name),
+                          out.text.name);
+}
+
+int run_program(Show& show, const ReadProgram& program) {
     rack::JobSettings job_settings;
-    job_settings.program = program->text;
-    job_settings.program_name = program->name;
-    job_settings.reading = settings;
+    job_settings.program = program.text.text;
+    job_settings.program_name = program.text.name;
+    job_settings.reading = program.reading;
     job_settings.stop = &stop_asked;
     job_settings.on_slice = [&show] { show.between_runs(); };
     rack::Job job(show.rack, job_settings);
@@ -139,18 +151,6 @@ int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options
     return frames_agree(watch) ? exit_done : exit_machine;
 }
 
-/// The files that are read: what is wrong with the program is told later.
-std::vector<std::string> inputs_of(const ShowOptions& options, const rack::RackConfig& config) {
-    std::vector<std::string> out = {options.rack, options.program};
-    if (options.program.empty() || options.program == "-") return out;  // standard input is read once
-    const Result<ProgramText> program = load_program(options.program);
-    if (!program) return out;
-    control::gcode::Settings settings = program_settings(config, program->name);
-    note_subprograms(settings, program->name, out);
-    (void)control::gcode::check_program(program->text, settings, most_problems_of_run, program->name);
-    return out;
-}
-
 int show_frames(const ShowOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e5) || !(options.every > 0 && options.every <= 1e3)) {
         print_error(fmt::format(
@@ -168,7 +168,11 @@ int show_frames(const ShowOptions& options) {
             "for one that has.");
         return exit_usage;
     }
-    if (!may_write(inputs_of(options, *config), {options.vcd, options.picture})) return exit_refused;
+    std::vector<std::string> inputs = {options.rack};
+    ReadProgram program;
+    if (!options.program.empty())
+        if (code = read_program(options.program, *config, program, inputs); code != exit_done) return code;
+    if (!may_write(inputs, {options.vcd, options.picture})) return exit_refused;
     rack::FrameWatch watch(rack);
     std::unique_ptr<rack::WireTap> tap;
     std::unique_ptr<rack::WaveRecorder> recorder;
@@ -189,7 +193,7 @@ int show_frames(const ShowOptions& options) {
     Screen screen(watch, options);
     Show show{rack, **faults, recorder.get(), screen};
     if (!options.program.empty()) {
-        if (code = run_program(show, options); code != exit_done) return code;
+        if (code = run_program(show, program); code != exit_done) return code;
     } else {
         rack.start();
         if (recorder) recorder->begin();

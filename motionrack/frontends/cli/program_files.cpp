@@ -79,7 +79,7 @@ void note_subprograms(control::gcode::Settings& settings, const std::string& pro
     if (!settings.subprogram) return;
     settings.subprogram = [load = settings.subprogram, folder = std::filesystem::path(program).parent_path(),
                            &files](const std::string& name) -> Result<std::string> {
-        std::string file = (folder / (name + ".ngc")).string();
+        std::string file = rack::subprogram_file(folder, name).string();
         if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
         return load(name);
     };

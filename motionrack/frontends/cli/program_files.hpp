@@ -55,7 +55,8 @@ std::optional<control::gcode::Settings> program_settings(const rack::RackConfig&
 /// Adds the file of each subprogram that is read from now on to `files`, once.
 void note_subprograms(control::gcode::Settings& settings, const std::string& program, std::vector<std::string>& files);
 
-/// Whether the outputs of a command may be written: see disk::may_write. False: it was told which may not.
+/// Whether the outputs of a command may be written: see disk::may_write. False: an error was printed that names the one
+/// which may not.
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /// How many problems a check for people collects; of a program that is to run the first ones are enough.
