@@ -4,14 +4,12 @@
 namespace motionrack::rack {
 namespace {
 
-/// A share of the programs each, so that several run at once.
 constexpr std::uint64_t shares = 8;
 class LosslessAtRandom : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Share, LosslessAtRandom, testing::Range<std::uint64_t>(0, shares));
 
 TEST_P(LosslessAtRandom, NoAxisJumpsWhateverIsWishedOnTheWay) {
-    const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_PROGRAMS", 200);
-    for (std::uint64_t i = GetParam(); i < count && !HasFailure(); i += shares) drive_one(first + i);
+    drive_share(GetParam(), shares, 200);
 }
 
 // A piece of two pulses that is cut for a fall may have one of them by rounding, which is over before the next piece

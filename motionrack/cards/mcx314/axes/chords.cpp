@@ -94,13 +94,8 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     chords.back().v = std::min<double>(chords.back().v, speeds.exit);
     for (std::size_t i = chords.size() - 1; i > 0; --i) {
         const Chord& after = chords[i];
-        Pulses4 way = {};
-        std::int64_t pulses = 0;
-        for (std::size_t c = 0; c < way.size(); ++c) {
-            if (static_cast<int>(c) == work.companion) continue;
-            way[c] = after.at[c] - chords[i - 1].at[c];
-            pulses = std::max<std::int64_t>(pulses, std::llabs(way[c]));
-        }
+        const Pulses4 way = way_between(work, chords[i - 1].at, after.at);
+        const std::int64_t pulses = basic_pulses(way);
         const double share = work.companion >= 0 ? companion_share : 1;
         // V units squared; less the steps of whole units and the register accesses before the new speed counts.
         const double slope = rules::rate_unit * after.acceleration * share,

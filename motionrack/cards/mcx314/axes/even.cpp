@@ -14,17 +14,24 @@ constexpr double spent_pulses = 0.6;
 }  // namespace
 
 /// Without its companion's.
-Pulses4 Segmenter::way_of(const Work& work, const Pulses4& from) {
+Pulses4 Segmenter::way_between(const Work& work, const Pulses4& from, const Pulses4& to) {
     Pulses4 way = {};
     for (std::size_t c = 0; c < way.size(); ++c)
-        if (static_cast<int>(c) != work.companion) way[c] = work.to[c] - from[c];
+        if (static_cast<int>(c) != work.companion) way[c] = to[c] - from[c];
     return way;
+}
+
+/// Those of its longest axis.
+std::int64_t Segmenter::basic_pulses(const Pulses4& way) {
+    std::int64_t out = 0;
+    for (const std::int64_t pulses : way) out = std::max<std::int64_t>(out, std::llabs(pulses));
+    return out;
 }
 
 /// Where the path turns round it is slow, but less slow than planned by half a pulse: it stands there, or the speed
 /// would jump twice.
 void Segmenter::look_at_next(Work& work, const Work& next) const {
-    const Pulses4 way = way_of(next, work.to);
+    const Pulses4 way = way_between(next, work.to, next.to);
     work.most_at_end = most_on(way, false).speed;
     double along = 0;
     for (std::size_t i = 0; i < control::axis_count; ++i)
@@ -37,9 +44,8 @@ void Segmenter::look_at_next(Work& work, const Work& next) const {
 void Segmenter::make_even(const Work& work, Speeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
     const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
-    const Pulses4 way = way_of(work, at_);
-    std::int64_t basic = 0;
-    for (const std::int64_t pulses : way) basic = std::max<std::int64_t>(basic, std::llabs(pulses));
+    const Pulses4 way = way_between(work, at_, work.to);
+    const std::int64_t basic = basic_pulses(way);
     if (basic == 0) return;
     // V units * seconds. The new speed counts from the host's first accesses behind the joint on.
     const double whole = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;

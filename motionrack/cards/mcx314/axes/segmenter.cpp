@@ -138,12 +138,9 @@ double Segmenter::fall_from(const Work& work, double units, const Speeds& speeds
 /// Whether the host can serve a piece from one place to another, by the whole pulses that it has: of a few, rounding
 /// may take one.
 bool Segmenter::leaves_time(const Work& work, double from, double to, std::int32_t v) const {
-    const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_, end = pulses_at(work, to);
-    std::int64_t pulses = 0;
-    for (std::size_t c = 0; c < end.size(); ++c)
-        if (static_cast<int>(c) != work.companion)
-            pulses = std::max<std::int64_t>(pulses, std::llabs(end[c] - begin[c]));
-    return static_cast<double>(pulses) >= counted_reserve / piece_reserve * least_seconds_ * v * pulses_per_v_;
+    const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
+    const auto pulses = static_cast<double>(basic_pulses(way_between(work, begin, pulses_at(work, to))));
+    return pulses >= counted_reserve / piece_reserve * least_seconds_ * v * pulses_per_v_;
 }
 
 // ---- moves to pieces

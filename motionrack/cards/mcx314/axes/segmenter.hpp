@@ -89,7 +89,8 @@ class Segmenter {
 
     Work classify(const control::PlannedMove& move);
     void emit(const Work& work, std::optional<double> next_units);
-    static Pulses4 way_of(const Work& work, const Pulses4& from);
+    static Pulses4 way_between(const Work& work, const Pulses4& from, const Pulses4& to);
+    static std::int64_t basic_pulses(const Pulses4& way);
     void look_at_next(Work& work, const Work& next) const;
     void make_even(const Work& work, Speeds& speeds);
     void emit_pause(const Work& work);
