@@ -176,7 +176,7 @@ class Mcx314Card final : public MotionCard {
             if (one) read(static_cast<std::size_t>(one->channel()), one->trusted());
         return out;
     }
-    /// The chip's reset has cleared those of all channels, and one that nobody takes stands where it stood.
+    /// The chip's reset has cleared those of all channels, and the others stand where they stood.
     Result<void> restore_counters(const Stand& stand) {
         for (std::size_t c = 0; c < stand.pulses.size(); ++c) {
             if (stand.pulses[c] != 0) MOTIONRACK_CHECK(driver_.LPS(1u << c, stand.pulses[c]));

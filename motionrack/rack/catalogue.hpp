@@ -125,7 +125,7 @@ class MotionCard : public Card {
     /// The card's own counters of a channel: LP, EP.
     virtual std::int64_t pulse_counter(int channel) = 0;
     virtual std::int64_t encoder_counter(int channel) = 0;
-    /// What the position is called where the counter is 0, mm or degrees: of an axis that was homed or declared and
+    /// The position where the counter is 0, mm or degrees: of an axis that was homed or declared and
     /// whose card keeps its counter.
     virtual double counter_origin() const { return 0; }
 };

@@ -34,7 +34,7 @@ class Device {
     virtual void sync(Instant now) { (void)now; }
     /// Everything that a snapshot must hold, as bytes of trivially copyable state.
     virtual std::span<std::byte> state() { return {}; }
-    /// What of it Kernel::state_hash reads: all, unless it is large and a state that is read has a hash of it.
+    /// The part of it that Kernel::state_hash reads: all, unless it is large and a state that is read has a hash of it.
     virtual std::span<std::byte> hashed_state() { return state(); }
     /// Injects a fault by name; false if this device has no such fault. `value` is the fault's parameter, 0 clears it.
     virtual bool fault(std::string_view name, double value, Instant now) {

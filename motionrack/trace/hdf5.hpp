@@ -73,7 +73,7 @@ struct ColumnSettings {
     double scale = 1;             ///< a stored number times this is in the unit
 };
 
-/// What a column or an attribute must be found with when the file is read back.
+/// How a column or an attribute must be found when the file is read back.
 struct Written {
     Type type = Type::int64;
     std::uint64_t size = 0;      ///< elements; bytes of an attribute

@@ -104,7 +104,7 @@ class ABadDisk : public InFolder, public testing::WithParamInterface<Scenario> {
                 << ran.code << ": " << ran.out;
         }
     }
-    /// Bytes that nobody reads may differ.
+    /// Bytes that are never read may differ.
     bool same_recording(const std::string& result, const std::string& text) const {
         if (!result.ends_with(".h5") || text_of(folder / result).size() < 100) return false;
         write("good.h5", text);

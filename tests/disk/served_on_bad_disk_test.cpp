@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// What programs that are started while it lives have for a disk.
+/// The disk of the programs that are started while it lives.
 class BadDiskAhead {
   public:
     /// `plan`: "fail 12"; `full`: a file: the disk is full while it is there.

@@ -54,7 +54,7 @@ struct Fault {
     bool is_served() const;
     /// "error stop" where something must stop, "standstill" where a program goes on to its end.
     std::string state_when_served() const;
-    /// What its alarms say, in order.
+    /// Words of its alarms, in order.
     std::vector<std::string> alarms_when_served() const;
 
     /// `text` with the point's values in place.

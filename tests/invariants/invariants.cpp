@@ -67,7 +67,7 @@ void Invariants::ordered(Order order) {
     if (order == Order::reset) reset_ = true;
 }
 
-/// What is held or pushed by hand is off by right until it is looked at again.
+/// A motor that is held or pushed by hand is off by right until it is looked at again.
 void Invariants::disturbed() {
     may_declare_ = 25;
 }

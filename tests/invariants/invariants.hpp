@@ -1,4 +1,4 @@
-// What holds in every run of a machine, whatever is ordered and whatever breaks: looked at from outside, by the pulses
+// The laws of every run of a machine, whatever is ordered and whatever breaks: looked at from outside, by the pulses
 // on the wires, the places of the motors and the status that people see.
 //
 //   machine, rack ──every slice──► Sight ──► Invariants ──► Finding: the rule, the instant, the numbers
@@ -59,7 +59,7 @@ struct Sight {
     const std::vector<operate::Alarm>* alarms = nullptr;
 };
 
-/// What the rack file says of an axis.
+/// An axis as the rack file has it.
 struct AxisFacts {
     char letter = 'X';
     bool servo = false;
@@ -84,7 +84,7 @@ class Invariants {
     /// Each rule is reported once.
     Invariants(std::vector<AxisFacts> axes, const Settings& settings, Report report);
 
-    /// An order was taken. Once one was told, all are.
+    /// An order was taken. With the first call all later ones come here, too.
     enum class Order : std::uint8_t { motion, position, stop, reset, enable, part };
     void ordered(Order order);
     /// From outside something was pushed, held or written, so that pulses and places part by right.

@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(By, AStop,
                          testing::Combine(testing::Range(std::size_t{0}, sources.size()),
                                           testing::Range(std::size_t{0}, doings.size())));
 
-/// What the sender says in the slice of the stop.
+/// The bytes that the sender sends in the slice of the stop.
 class AStoppedHoming : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AndThen, AStoppedHoming, testing::Values("", "!", "$C\n"));
 
