@@ -199,7 +199,8 @@ void File::write_text(const std::string& path, std::string_view text) {
         H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links.get(), create.get(), H5P_DEFAULT),
         H5Dclose);
     if (!good(set.get(), "make a text")) return;
-    const std::string bytes(text.empty() ? std::string_view("", 1) : text);
+    std::string bytes(text);
+    if (bytes.empty()) bytes.push_back('\0');
     good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), "write a text");
     columns_[path] = std::make_shared<Written>(Written{Type::text, 1, bytes.size(), 0});
     columns_[path]->add(bytes.data(), bytes.size());
