@@ -37,7 +37,7 @@ struct Mcx314Settings {
     std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
     BusWidth bus = BusWidth::bits16;     ///< on 8 bits a register takes two accesses
     std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access
-    std::int64_t host_latency_us = 0;    ///< 0 .. 10,000 us from an interrupt to the host's first access
+    std::int64_t host_latency_us = 50;   ///< 0 .. 10,000 us from an interrupt to the host's first access
 };
 
 /// How O1 and O2 of a DataBoard 4002 are counted, and how often in a period of the encoder.

@@ -17,6 +17,10 @@ constexpr int overlap_halvings = 14;
 /// Where an axis of both gets too much, the overlap is sought this much shorter, so often.
 constexpr double shorter_overlap = 0.96;
 constexpr int overlap_tries = 12;
+/// So often in a time in which both go on is looked at how fast the speed along the path changes.
+constexpr int looks = 4;
+/// Of a limit: what a card that draws the path as lines makes up for.
+constexpr double along_reserve = 0.02;
 
 bool is_constant_jerk(const FeedPiece& piece) {
     return piece.phase != FeedPhase::cell;
@@ -123,6 +127,22 @@ bool keeps_feed(const Moment& moment, double feed, double cosine) {
     return in * in + out * out + 2 * cosine * both <= feed * feed * (1 + 2 * overlap_rounding);
 }
 
+/// A card draws the path as straight pieces, on which each axis has its share of the acceleration along the path; what
+/// the path's turn takes from that comes only at the joints. So this share alone has to be within the limits too.
+bool keeps_along(const FeedState& in, const Point& a, const FeedState& out, const Point& b,
+                 const MachineLimits& limits) {
+    Point speed;
+    double square = 0, product = 0;
+    for (std::size_t i = 0; i < speed.size(); ++i) {
+        speed[i] = a[i] * in.speed + b[i] * out.speed;
+        square += speed[i] * speed[i];
+        product += speed[i] * (a[i] * in.accel + b[i] * out.accel);
+    }
+    for (std::size_t i = 0; i < speed.size(); ++i)
+        if (std::fabs(product * speed[i]) > square * limits[i].max_accel * (1 + along_reserve)) return false;
+    return true;
+}
+
 bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, const MachineLimits& limits) {
     const Point &a = in.curve.tangent, &b = out.curve.tangent;
     const double feed = std::max(in.curve.feed, out.curve.feed), cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -136,6 +156,10 @@ bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, cons
         if (!keeps_feed(moment, feed, cosine)) return false;
         for (std::size_t i = 0; i < limits.size(); ++i)
             if (!keeps(moment, a[i], b[i], limits[i])) return false;
+        for (int i = 0; i <= looks; ++i) {
+            const double time = step * i / looks;
+            if (!keeps_along(ending.at(time), a, beginning.at(time), b, limits)) return false;
+        }
         left -= step;
         ending.pass(step);
         beginning.pass(step);

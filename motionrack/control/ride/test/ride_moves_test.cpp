@@ -15,8 +15,9 @@ using curve_test::arc_from;
 using curve_test::line_to;
 using curve_test::machine;
 
-std::vector<PlannedMove> moves_of(const std::vector<Move>& program, RideMovesSettings settings = {}) {
-    RideMoves planner(machine(), {}, settings);
+std::vector<PlannedMove> moves_of(const std::vector<Move>& program, RideMovesSettings settings = {},
+                                  const MachineLimits& limits = machine()) {
+    RideMoves planner(limits, {}, settings);
     std::vector<PlannedMove> out;
     PlannedMove planned;
     const auto pull = [&] {
@@ -72,6 +73,27 @@ TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
         }
     EXPECT_LT(greatest, machine()[0].start_speed);
     EXPECT_GT(greatest, 0.1);
+}
+
+/// A card keeps each axis' acceleration on a line: where it may not slow down so fast it comes too fast into the turn.
+/// Back beside itself, the ends of two lines overlap.
+TEST(TheMovesOfARide, LetACardThatKeepsTheAccelerationsOnEachOfThemComeSlowIntoATurn) {
+    MachineLimits limits = machine();
+    limits[2].max_accel = 0.5 * limits[0].max_accel;
+    for (double height = 1.5; height < 20; height *= 1.2) {
+        const std::vector<Move> back = {line_to({50}, 0.2), line_to({0, 0, height}, 0.2),
+                                        line_to({50, 0, height}, 0.2)};
+        double speed = 0, greatest = 0;
+        for (const PlannedMove& move : moves_of(back, {}, limits)) {
+            double accel = 1e9;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                accel = std::min(accel, limits[axis].max_accel * move.length /
+                                            std::max(1e-9, std::fabs(move.move.end[axis] - move.start[axis])));
+            speed = std::max(move.exit, std::sqrt(std::max(0.0, speed * speed - 2 * accel * move.length)));
+            greatest = std::max(greatest, speed - move.exit);
+        }
+        EXPECT_LT(greatest, limits[0].start_speed) << "height " << height;
+    }
 }
 
 TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
