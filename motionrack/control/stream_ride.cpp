@@ -49,6 +49,8 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
         // Where the ride stands: at the end of what is known, or held.
         Result<StreamState> finished = finish_path();
         if (!finished || !more_follows) return finished;
+    } else {
+        pop_driven(ride_->rider().first_left());  // dwells of no time
     }
     return more_follows ? state_ = StreamState::waiting : stand();
 }

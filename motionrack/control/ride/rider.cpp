@@ -52,6 +52,7 @@ void Rider::push(const RideMove& move) {
 
 void Rider::flush() {
     make_room();
+    flushed_ = pushed_;
     builder_.flush();
     gather(settings_.window);
 }
@@ -69,7 +70,7 @@ std::int64_t Rider::first_left() const {
     if (left_ > 0 || place_ < now_.known()) return move_of(now_.curve[piece_].line);
     if (now_.whole && dwell_seconds() > 0) return move_of_rest();
     if (now_.whole && !then_.curve.empty()) return move_of(then_.curve.front().line);
-    return pushed_;
+    return pushed_ == flushed_ ? pushed_ : std::max(flushed_, told_);
 }
 
 void Rider::gather(std::size_t most) {
@@ -78,6 +79,7 @@ void Rider::gather(std::size_t most) {
         if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= most) return;
         CurveItem item;
         if (!builder_.pull(item)) return;
+        told_ = move_of(item.rest ? item.line : item.piece.line);
         if (item.rest) {
             part.whole = true;
             part.rest = item;

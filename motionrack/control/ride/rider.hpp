@@ -164,6 +164,8 @@ class Rider {
     std::vector<PieceUse> stop_use_;
     std::deque<RideMove> moves_;
     std::int64_t pushed_ = 0, first_move_ = 0;  ///< of moves_
+    std::int64_t flushed_ = 0;                  ///< all before this one are known to their end
+    std::int64_t told_ = 0;                     ///< of which the builder has told something last
 };
 
 }  // namespace motionrack::control

@@ -354,5 +354,30 @@ TEST(AMachine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
     EXPECT_EQ(o.y(), 50);
 }
 
+/// Moves nothing, and takes no time.
+class ALineOfNothing : public testing::TestWithParam<const char*> {};
+
+TEST_P(ALineOfNothing, IsDrivenAloneAndBetweenOthers) {
+    for (const char* profile : {"trapezoid", "jerk_limited"}) {
+        SCOPED_TRACE(profile);
+        rack::RackConfig config = two_axes();
+        config.controller.profile = profile;
+        Operated one(config);
+        const auto order = [](const char* text) { return [text](Machine& m) { EXPECT_TRUE(m.line(text, 1)); }; };
+        one.at(0.1, order(GetParam()));
+        one.at(0.4, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::standstill); });
+        one.at(0.4, order("G0 X12"));
+        one.at(0.4, order(GetParam()));
+        one.at(0.8, order(GetParam()));
+        one.at(0.8, order("G0 X13"));
+        one.run(1.4);
+        EXPECT_EQ(one.machine->state(), MachineState::standstill);
+        EXPECT_EQ(one.x(), 13);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lines, ALineOfNothing,
+                         testing::Values("G4 P0", "G4 P0.000001", "G0 Y0", "G90", "G1 F100", ""));
+
 }  // namespace
 }  // namespace motionrack::operate
