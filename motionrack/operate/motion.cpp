@@ -80,6 +80,7 @@ Result<control::Axis*> Machine::take_axis(char letter) {
 void Machine::run() {
     while (!quit_) step();
     while (state_ == MachineState::stopping) step();
+    tell();  // where it has come to rest
 }
 
 /// Between two runs of the kernel, perhaps in the middle of a drive.

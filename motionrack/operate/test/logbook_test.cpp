@@ -159,6 +159,22 @@ TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
     EXPECT_NEAR(last_.axes[0].place, 15, 1e-9);
 }
 
+TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
+    open();
+    run(
+        {}, [](const Status& s) { return s.axes[0].commanded > 20; }, [](Machine& m) { m.quit(); },
+        [](Machine& m) { ASSERT_TRUE(m.jog('X', 90)); });
+    EXPECT_EQ(last_.state, MachineState::standstill);
+    end(true);
+    open();
+    const LastStanding last = read_last(*journal_->before(), table());
+    ASSERT_EQ(last.axes.size(), 2u);
+    EXPECT_GT(last.axes[0].place, 20.5) << "it took some way to stop";
+    EXPECT_EQ(last.axes[0].place, last_.axes[0].place);
+    EXPECT_EQ(last.axes[0].commanded, last_.axes[0].commanded);
+    EXPECT_TRUE(last.axes[0].trusted);
+}
+
 TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     open();
     // Nothing that the program says as it ends comes into the journal: as if it had been killed in the move.
