@@ -10,10 +10,14 @@ namespace motionrack::mcx314 {
 
 namespace {
 
+/// From the last pulse one way to the first one back: a motor that stops and starts the other way at once has to take
+/// twice its start speed.
+constexpr Duration turn_rest = milliseconds(20);
+
 constexpr StateInfo states[] = {
     {"standing", "no manual drive"},
     {"jogging", "a drive that is renewed: continuous, or to the end of the travel"},
-    {"turning", "decelerates, to jog on from rest"},
+    {"turning", "decelerates and rests, to jog on the other way"},
     {"stepping", "a fixed drive"},
     {"homing", "a homing that is renewed"},
     {"stopping", "decelerates"},
@@ -25,7 +29,7 @@ constexpr TransitionInfo transitions[] = {
     {"jogging", "turning", "jog() the other way"},
     {"jogging", "stopping", "not renewed, jog(0) or stop()"},
     {"jogging", "standing", "the chip ended the drive, or the travel has ended"},
-    {"turning", "jogging", "the axis stands and the jog is renewed"},
+    {"turning", "jogging", "the axis has rested and the jog is renewed"},
     {"turning", "stopping", "not renewed, jog(0) or stop()"},
     {"turning", "standing", "the axis stands at a limit of the new direction"},
     {"stepping", "standing", "the pulses are out, or the chip ended the drive"},
@@ -190,7 +194,11 @@ void Manual::step(Instant now) {
     }
     const bool held = now < until_;
     if ((state_ == ManualState::jogging || state_ == ManualState::turning) && !held) stop();
-    if (driver_.moving(mask())) return;
+    if (driver_.moving(mask())) {
+        rests_until_ = now + turn_rest;
+        return;
+    }
+    if (state_ == ManualState::turning && held && now < rests_until_) return;
     end_drive();
     if (state_ == ManualState::turning && held) {
         state_ = ManualState::standing;

@@ -1,7 +1,7 @@
 // Manual operation of one axis: what a person at a panel does with buttons and a knob.
 //
 //   jog(+v) ══ jog(+v) ══ jog(+2v) ══ nothing for `hold` ──► decelerates         every call renews for `hold`
-//   jog(+v) ══ jog(-v) ──► decelerates, then the other way
+//   jog(+v) ══ jog(-v) ──► decelerates, rests, then the other way
 //   jog(+v) ══ jog(+v) ══ decelerates ──► the last pulse of the travel, if one is given: the drive has no more pulses
 //
 // Nothing waits and nothing looks at a clock: the caller gives the time and calls step() every few ms.
@@ -76,6 +76,7 @@ class Manual {
     ManualState state_ = ManualState::standing;
     std::int64_t wanted_ = 0;  ///< speed of the jog, or of the one after the turn
     Instant until_{};          ///< renewed up to here
+    Instant rests_until_{};    ///< of a turn
     RampReserve reserve_;      ///< of a jog within a travel
     std::string why_;
 };

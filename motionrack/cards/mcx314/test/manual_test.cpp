@@ -70,6 +70,18 @@ TEST(Jog, TheOtherWayItStopsFirst) {
     EXPECT_EQ(rig.rate(), 0);
 }
 
+TEST(Jog, RestsBeforeItGoesTheOtherWay) {
+    ManualRig rig;
+    rig.run(milliseconds(300), 900);
+    int rested_ms = 0;
+    for (int ms = 0; ms < 200; ++ms) {
+        rig.run(milliseconds(1), -900);
+        rested_ms += rig.rate() == 0;
+    }
+    EXPECT_NEAR(rested_ms, 20, 2);
+    EXPECT_LT(rig.rate(), 0);
+}
+
 TEST(Jog, PressedAgainWhileItDeceleratesItGoesOnFromRest) {
     ManualRig rig;
     rig.run(milliseconds(300), 900);
