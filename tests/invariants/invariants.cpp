@@ -209,7 +209,8 @@ void Invariants::see_stop(const Sight& now) {
                           operate::name_of(last_.state)));
     if (last_.state == MachineState::error_stop && now.state != MachineState::error_stop) {
         const bool rests = now.state == MachineState::standstill || now.state == MachineState::disabled;
-        if (now.latched || (knows_orders_ && !reset_) || (!rests && !(knows_orders_ && may_move_ > 0)))
+        if ((now.latched && stop_due_ == 0) || (knows_orders_ && !reset_) ||
+            (!rests && !(knows_orders_ && may_move_ > 0)))
             found(Rule::reset_is_needed, now.at,
                   fmt::format("the error stop ended in the state '{}' {}", operate::name_of(now.state),
                               now.latched ? "while what stopped the machine is in force" : "without a reset"));
