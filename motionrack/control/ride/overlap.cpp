@@ -156,7 +156,10 @@ bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, cons
         if (!keeps_feed(moment, feed, cosine)) return false;
         for (std::size_t i = 0; i < limits.size(); ++i)
             if (!keeps(moment, a[i], b[i], limits[i])) return false;
-        for (int i = 0; i <= looks; ++i) {
+        if (!keeps_along(moment.in[0], a, moment.out[0], b, limits) ||
+            !keeps_along(moment.in[1], a, moment.out[1], b, limits))
+            return false;
+        for (int i = 1; i < looks; ++i) {
             const double time = step * i / looks;
             if (!keeps_along(ending.at(time), a, beginning.at(time), b, limits)) return false;
         }

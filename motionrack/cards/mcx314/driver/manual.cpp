@@ -198,9 +198,10 @@ void Manual::step(Instant now) {
         rests_until_ = now + turn_rest;
         return;
     }
-    if (state_ == ManualState::turning && held && now < rests_until_) return;
+    const bool turns = state_ == ManualState::turning && held;
+    if (turns && now < rests_until_) return;
     end_drive();
-    if (state_ == ManualState::turning && held) {
+    if (turns) {
         state_ = ManualState::standing;
         const Result<void> begun = [&]() -> Result<void> {
             MOTIONRACK_CHECK(check_ready("Jog", wanted_));
