@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/base/fnv.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/sim/test/fuzz_feed.hpp>
 #include <string>
@@ -21,12 +22,12 @@ using motionrack::fuzz::Feed;
 /// What a run came to.
 struct Verdict {
     std::string problem;  ///< "" or what does not hold
-    std::uint64_t hash = 0xCBF29CE484222325ull;
+    std::uint64_t hash = fnv_start;
     std::int64_t accesses = 0;
     std::int64_t pulses = 0;
     std::int64_t exact_drives = 0;  ///< fixed drives that were seen to end at P
 
-    void mix(std::uint64_t value) { hash = (hash ^ value) * 0x100000001B3ull; }
+    void mix(std::uint64_t value) { hash = fnv_step(hash, value); }
 };
 
 /// Runs `accesses` accesses on a chip of its own, fewer if the feed is empty or something does not hold.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <motionrack/base/fnv.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 #include <motionrack/cards/rtc5/test/job.hpp>
 
@@ -18,7 +19,7 @@ class Mixer final : public Sink {
             mix(b.laser[i]);
         }
     }
-    void mix(std::uint64_t value) { hash = (hash ^ value) * 1099511628211ull; }
+    void mix(std::uint64_t value) { hash = fnv_step(hash, value); }
     std::uint64_t hash = 1469598103934665603ull;
 };
 

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstdio>
 #include <limits>
+#include <motionrack/base/fnv.hpp>
 #include <motionrack/control/profile/test/travel_support.hpp>
 
 namespace motionrack::control::travel_test {
@@ -201,10 +202,8 @@ double entry_of(const Travel& travel, const TravelLimits& limits) {
 
 std::uint64_t bits_of_travels(std::uint64_t seed, int count) {
     Tasks tasks(seed);
-    std::uint64_t sum = 14695981039346656037u;
-    const auto fold = [&sum](double x) {
-        sum = (sum ^ std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x)) * 1099511628211u;
-    };
+    std::uint64_t sum = fnv_start;
+    const auto fold = [&sum](double x) { sum = fnv_step(sum, std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x)); };
     for (int i = 0; i < count; ++i) {
         const Task t = i % 3 == 0 ? tasks.outside() : i % 3 == 1 ? tasks.any() : tasks.usual();
         const auto one = travel(t.from, t.to, t.limits);
