@@ -40,7 +40,7 @@ ProgrammedPath::Moves::const_iterator ProgrammedPath::begin_of(std::int64_t firs
 }
 
 /// The move that goes on so far behind the start of this one, or the next.
-ProgrammedPath::Moves::const_iterator ProgrammedPath::skip(Moves::const_iterator move, double mm) const {
+ProgrammedPath::Moves::const_iterator ProgrammedPath::skip(const Moves::const_iterator& move, double mm) const {
     const auto next = std::next(move);
     const auto behind = std::upper_bound(next, moves_.end(), move->begins_mm + mm,
                                          [](double at, const Programmed& one) { return at < one.begins_mm; });

@@ -43,7 +43,7 @@ class ProgrammedPath {
     using Moves = std::deque<Programmed>;
     /// The one in front of the first on its path, or so much before.
     Moves::const_iterator begin_of(std::int64_t first) const;
-    Moves::const_iterator skip(Moves::const_iterator move, double mm) const;
+    Moves::const_iterator skip(const Moves::const_iterator& move, double mm) const;
 
     Moves moves_;
     double max_tolerance_mm_ = 0;

@@ -52,7 +52,7 @@ int say_out_of_memory() {
     return motionrack::cli::exit_io;
 }
 
-std::terminate_handler terminate_before = nullptr;
+const std::terminate_handler terminate_before = std::get_terminate();
 
 /// Memory that is missing in a thread, or where nothing may be thrown, ends the program with the same sentence.
 [[noreturn]] void end_now() {
@@ -108,7 +108,7 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace motionrack::cli;
-    terminate_before = std::set_terminate(end_now);
+    std::set_terminate(end_now);
     try {
         return run_command(argc, argv);
     } catch (const std::bad_alloc&) {
