@@ -153,5 +153,28 @@ TEST(AJog, WithoutATrustedPositionHasNoSoftLimit) {
     EXPECT_LT(o.x(), -0.5);
 }
 
+TEST(AMachine, JogsEveryAxisOfTheRouterWithoutALostStep) {
+    for (const char* profile : {"trapezoid", "jerk_limited"})
+        for (const double speed : {3.0, 20.0, 50.0})
+            for (std::size_t i = 0; i < 4; ++i) {
+                rack::RackConfig config = router();
+                config.controller.profile = profile;
+                Operated o(config);
+                const char letter = config.axes[i].letter;
+                const double way = letter == 'Z' ? -1 : 1;
+                o.at(0.05, [](Machine& m) {
+                    for (const AxisStatus& axis : m.status().axes)
+                        EXPECT_TRUE(m.declare_position(axis.letter, axis.place));
+                });
+                for (double t = 0.1; t < 0.4; t += 0.05)
+                    o.at(t, [=](Machine& m) { EXPECT_TRUE(m.jog(letter, way * speed)); });
+                o.run(1);
+                const AxisStatus& axis = o.machine->status().axes[i];
+                EXPECT_TRUE(axis.trusted) << letter << ' ' << profile << ' ' << speed;
+                EXPECT_NEAR(axis.place, axis.commanded, 1e-6) << letter << ' ' << profile << ' ' << speed;
+                EXPECT_TRUE(o.machine->status().alarms.empty());
+            }
+}
+
 }  // namespace
 }  // namespace motionrack::operate

@@ -8,6 +8,8 @@ namespace motionrack::parts {
 namespace {
 
 constexpr int index_pin = 0;
+/// Of what the motor follows at once: smaller changes of the rate are steps of a ramp.
+constexpr double ramp_step = 0.125;
 constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
 constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
                                                                   "motor.lose_steps",
@@ -64,8 +66,14 @@ std::span<const std::string_view> AxisMachine::fault_names() {
 // ---- What the pulses tell
 
 void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
-    motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
+    // Along a ramp, whose steps the rotor follows as they come.
+    const auto follow = [this](double to) {
+        if (state_.strain.deadline == never) state_.strain.steady_hz += to - state_.motor.rate_hz;
+    };
+    follow(pulses_before);  // along a curve the rate has drifted since it was told last
+    motor_.note_rate(pulses_before);
     feel(now);
+    if (std::fabs(rate - pulses_before) <= ramp_step * motor_.settings().start_stop_hz) follow(rate);
     const double jump = std::fabs(rate - state_.strain.steady_hz);
     if (motor_.in_step() && jump > motor_.settings().start_stop_hz) return strain(rate, now);
     state_.strain.deadline = never;

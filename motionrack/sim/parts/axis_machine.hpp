@@ -127,7 +127,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     /// harm.
     struct Strain {
         double steady_hz =
-            0;  // the rate as the rotor's inertia feels it: the pulses' rate, smoothed over a millisecond
+            0;  // the rate as the rotor's inertia feels it: the pulses' rate, its jumps smoothed over a millisecond
         Instant steady_at{};
         double rate_hz = 0;  // the steady rate when the strain began
         Instant since{};

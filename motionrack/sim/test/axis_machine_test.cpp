@@ -231,6 +231,28 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 20 + 40 + 128);
 }
 
+TEST(AxisMachine, AMotorFollowsARampToTheSpeedAtWhichItStops) {
+    AxisMachineSettings s = plain();
+    s.motor.start_stop_hz = 2000;
+    // From standstill 1600 Hz, up to 20 kHz and down again by 40 Hz each 10 us, and from 1600 Hz to standstill: an
+    // acceleration of twice the start/stop rate a millisecond.
+    std::vector<PulseLaw> laws;
+    Instant at{};
+    const auto step = [&](double hz) {
+        laws.push_back({at, from_seconds(1 / hz), +1});
+        at += microseconds(10);
+    };
+    for (int hz = 1600; hz < 20'000; hz += 40) step(hz);
+    for (int hz = 20'000; hz >= 1600; hz -= 40) step(hz);
+    laws.push_back({at, milliseconds(1), 0});
+    MachineWorld w(s, laws);
+    w.kernel.start();
+    w.run(milliseconds(50));
+    EXPECT_TRUE(w.machine.in_step());
+    EXPECT_EQ(w.machine.lost_steps(), 0);
+    EXPECT_TRUE(conditions(w.kernel).empty());
+}
+
 TEST(AxisMachine, AMotorDrivenFasterThanItPullsStalls) {
     AxisMachineSettings s = plain();
     s.motor.pull_out_hz = 15'000;

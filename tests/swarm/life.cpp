@@ -1,0 +1,353 @@
+// The lives of a machine.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cmath>
+#include <filesystem>
+#include <future>
+#include <motionrack/base/fnv.hpp>
+#include <motionrack/journal/test/bad_disk.hpp>
+#include <motionrack/operate/logbook.hpp>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/template.hpp>
+#include <tests/invariants/watch.hpp>
+#include <tests/swarm/life.hpp>
+#include <tests/swarm/order.hpp>
+#include <utility>
+#include <vector>
+
+namespace motionrack::swarm {
+
+namespace {
+
+using journal::BadDisk;
+using operate::Machine;
+using operate::MachineState;
+using operate::Standing;
+using operate::Status;
+using test::Finding;
+using test::Rule;
+using Order = test::Invariants::Order;
+namespace fs = std::filesystem;
+
+enum class Ending : std::uint8_t { clean, killed, power };
+constexpr std::array ending_names = {"ends clean", "is killed", "loses power"};
+
+/// mm: a record that is trusted says where the machine stands.
+constexpr double record_tolerance = 0.05;
+
+rack::RackConfig draw_rack(Draws& draws, std::string& what) {
+    const int kind = draws.pick(4);
+    const char* profile = draws.one_in(2) ? "trapezoid" : "jerk_limited";
+    rack::RackConfig out;
+    if (kind == 0) {
+        out = *rack::read_rack_text(
+                   "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+                   "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n")
+                   .config;
+    } else {
+        const char* name = kind == 1 ? "single" : "router";
+        out = *rack::read_rack_text(*rack::rack_template(name)).config;
+    }
+    out.controller.profile = profile;
+    what += fmt::format("{}, {}", std::array{"two axes", "single", "router", "router"}[kind], profile);
+    return out;
+}
+
+class Lives {
+  public:
+    Lives(std::uint64_t seed, std::string folder) : draws_(seed), folder_(std::move(folder)) {
+        config_ = draw_rack(draws_, out_.what);
+    }
+
+    SeedEnd drive() {
+        const int lives = 1 + draws_.pick(3);
+        for (int i = 0; i < lives && !out_.finding; ++i) live(i, i + 1 == lives);
+        return std::move(out_);
+    }
+
+  private:
+    struct Taken {
+        std::int64_t number;
+        std::string text;
+    };
+
+    void live(int life, bool last) {
+        const std::string path = folder_ + "/journal.db";
+        BadDisk::Plan plan;
+        ending_ = last                            ? Ending::clean
+                  : draws_.one_in(2)              ? Ending::clean
+                  : life == 0 && draws_.one_in(2) ? Ending::power
+                                                  : Ending::killed;
+        if (!last && ending_ != Ending::power && draws_.one_in(4)) {
+            constexpr std::array faults = {BadDisk::Fault::fail, BadDisk::Fault::stay, BadDisk::Fault::tear};
+            plan = {faults[static_cast<std::size_t>(draws_.pick(3))], 1 + draws_.pick(150)};
+        }
+        out_.what += fmt::format("; {}{}", plan.nth > 0 ? fmt::format("disk fails at {}, ", plan.nth) : "",
+                                 ending_names[static_cast<std::size_t>(ending_)]);
+        if (plan.nth > 0 || ending_ == Ending::power) hashes_ = false;
+        ++out_.lives;
+        const BadDisk disk(plan);
+        lose_power_after_ = 0;
+        disk_ = &disk;
+        run(path, last);
+        if (ending_ == Ending::power) {
+            std::mt19937 luck(static_cast<std::uint32_t>(draws_.raw()));
+            disk.write_state(lose_power_after_, luck, path, folder_ + "/found.db");
+            for (const char* end : {"", "-journal", "-wal", "-shm", ".lock"}) {
+                fs::remove(path + end);
+                if (fs::exists(folder_ + "/found.db" + end)) fs::rename(folder_ + "/found.db" + end, path + end);
+            }
+        }
+    }
+
+    void run(const std::string& path, bool last) {
+        auto opened = journal::Journal::open(path);
+        if (!opened) return;  // its disk fails; the file is left as it is
+        journal_ = std::move(*opened);
+        look_for_taken();
+        operate::MachineSettings settings;
+        settings.standing = standing();
+        settings.pace = [this](Instant now) { return pace(now), true; };
+        settings.on_status = [this](const Status& status) { see(status); };
+        auto made = Machine::make(config_, std::move(settings));
+        if (!made) return found({Rule::usable_again, {}, made.error().message});
+        machine_ = std::move(*made);
+        book_.emplace(*journal_);
+        machine_->listen([](const Status&) {},
+                         [this](const operate::StopReport& report) {
+                             if (book_) book_->stopped(report);
+                         });
+        watch_.emplace(*machine_, [this](const Finding& finding) { found(finding); });
+        if (!draws_.one_in(5)) make_ready();
+        ends_ = from_seconds(draws_.number(0.2, 2.5));
+        next_ = Instant{};
+        is_last_ = last;
+        phase_ = forbidden_ = 0;
+        machine_->run();
+        end();
+    }
+
+    /// As somebody does first who wants to work.
+    void make_ready() {
+        test::Invariants& laws = watch_->invariants();
+        EXPECT_TRUE(machine_->enable(true));
+        laws.ordered(Order::enable);
+        if (draws_.one_in(4)) return;
+        for (const Standing& axis : truth_.empty() ? places() : truth_) {
+            static_cast<void>(machine_->declare_position(axis.letter, axis.place));
+            laws.ordered(Order::position);
+        }
+    }
+
+    std::vector<Standing> places() const {
+        std::vector<Standing> out;
+        for (const operate::AxisStatus& axis : machine_->status().axes)
+            out.push_back({axis.letter, axis.place, axis.place, false});
+        return out;
+    }
+
+    void end() {
+        truth_ = places();
+        book_.reset();
+        cut_off_ = forbidden_ != 0 || ending_ != Ending::clean;
+        if (journal_ && ending_ == Ending::clean && !journal_->close()) cut_off_ = true;
+        journal_.reset();
+        watch_.reset();
+        machine_.reset();
+    }
+
+    /// Where the next life finds the axes: where they were left, trusted as the record says.
+    std::vector<Standing> standing() {
+        std::vector<Standing> out = truth_;
+        if (!journal_->before()) return out;
+        for (const Standing& kept : operate::read_last(*journal_->before(), config_).axes) {
+            const auto real =
+                std::find_if(out.begin(), out.end(), [&](const Standing& one) { return one.letter == kept.letter; });
+            if (real == out.end() || !kept.trusted) continue;
+            if (cut_off_)
+                found({Rule::position_is_true,
+                       {},
+                       fmt::format("axis {} is trusted after a run that did not end by itself", kept.letter)});
+            if (std::fabs(kept.place - real->place) > record_tolerance)
+                found({Rule::position_is_true,
+                       {},
+                       fmt::format("the record has axis {} at {:.4f}, it stands at {:.4f}", kept.letter, kept.place,
+                                   real->place)});
+            real->commanded = kept.commanded;
+            real->trusted = true;
+        }
+        return out;
+    }
+
+    void look_for_taken() {
+        const auto entries = journal_->read({0, "order", 10'000});
+        if (!entries) return;  // the disk fails
+        for (const Taken& one : taken_) {
+            const auto there = std::find_if(entries->begin(), entries->end(),
+                                            [&](const journal::Entry& entry) { return entry.number == one.number; });
+            if (there == entries->end() || there->text != one.text)
+                found({Rule::nothing_taken_is_missing,
+                       {},
+                       fmt::format("entry {} ({}) was acknowledged and is not in the journal", one.number, one.text)});
+        }
+    }
+
+    // ---- while it runs
+
+    void see(const Status& status) {
+        if (book_) book_->see(status);
+        if (!hashes_) return;
+        hash(static_cast<std::uint64_t>(status.at.count()));
+        hash(static_cast<std::uint64_t>(status.state));
+        for (const operate::AxisStatus& axis : status.axes) hash(static_cast<std::uint64_t>(axis.pulses));
+    }
+
+    void pace(Instant now) {
+        if (!machine_) return;
+        if (out_.finding) return finish();
+        look_at_journal();
+        while (now >= next_ && now < ends_) {
+            if (draws_.one_in(7))
+                break_something();
+            else
+                order(draw_order(draws_));
+            next_ += from_seconds(draws_.one_in(3) ? draws_.number(0.1, 0.5) : draws_.number(0, 0.05));
+        }
+        if (now >= ends_) is_last_&& forbidden_ == 0 ? use_again(now) : finish();
+    }
+
+    void finish() {
+        if (std::exchange(phase_, 99) == 99) return;
+        if (ending_ != Ending::clean) {  // nothing of what follows is in the record
+            lose_power_after_ = disk_->calls();
+            book_.reset();
+            journal_.reset();
+        }
+        machine_->quit();
+    }
+
+    /// As a server does it.
+    void look_at_journal() {
+        if (forbidden_ != 0 || !journal_) return;
+        const std::string failure = journal_->failure();
+        if (failure.empty()) return;
+        forbidden_ = 1;
+        machine_->forbid_starts("journal", failure);
+    }
+
+    void order(const DrawnOrder& drawn) {
+        const Result<void> taken = drawn.give(*machine_, draws_);
+        out_.refused += !taken;
+        if (std::getenv("SWARM_SAY")) fmt::print(stderr, "   {:.4f} {} {} [{}] x {:.4f} place {:.4f} trusted {}\n", to_seconds(machine_->now()), drawn.name, taken ? "ok" : taken.error().message, operate::name_of(machine_->status().state), machine_->status().axes[0].commanded, machine_->status().axes[0].place, machine_->status().axes[0].trusted);
+        if (!taken) return;
+        ++out_.taken;
+        if (drawn.changes) watch_->invariants().ordered(*drawn.changes);
+        hash(fnv_of(drawn.name));
+        acknowledge(fmt::format("{} {}", drawn.name, out_.taken));
+    }
+
+    /// The order is answered when its entry is safe.
+    void acknowledge(const std::string& text) {
+        if (!journal_) return;
+        std::promise<Result<std::int64_t>> written;
+        journal_->write(machine_->now(), "order", text, {},
+                        [&written](const Result<std::int64_t>& number) { written.set_value(number); });
+        const Result<std::int64_t> number = written.get_future().get();
+        if (number) taken_.push_back({*number, text});
+        look_at_journal();
+    }
+
+    void break_something() {
+        const DrawnFault fault = draw_fault(*machine_, draws_);
+        if (fault.text.empty()) return;
+        ++out_.faults;
+        if (fault.disturbs) watch_->invariants().disturbed();
+    }
+
+    /// All is mended and reset: it drives where it is sent.
+    void use_again(Instant now) {
+        if (now < wait_until_) return;
+        wait_until_ = now + milliseconds(300);
+        test::Invariants& laws = watch_->invariants();
+        switch (phase_++) {
+            case 0:
+                mend_all(*machine_);
+                laws.disturbed();
+                machine_->stop();
+                laws.ordered(Order::stop);
+                wait_until_ = now + whole_seconds(2);
+                return;
+            case 1:
+                machine_->reset();
+                laws.ordered(Order::reset);
+                return;
+            case 2:
+                (void)machine_->enable(true);
+                laws.ordered(Order::enable);
+                machine_->set_overrides(1, 1);
+                machine_->set_single_step(false);
+                return;
+            case 3:
+                for (const operate::AxisStatus& axis : machine_->status().axes) {
+                    (void)machine_->declare_position(axis.letter, axis.place);
+                    laws.ordered(Order::position);
+                }
+                return;
+            case 4: {
+                laws.ordered(Order::motion);
+                const Result<void> begun = machine_->begin_program("G90 G53 G0 X12\nG53 G0 X15\nM2\n", "again.ngc");
+                if (!begun) found({Rule::usable_again, now, begun.error().message});
+                wait_until_ = now + whole_seconds(12);
+                return;
+            }
+            default: {
+                const Status& status = machine_->status();
+                const double place = status.axes.front().place;
+                if (status.state != MachineState::standstill || std::fabs(place - 15) > record_tolerance)
+                    found({Rule::usable_again, now,
+                           fmt::format("it was sent to X 15 and is at {:.4f} in the state '{}': {}", place,
+                                       operate::name_of(status.state), status.why)});
+                return finish();
+            }
+        }
+    }
+
+    void found(const Finding& finding) {
+        if (!out_.finding) out_.finding = finding;
+    }
+    void hash(std::uint64_t value) {
+        if (hashes_) out_.history = fnv_step(out_.history, value);
+    }
+
+    Draws draws_;
+    std::string folder_;
+    SeedEnd out_;
+    rack::RackConfig config_;
+    bool hashes_ = true;
+    std::vector<Standing> truth_;  ///< where the life before left the axes
+    std::vector<Taken> taken_;
+    bool cut_off_ = false;  ///< the life before
+    // of a life
+    Ending ending_ = Ending::clean;
+    bool is_last_ = false;
+    const BadDisk* disk_ = nullptr;
+    std::int64_t lose_power_after_ = 0;
+    std::unique_ptr<journal::Journal> journal_;
+    std::optional<operate::Logbook> book_;
+    std::unique_ptr<Machine> machine_;
+    std::optional<test::MachineWatch> watch_;
+    Instant next_{}, ends_{}, wait_until_{};
+    int phase_ = 0, forbidden_ = 0;
+};
+
+}  // namespace
+
+SeedEnd drive_seed(std::uint64_t seed, const std::string& folder) {
+    return Lives(seed, folder).drive();
+}
+
+}  // namespace motionrack::swarm

@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <motionrack/rack/faults.hpp>
+#include <tests/random_program.hpp>
+#include <tests/swarm/order.hpp>
+
+namespace motionrack::swarm {
+
+namespace {
+
+using operate::Machine;
+using Order = test::Invariants::Order;
+
+const operate::AxisStatus& some_axis(Machine& machine, Draws& draws) {
+    const auto& axes = machine.status().axes;
+    return axes[static_cast<std::size_t>(draws.pick(static_cast<int>(axes.size())))];
+}
+
+char some_letter(Machine& machine, Draws& draws) {
+    return machine.status().axes.empty() ? 'X' : some_axis(machine, draws).letter;
+}
+
+std::string some_line(Machine& machine, Draws& draws) {
+    const char letter = some_letter(machine, draws);
+    switch (draws.pick(7)) {
+        case 0:
+            return fmt::format("G0 {}{:.3f}", letter, draws.number(-5, 60));
+        case 1:
+            return fmt::format("G1 {}{:.3f} F{:.0f}", letter, draws.number(0, 20), draws.number(50, 6000));
+        case 2:
+            return fmt::format("G2 X{:.3f} Y{:.3f} R{:.3f} F1200", draws.number(0, 20), draws.number(0, 20),
+                               draws.number(10, 40));
+        case 3:
+            return fmt::format("G4 P{:.3f}", draws.number(0, 0.1));
+        case 4:
+            return std::array{"M3 S8000", "M5", "M8", "M9", "G91", "G90", "G64 P0.05", "G61"}[draws.pick(8)];
+        case 5:
+            return std::array{"G999", "X", "G1 X1e9 F100", "%", "G10 L2 P1 X1", "O1 sub"}[draws.pick(6)];
+        default:
+            return fmt::format("G91 G0 {}{:.3f}", letter, draws.number(-3, 3));
+    }
+}
+
+std::string some_program(Machine& machine, Draws& draws) {
+    if (draws.one_in(3) && machine.status().axes.size() >= 3)
+        return test::ProgramMaker(draws.raw(), draws.one_in(2) ? test::ProgramSize::mixed : test::ProgramSize::tiny)
+            .make()
+            .text;
+    std::string out;
+    for (int lines = 1 + draws.pick(12); lines > 0; --lines) out += some_line(machine, draws) + "\n";
+    return out + (draws.one_in(4) ? "M0\nG0 X10\nM2\n" : "M2\n");
+}
+
+double some_speed(Draws& draws) {
+    const double speed = draws.one_in(12) ? draws.number(100, 1e6) : draws.number(1, 100);
+    return draws.one_in(2) ? speed : -speed;
+}
+
+operate::StopOrigin somebody(Draws& draws, const char* kind) {
+    return {std::array{"anna", "bert", ""}[draws.pick(3)], fmt::format("10.0.0.{}", 1 + draws.pick(3)), kind};
+}
+
+Result<void> jog(Machine& machine, Draws& draws) {
+    return machine.jog(some_letter(machine, draws), draws.one_in(5) ? 0 : some_speed(draws));
+}
+Result<void> jog_by(Machine& machine, Draws& draws) {
+    const char letter = some_letter(machine, draws);
+    const double distance = draws.number(-30, 30);
+    return machine.jog_by(letter, distance, std::abs(some_speed(draws)));
+}
+Result<void> jog_to(Machine& machine, Draws& draws) {
+    control::Point target = {};
+    for (std::size_t i = 0; i < 3; ++i) target[i] = draws.number(0, 50);
+    return machine.jog_to(target, draws.number(1, 100));
+}
+Result<void> begin_program(Machine& machine, Draws& draws) {
+    return machine.begin_program(some_program(machine, draws), "swarm.ngc");
+}
+Result<void> line(Machine& machine, Draws& draws) {
+    const std::string text = some_line(machine, draws); if (std::getenv("SWARM_SAY")) fmt::print(stderr, "  LINE {}\n", text);
+    const auto taken = machine.line(text, 1);
+    return taken ? Result<void>() : Result<void>(tl::unexpected<Error>(taken.error()));
+}
+Result<void> hold(Machine& machine, Draws&) {
+    return machine.hold();
+}
+Result<void> resume(Machine& machine, Draws&) {
+    return machine.resume();
+}
+Result<void> stop(Machine& machine, Draws& draws) {
+    machine.stop(somebody(draws, "STOP"));
+    return {};
+}
+Result<void> cancel(Machine& machine, Draws& draws) {
+    machine.cancel(somebody(draws, "^X"));
+    return {};
+}
+Result<void> reset(Machine& machine, Draws& draws) {
+    machine.reset(somebody(draws, "Reset"));
+    return {};
+}
+Result<void> enable(Machine& machine, Draws& draws) {
+    const bool on = !draws.one_in(4);
+    return machine.enable(on, draws.one_in(3) ? std::string(1, some_letter(machine, draws)) : std::string());
+}
+Result<void> home(Machine& machine, Draws& draws) {
+    return machine.home(draws.one_in(2) ? std::string(1, some_letter(machine, draws)) : std::string());
+}
+/// As an honest person declares it: where it is.
+Result<void> declare(Machine& machine, Draws& draws) {
+    const operate::AxisStatus axis = some_axis(machine, draws);
+    return machine.declare_position(axis.letter, axis.place);
+}
+Result<void> set_overrides(Machine& machine, Draws& draws) {
+    machine.set_overrides(draws.number(0.01, 2), draws.number(0.01, 1));
+    return {};
+}
+Result<void> single_step(Machine& machine, Draws& draws) {
+    machine.set_single_step(draws.one_in(2));
+    return {};
+}
+Result<void> coolant(Machine& machine, Draws& draws) {
+    machine.set_coolant(draws.one_in(2), draws.one_in(2));
+    return {};
+}
+Result<void> acknowledge(Machine& machine, Draws& draws) {
+    machine.acknowledge(1 + draws.pick(5));
+    return {};
+}
+Result<void> set_work_zero(Machine& machine, Draws& draws) {
+    return machine.set_work_zero(some_letter(machine, draws), draws.number(-20, 20));
+}
+
+constexpr std::array orders = {DrawnOrder{"begin_program", 14, Order::motion, begin_program},
+                               DrawnOrder{"line", 20, Order::motion, line},
+                               DrawnOrder{"jog", 14, Order::motion, jog},
+                               DrawnOrder{"jog_by", 6, Order::motion, jog_by},
+                               DrawnOrder{"jog_to", 5, Order::motion, jog_to},
+                               DrawnOrder{"home", 5, Order::motion, home},
+                               DrawnOrder{"hold", 6, {}, hold},
+                               DrawnOrder{"resume", 8, Order::motion, resume},
+                               DrawnOrder{"stop", 5, Order::stop, stop},
+                               DrawnOrder{"cancel", 3, {}, cancel},
+                               DrawnOrder{"reset", 10, Order::reset, reset},
+                               DrawnOrder{"enable", 8, Order::enable, enable},
+                               DrawnOrder{"declare_position", 8, Order::position, declare},
+                               DrawnOrder{"set_overrides", 5, {}, set_overrides},
+                               DrawnOrder{"set_single_step", 3, {}, single_step},
+                               DrawnOrder{"set_coolant", 1, {}, coolant},
+                               DrawnOrder{"acknowledge", 3, {}, acknowledge},
+                               DrawnOrder{"set_work_zero", 2, {}, set_work_zero}};
+
+constexpr double released = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array ends = {"limit_plus", "limit_minus", "home"};
+
+std::string wire_of(char letter, const char* end) {
+    return fmt::format("{}.{}", letter, end);
+}
+
+}  // namespace
+
+std::span<const DrawnOrder> all_orders() {
+    return orders;
+}
+
+const DrawnOrder& draw_order(Draws& draws) {
+    int all = 0;
+    for (const DrawnOrder& order : orders) all += order.weight;
+    int place = draws.pick(all);
+    for (const DrawnOrder& order : orders) {
+        if (place < order.weight) return order;
+        place -= order.weight;
+    }
+    return orders.front();
+}
+
+DrawnFault draw_fault(Machine& machine, Draws& draws) {
+    const char letter = some_letter(machine, draws);
+    if (draws.one_in(3)) {
+        const bool emergency = draws.one_in(2);
+        const std::string wire = emergency ? "estop" : wire_of(letter, ends[static_cast<std::size_t>(draws.pick(3))]);
+        const double value = draws.one_in(3) ? released : draws.pick(2);
+        if (!machine.wires().knows(wire) || !machine.wires().set(wire, value)) return {};
+        return {fmt::format("{}={}", wire, value)};
+    }
+    const auto targets = rack::fault_targets(machine.rack());
+    const auto& target = targets[static_cast<std::size_t>(draws.pick(static_cast<int>(targets.size())))];
+    if (target.faults.empty()) return {};
+    const std::string_view fault =
+        target.faults[static_cast<std::size_t>(draws.pick(static_cast<int>(target.faults.size())))];
+    const double value = draws.one_in(3) ? 0 : draws.one_in(2) ? 1 : draws.number(1, 200);
+    const std::string text = fmt::format("{}={:.3g}", fault, value);
+    if (!rack::inject_fault(machine.rack(), text, target.name)) return {};
+    return {fmt::format("{}.{}", target.name, text), true};
+}
+
+void mend_all(Machine& machine) {
+    for (const auto& target : rack::fault_targets(machine.rack()))
+        for (const std::string_view fault : target.faults)
+            (void)rack::inject_fault(machine.rack(), fmt::format("{}=0", fault), target.name);
+    for (const rack::WireDesk::Named& wire : machine.wires().names())
+        if (wire.drivable) (void)machine.wires().set(wire.name, released);
+}
+
+}  // namespace motionrack::swarm

@@ -1,0 +1,67 @@
+// Thousands of machines, each from a seed. MOTIONRACK_SEED=N picks the first, MOTIONRACK_MACHINES=N how many.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <tests/environment.hpp>
+#include <tests/swarm/life.hpp>
+
+namespace motionrack::swarm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that goes with it.
+class Scratch {
+  public:
+    Scratch() : path_(fs::path(testing::TempDir()) / fmt::format("swarm_{}", ::getpid())) {
+        fs::remove_all(path_);
+        fs::create_directories(path_);
+    }
+    ~Scratch() { fs::remove_all(path_); }
+    std::string path() const { return path_.string(); }
+
+  private:
+    fs::path path_;
+};
+
+SeedEnd driven(std::uint64_t seed) {
+    const Scratch folder;
+    return drive_seed(seed, folder.path());
+}
+
+/// So that shards share the seeds.
+constexpr std::uint64_t parts = 20;
+
+class Swarm : public testing::TestWithParam<std::uint64_t> {};
+INSTANTIATE_TEST_SUITE_P(Part, Swarm, testing::Range<std::uint64_t>(0, parts));
+
+TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
+    const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_MACHINES", 2'000);
+    int taken = 0, faults = 0;
+    for (std::uint64_t i = GetParam(); i < count; i += parts) {
+        const SeedEnd end = driven(first + i);
+        taken += end.taken;
+        faults += end.faults;
+        ASSERT_FALSE(end.finding) << fmt::format(
+            "at {:.6f} s: {}: {}\n({})\nIt is run again with: MOTIONRACK_SEED={} MOTIONRACK_MACHINES=1 ./test -R swarm",
+            to_seconds(end.finding->at), name_of(end.finding->rule), end.finding->text, end.what, first + i);
+    }
+    if (count < 10 * parts) return;
+    EXPECT_GT(taken, 0);
+    EXPECT_GT(faults, 0);
+}
+
+TEST(SwarmSeed, HasTheSameHistoryTwice) {
+    const std::uint64_t first = seed_from_environment();
+    for (std::uint64_t seed = first; seed < first + 20; ++seed) {
+        const SeedEnd once = driven(seed), again = driven(seed);
+        EXPECT_EQ(once.history, again.history) << "MOTIONRACK_SEED=" << seed << " (" << once.what << ")";
+        EXPECT_EQ(once.what, again.what);
+        EXPECT_EQ(once.taken, again.taken);
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::swarm
