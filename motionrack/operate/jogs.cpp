@@ -82,10 +82,10 @@ Result<void> Jogs::begin(const Order& order, const Take& take, Instant now) {
     return {};
 }
 
-std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, bool stop) {
+std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, const std::function<bool(char letter)>& stops) {
     std::vector<Ended> out;
     std::erase_if(moving_, [&](Moving& one) {
-        std::optional<Ended> ended = carry_on(one, now, stop);
+        std::optional<Ended> ended = carry_on(one, now, stops(one.letter));
         if (ended) out.push_back(std::move(*ended));
         return ended.has_value();
     });

@@ -55,8 +55,9 @@ class Jogs {
     void let_go();
 
     bool any() const { return !orders_.empty() || !moving_.empty(); }
-    /// Begins what was ordered, carries on or ends what moves; tells what stands. At least every few ms.
-    std::vector<Ended> step(const Take& take, Instant now, bool stop);
+    /// Begins what was ordered, carries on or ends what moves, an axis that is to stop by a ramp; tells what stands. At
+    /// least every few ms.
+    std::vector<Ended> step(const Take& take, Instant now, const std::function<bool(char letter)>& stops);
 
   private:
     struct Order {

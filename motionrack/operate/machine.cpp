@@ -117,7 +117,12 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
     return fail(Trouble::bad_input, fmt::format("{}: the machine has no axis {}.", what, letter));
 }
 
-Result<void> Machine::all_enabled(const char* what, std::string_view axes) const {
+/// Enabled, and what was declared of positions is carried out: it holds of where the axes stood.
+Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
+    if (!positions_wanted_.empty())
+        return fail(
+            Trouble::refused,
+            fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
             return fail(Trouble::refused,
@@ -129,11 +134,7 @@ Result<void> Machine::all_enabled(const char* what, std::string_view axes) const
 Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(ready(what));
     MOTIONRACK_CHECK(door_.check_closed(what));
-    MOTIONRACK_CHECK(all_enabled(what, {control::axis_letters.data(), control::axis_letters.size()}));
-    if (!positions_wanted_.empty())
-        return fail(
-            Trouble::refused,
-            fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
+    MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!trusted(axis))
             return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
@@ -266,7 +267,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
-    MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
+    MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
@@ -278,7 +279,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
 Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
-    MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
+    MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
         return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
@@ -338,7 +339,7 @@ Result<void> Machine::home(std::string axes) {
     MOTIONRACK_CHECK(may_start("Not homed"));
     MOTIONRACK_CHECK(ready("Not homed"));
     MOTIONRACK_CHECK(door_.check_closed("Not homed"));
-    MOTIONRACK_CHECK(all_enabled("Not homed", homed));
+    MOTIONRACK_CHECK(axes_may_move("Not homed", homed));
     home_wanted_ = std::move(axes);
     home_stop_ = false;
     enter(MachineState::homing);

@@ -178,7 +178,7 @@ class Machine {
     void take_stop();
     void enter_error_stop(std::string source, std::string text);
     Result<void> ready(const char* what);
-    Result<void> all_enabled(const char* what, std::string_view axes) const;
+    Result<void> axes_may_move(const char* what, std::string_view axes) const;
     Result<void> ready_for_lines(const char* what);
     void pass_event(const control::gcode::Step& step);
     void tools_off();

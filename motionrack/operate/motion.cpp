@@ -190,6 +190,8 @@ void Machine::come_to_rest() {
     stop_wanted_ = false;
     home_stop_ = false;
     rack::StopLatch& latch = rack_.stop_latch();
+    if (latch.latched() && state_ != MachineState::error_stop)  // what was lost is lost, whoever resets at once
+        enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     const bool asked = std::exchange(reset_wanted_, false);
     const Result<void> reset = asked ? latch.reset() : Result<void>();
     if (!reset) status_.why = reset.error().message;
@@ -201,8 +203,6 @@ void Machine::come_to_rest() {
         for (Alarm& alarm : status_.alarms) alarm.active = alarm.stays;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
-    if (latch.latched() && state_ != MachineState::error_stop)
-        enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.why);
     for (std::size_t i = 0; i < enabled_.size(); ++i)
         enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
@@ -233,6 +233,7 @@ void Machine::drive() {
     const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::StreamState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
+    if (*driven != control::StreamState::driving) rack_.stop_latch().settle();  // a card's stop ends a hold, too
     switch (*driven) {
         case control::StreamState::waiting:
             host().pass(milliseconds(1));
@@ -259,7 +260,8 @@ void Machine::drive() {
 
 void Machine::jog_all() {
     const auto take = [this](char letter) { return take_axis(letter); };
-    for (const Jogs::Ended& one : jogs_.step(take, now(), stop_wanted_)) {
+    const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
+    for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
         if (one.how || one.how.error().trouble == Trouble::stopped) continue;
         status_.why = one.how.error().message;
         if (one.trusted || !trust_.of(one.letter)) continue;

@@ -12,7 +12,7 @@ namespace motionrack::rack {
 namespace {
 
 // A window is so long that the start speed makes some pulses in it.
-constexpr double least_window = 1e-3, longest_window = 8e-3, pulses_of_start = 2;
+constexpr double least_window = 1e-3, pulses_of_start = 2;
 constexpr Duration longest_period = milliseconds(2);
 // Pulses by which the counts at three instants may be off together: they are whole, and so are the ends of pieces.
 constexpr double count_rounding = 3;
@@ -74,15 +74,22 @@ std::string sentence_of(const Breach& breach) {
         place_text(breach), breach.value * 1e6, often(breach));
 }
 
-JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period) : period_(period) {
+JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
     if (period <= Duration{} || period > longest_period || start_hz <= 0) return;
-    const double window = std::clamp(pulses_of_start / start_hz, least_window, longest_window);
-    looks_ = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
-    seconds_ = static_cast<double>(looks_) * to_seconds(period);
-    explained_ = accel_hz * seconds_ * seconds_;
-    allowed_ = start_reserve * start_hz * seconds_ + explained_ + count_rounding;
-    counts_.resize(2 * looks_ + 1);
+    const double window = std::clamp(pulses_of_start / start_hz, least_window, to_seconds(longest_window));
+    looks = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
+    seconds = static_cast<double>(looks) * to_seconds(period);
+    explained_ = accel_hz * seconds * seconds;
+    allowed_ = start_reserve * start_hz * seconds + explained_ + count_rounding;
 }
+
+double JumpLaw::jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const {
+    const auto change = std::fabs(static_cast<double>(last - 2 * middle + first));
+    return change > allowed_ ? (change - count_rounding - explained_) / seconds : 0;
+}
+
+JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period)
+    : law_(start_hz, accel_hz, period), period_(period), counts_(law_.looks > 0 ? 2 * law_.looks + 1 : 0) {}
 
 JumpWatch::Jump JumpWatch::look(std::int64_t count) {
     if (counts_.empty()) return {};
@@ -90,10 +97,9 @@ JumpWatch::Jump JumpWatch::look(std::int64_t count) {
     counts_[seen_ % size] = count;
     ++seen_;
     if (seen_ < size) return {};
-    const std::int64_t middle = counts_[(seen_ - 1 - looks_) % size], first = counts_[seen_ % size];
-    const auto change = std::fabs(static_cast<double>(count - 2 * middle + first));
-    const bool jumped = std::exchange(jumps_, change > allowed_);
-    return jumps_ ? Jump{(change - count_rounding - explained_) / seconds_, !jumped} : Jump{};
+    const double hz = law_.jump_hz(counts_[seen_ % size], counts_[(seen_ - 1 - law_.looks) % size], count);
+    const bool jumped = std::exchange(jumps_, hz > 0);
+    return {hz, jumps_ && !jumped};
 }
 
 }  // namespace motionrack::rack

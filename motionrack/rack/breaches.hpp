@@ -50,11 +50,29 @@ std::string_view name_of(BreachKind kind);
 /// "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000, the speed of X jumped by 84.000 mm/s; ...".
 std::string sentence_of(const Breach& breach);
 
+/// What whole pulses say of the speed of an axis: from one window to the next it may change by what its start speed and
+/// its acceleration limit allow.
+struct JumpLaw {
+    /// `start_hz`, `accel_hz`: what the axis may be changed by at once, pulses/s, and pulses/s2. `period`: between two
+    /// looks; with one above 2 ms nothing is found.
+    JumpLaw(double start_hz, double accel_hz, Duration period);
+    static constexpr Duration longest_window = milliseconds(8);
+
+    std::size_t looks = 0;  ///< of a window; 0: nothing is looked for
+    double seconds = 0;     ///< of a window
+    /// Of the counts at the begin of the first window, at its end, and at the end of the second: pulses/s above what
+    /// the limit explains, or 0 if that is allowed.
+    double jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const;
+
+  private:
+    double allowed_ = 0;    ///< pulses
+    double explained_ = 0;  ///< pulses that the acceleration limit alone explains
+};
+
 /// Looks for jumps in the pulses of one axis. Allocates only when it is made.
 class JumpWatch {
   public:
-    /// `start_hz`, `accel_hz`: what the axis may be changed by at once, pulses/s, and pulses/s2. `period`: between two
-    /// looks; with one above 2 ms nothing is found.
+    /// See JumpLaw.
     JumpWatch(double start_hz, double accel_hz, Duration period);
     struct Jump {
         double hz = 0;       ///< 0: none
@@ -63,14 +81,11 @@ class JumpWatch {
     /// The pulses sent so far; the jump in the middle of the two windows that end now, if it is too large.
     Jump look(std::int64_t count);
     /// How long ago the middle of the windows is.
-    Duration middle() const { return period_ * static_cast<std::int64_t>(looks_); }
+    Duration middle() const { return period_ * static_cast<std::int64_t>(law_.looks); }
 
   private:
+    JumpLaw law_;
     Duration period_;
-    std::size_t looks_ = 1;  ///< of a window
-    double seconds_ = 1e-3;  ///< of a window
-    double allowed_ = 0;     ///< pulses
-    double explained_ = 0;   ///< pulses that the acceleration limit alone explains
     std::vector<std::int64_t> counts_;
     std::size_t seen_ = 0;
     bool jumps_ = false;

@@ -208,6 +208,10 @@ void Job::tell_stop(JobOutcome& out) {
     if (!latch.latched()) return;
     latch.settle();
     latch.look();
+    const auto lost = [&](const RunningAxis& axis) { return !latch.keeps_position(axis.config.index()); };
+    if (!out.ended && out.ended.error().trouble == Trouble::machine &&
+        std::any_of(rack_.axes().begin(), rack_.axes().end(), lost))
+        out.ended.error().message += ' ' + latch.position_sentence();
     const bool asked = latch.is_ordered();
     if (asked || (!out.ended && out.ended.error().trouble != Trouble::stopped)) return;
     out.ended = fail(Trouble::machine,

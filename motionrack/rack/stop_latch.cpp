@@ -56,6 +56,7 @@ StopLatch::StopLatch(Rack& rack)
       kernel_(rack.kernel()),
       id_(kernel_.add(*this, sim::Phase::observers, "stop_latch")),
       following_(rack),
+      ramps_(rack),
       contacts_(kernel_, rack.config().safety) {
     watch({kernel_.find_wire("estop"), StopSource::emergency_stop});
     for (std::size_t c = 0; c < rack_.config().cards.size(); ++c) {
@@ -113,6 +114,7 @@ void StopLatch::disarm() {
     state_.heeds_door = before.heeds_door;
     halted_ = false;
     following_.end();
+    ramps_.end();
 }
 
 void StopLatch::on_wire(int pin, int, Instant now) {
@@ -163,6 +165,28 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
     return false;
 }
 
+/// At what has set the latch.
+bool StopLatch::is_stopped_by_card(char letter) const {
+    if (state_.input < 0) return false;
+    const Input& input = inputs_[static_cast<std::size_t>(state_.input)];
+    const std::vector<RunningAxis>& axes = rack_.axes();
+    switch (cause()) {
+        case StopSource::limit_switch:
+            return axes[static_cast<std::size_t>(input.axis)].config.letter == letter;
+        case StopSource::emergency_stop:
+            return true;
+        case StopSource::watchdog:
+            return std::any_of(axes.begin(), axes.end(), [&](const RunningAxis& axis) {
+                return axis.config.letter == letter && is_on_card(axis, input);
+            });
+        case StopSource::drive_alarm:
+        case StopSource::following_error:
+        case StopSource::stop_order:
+            break;
+    }
+    return false;
+}
+
 void StopLatch::trip(StopSource source, int input, Instant now) {
     const Input* from = input < 0 ? nullptr : &inputs_[static_cast<std::size_t>(input)];
     if ((state_.tripped & bit(source)) == 0) state_.pending |= bit(source);
@@ -173,6 +197,7 @@ void StopLatch::trip(StopSource source, int input, Instant now) {
         state_.at = now;
         state_.cause = static_cast<std::int32_t>(source);
         state_.input = input;
+        ramps_.begin(now);
         if (from != nullptr && is_behind(*from, now)) state_.behind = -from->direction;
     }
     if (from == nullptr || !left_to_card(*from, now)) halted_ = true;
@@ -258,7 +283,9 @@ void StopLatch::look() {
 }
 
 void StopLatch::settle() {
-    if (state_.latched != 0) halted_ = true;
+    if (state_.latched == 0) return;
+    halted_ = true;
+    ramps_.settle();
 }
 
 // ---- releasing

@@ -19,6 +19,7 @@
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/rack/following.hpp>
+#include <motionrack/rack/ramp_watch.hpp>
 #include <motionrack/rack/safety_contacts.hpp>
 #include <motionrack/rack/stop_source.hpp>
 #include <motionrack/sim/kernel.hpp>
@@ -69,11 +70,14 @@ class StopLatch final : public sim::Device {
     /// What set it first, and when; while it is latched.
     StopSource cause() const { return static_cast<StopSource>(state_.cause); }
     Instant at() const { return state_.at; }
+    /// Whether whoever drives this axis is to brake it: it is latched, and the card does not stop it by itself.
+    bool is_to_brake(char letter) const { return latched() && !is_stopped_by_card(letter); }
     /// Whether this source has set it, first or later.
     bool tripped_by(StopSource source) const { return (state_.tripped & bit(source)) != 0; }
-    /// False where steps may have been lost (the motor was faster than it can stop without a ramp, or its drive failed
-    /// while it moved), where the axis did not follow, or where its card was reset. `axis`: 0 .. 5.
-    bool keeps_position(int axis) const { return (state_.lost & 1u << axis) == 0; }
+    /// False where steps may have been lost (the motor was faster than it can stop without a ramp and was to, or its
+    /// pulses ended without one, or its drive failed while it moved), where the axis did not follow, or where its card
+    /// was reset. Of pulses that end it is known once all axes were seen to stand. `axis`: 0 .. 5.
+    bool keeps_position(int axis) const { return (state_.lost & 1u << axis) == 0 && !ramps_.has_jumped(axis); }
 
     /// "The emergency stop was pressed at 1.200 s."
     std::string sentence() const;
@@ -116,6 +120,7 @@ class StopLatch final : public sim::Device {
     Instant& left_at(const Input& input);
     bool trips(const Input& input, Instant now);
     bool left_to_card(const Input& input, Instant now) const;
+    bool is_stopped_by_card(char letter) const;
     bool is_behind(const Input& input, Instant now) const;
     bool is_on_card(const RunningAxis& axis, const Input& input) const;
     void trip(StopSource source, int input, Instant now);
@@ -126,6 +131,7 @@ class StopLatch final : public sim::Device {
     sim::Kernel& kernel_;
     sim::DeviceId id_{};
     FollowingWatch following_;
+    RampWatch ramps_;
     SafetyContacts contacts_;
     std::vector<Input> inputs_;
     bool has_watchdogs_ = false;

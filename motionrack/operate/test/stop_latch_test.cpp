@@ -161,6 +161,36 @@ TEST(TheStopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
     EXPECT_LT(o.x(), 9);
 }
 
+TEST(TheStopLatch, StopsAllThatIsJoggedWhereOneAxisReachesItsLimitSwitch) {
+    for (const bool by_distance : {true, false}) {
+        Operated o(two_axes("[axis.Y.switches]\nlimit_plus_mm = 5\n"));
+        if (by_distance) o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 200, 20)); });
+        for (double t = 0.1; t < 2; t += 0.1)
+            o.at(t, [by_distance](Machine& m) {
+                if (!by_distance) (void)m.jog('X', 20);
+                (void)m.jog('Y', 20);
+            });
+        o.run(3);
+        EXPECT_EQ(o.machine->state(), MachineState::error_stop);
+        EXPECT_NEAR(o.x(), o.y() + 10, 0.6) << "they began together, and both braked at the switch";
+    }
+}
+
+TEST(TheStopLatch, TakesTheTrustAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
+    Operated o(router());
+    o.at(0.05, [](Machine& m) {
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, axis.place));
+    });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\nM2\n", "p")); });
+    o.at(0.5, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(0.52, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(0.545, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_FALSE(m.status().axes[0].trusted);
+    });
+    o.run(1);
+}
+
 TEST(TheStopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
     Operated o(two_axes(switches));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });

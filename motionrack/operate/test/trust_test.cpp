@@ -105,6 +105,54 @@ TEST(AMachine, TrustsAnAxisAgainThatIsDeclaredAfterItLostSteps) {
     EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "what was lost before it was declared is told once";
 }
 
+TEST(AMachine, DoesNotTrustAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
+    Operated o(two_axes("[controller]\nprofile = \"jerk_limited\"\n[axis.X.switches]\nlimit_plus_mm = 302\n"));
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().set("X.limit_plus", 0)); });
+    o.run(2);
+    const Status& status = o.machine->status();
+    EXPECT_EQ(status.state, MachineState::error_stop);
+    EXPECT_FALSE(status.axes[0].trusted);
+    EXPECT_TRUE(status.axes[1].trusted) << "it did not move";
+    ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "one cause, one alarm";
+    EXPECT_THAT(status.alarms[0].text, HasSubstr("The position of X is not trusted any more"));
+}
+
+TEST(AMachine, DoesNotTrustAnAxisThatWasResetWhileItStillStopped) {
+    Operated o(two_axes());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.stall", "X")); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
+    bool reset = false;
+    o.each_status([&](const Status& status) {
+        if (status.state == MachineState::stopping && !std::exchange(reset, true)) o.machine->reset();
+    });
+    o.run(2);
+    const Status& status = o.machine->status();
+    ASSERT_TRUE(reset);
+    EXPECT_EQ(status.state, MachineState::standstill);
+    EXPECT_FALSE(status.axes[0].trusted) << "its motor stood";
+    ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "one cause, one alarm";
+    EXPECT_THAT(status.alarms[0].text, HasSubstr("The following error of X was"));
+}
+
+TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
+    Operated o(two_axes());
+    const auto refused = [](const Result<void>& order) {
+        EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being declared"));
+    };
+    o.at(0.1, [&](Machine& m) {
+        EXPECT_TRUE(m.declare_position('X', 5));
+        EXPECT_TRUE(m.declare_position('Y', 7)) << "several may be declared together";
+        refused(m.jog_by('X', 10, 20));
+        refused(m.jog('X', 20));
+        refused(m.home("X"));
+    });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 10, 20)); });
+    o.run(2);
+    EXPECT_NEAR(o.x(), 15, 1e-3);
+    EXPECT_NEAR(o.y(), 7, 1e-3);
+}
+
 TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X60 F300\nM2\n", "p")); });

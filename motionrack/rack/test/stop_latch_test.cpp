@@ -158,6 +158,23 @@ TEST(AStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
     EXPECT_LT(ran.x(), 32);
 }
 
+TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) {
+    const std::string fast = "G21 G90\nG1 X200 F6000\nM2\n";
+    const StoppedRun one_piece = run_stopped(stop_axes, fast, {"X.limit_plus=0@1s"});
+    ASSERT_FALSE(one_piece.outcome.ended);
+    EXPECT_TRUE(one_piece.outcome.position_trusted) << "the chip brakes within its piece";
+    // Of the pieces of a path with limited jerk each lasts for some milliseconds; the chip ends where one ends.
+    const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
+    for (const char* switches : {"X.limit_plus=0@1s", "Y.limit_plus=0@1s"}) {
+        const StoppedRun pieces = run_stopped(jerk, fast, {switches});
+        ASSERT_FALSE(pieces.outcome.ended) << switches;
+        EXPECT_FALSE(pieces.outcome.position_trusted) << switches << ": it went from 100 mm/s to 0 at once";
+        EXPECT_THAT(pieces.error(), HasSubstr("The position of X is not trusted any more: steps may have been lost"));
+    }
+    const StoppedRun slow = run_stopped(jerk, "G21 G90\nG1 X200 F60\nM2\n", {"X.limit_plus=0@1s"});
+    EXPECT_TRUE(slow.outcome.position_trusted) << "1 mm/s is below its start speed";
+}
+
 TEST(AStop, OfABrokenWireOfACardComesFromItsInput) {
     const std::string program = "G21 G90\nG1 X2000 F12000\nM2\n";
     const StoppedRun behind = run_stopped(carriage(), program, {"board.esl.broken@2s"});

@@ -1,0 +1,64 @@
+// Windows of pulses, from a stop on.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/ramp_watch.hpp>
+
+namespace motionrack::rack {
+
+RampWatch::RampWatch(Rack& rack)
+    : rack_(rack), kernel_(rack.kernel()), id_(kernel_.add(*this, sim::Phase::observers, "ramps")) {
+    for (std::size_t a = 0; a < rack_.axes().size(); ++a) {
+        const RackAxis& axis = rack_.axes()[a].config;
+        if (rack_.axes()[a].servo || rack_.config().positions_alone(axis)) continue;
+        const double units = axis.pulses_per_unit();
+        const JumpLaw law(axis.start_speed * units, axis.max_accel * units, period);
+        if (law.looks > 0) watched_.push_back({a, law});
+    }
+}
+
+/// As if each axis had come with the rate that it has.
+void RampWatch::begin(Instant now) {
+    state_ = {};
+    state_.on = 1;
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        const sim::Motion& pulses = rack_.axes()[watched_[i].axis].turned_by();
+        const double each = pulses.rate(now) * to_seconds(period);
+        const std::int64_t count = pulses.count(now);
+        for (std::size_t k = 0; k < counts_kept; ++k)
+            state_.counts[i][k] = count - std::llround(each * static_cast<double>(counts_kept - 1 - k));
+    }
+    kernel_.schedule(id_, later(now, period));
+}
+
+void RampWatch::look(std::size_t i, std::int64_t count) {
+    std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
+    std::rotate(counts.begin(), counts.begin() + 1, counts.end());
+    counts.back() = count;
+    const std::size_t looks = watched_[i].law.looks, last = counts_kept - 1;
+    if (watched_[i].law.jump_hz(counts[last - 2 * looks], counts[last - looks], count) > 0)
+        state_.jumped |= 1u << rack_.axes()[watched_[i].axis].config.index();
+}
+
+void RampWatch::act(Instant now) {
+    kernel_.schedule(id_, later(now, period));
+    for (std::size_t i = 0; i < watched_.size(); ++i) look(i, rack_.axes()[watched_[i].axis].turned_by().count(now));
+}
+
+/// The windows go on over what is not driven any more.
+void RampWatch::settle() {
+    if (state_.on == 0) return;
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        const std::int64_t count = rack_.axes()[watched_[i].axis].turned_by().count(kernel_.now());
+        for (std::size_t k = 0; k < 2 * watched_[i].law.looks; ++k) look(i, count);
+    }
+    state_.on = 0;
+    kernel_.schedule(id_, never);
+}
+
+void RampWatch::end() {
+    state_ = {};
+    kernel_.schedule(id_, never);
+}
+
+}  // namespace motionrack::rack
