@@ -175,9 +175,13 @@ class AxisCheck {
             warn("home_type", "homing",
                  fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
                              axis_.letter, h.type));
+        if (h.type >= 3 && !h.position && !h.index_after && source_.sound({"home_type"}))
+            warn("home_type", "homing",
+                 fmt::format("Axis {0} needs position_{1} or index_after_{1} to home to its index.", axis_.letter,
+                             axis_.unit()));
         const RackCard* card = config_.card(axis_.card);
-        const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
-        if (h.index_after && type != nullptr && type->position_loop)
+        if (const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
+            h.index_after && type != nullptr && type->position_loop)
             warn("index_after_{u}", "homing",
                  fmt::format("index_after_{} of axis {} is not looked at: its card takes the index under the cam only.",
                              axis_.unit(), axis_.letter));
@@ -185,11 +189,10 @@ class AxisCheck {
 
     void motor() {
         const std::string_view u = axis_.unit();
-        if (source_.sound({"start_speed_{u}_s", "max_speed_{u}_s"}) && axis_.start_speed > axis_.max_speed) {
+        if (source_.sound({"start_speed_{u}_s", "max_speed_{u}_s"}) && axis_.start_speed > axis_.max_speed)
             error("start_speed_{u}_s", {},
                   fmt::format("start_speed_{0}_s of axis {1} is {2}, above its max_speed_{0}_s, which is {3}.", u,
                               axis_.letter, number_text(axis_.start_speed), number_text(axis_.max_speed)));
-        }
         if (source_.sound({"max_jerk_{u}_s3"}) && axis_.max_jerk > 0 && axis_.max_jerk < 0.001) {
             error("max_jerk_{u}_s3", {},
                   fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it is 0 (trapezoids) or at least 0.001 {0}/s3.", u,

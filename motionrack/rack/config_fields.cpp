@@ -100,7 +100,7 @@ constexpr std::array<Field, 8> homing_table = {
                                                 "speed of the last approach, at most the start speed"),
                  "a quarter of the start speed; of a servo all of it"),
     absent_means(field<&RackHoming::position>("position_{u}", -1e7, 1e7, "{u}", "what the home place is called"),
-                 "where the switch's edge is"),
+                 "where the switch's edge is; types 3 and 4, by index_after behind it: one of both keys is needed"),
     absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
                                                  "how far behind the switch the index is (types 3 and 4); one that is "
                                                  "off by more than a quarter of a motor turn is not trusted"),

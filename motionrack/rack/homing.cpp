@@ -71,7 +71,8 @@ class Homing {
 
     /// The axes were only asked to stop; the latch knows why.
     void tell_stop() {
-        const StopLatch& latch = rack_.stop_latch();
+        StopLatch& latch = rack_.stop_latch();
+        latch.settle();
         if (!latch.latched() || latch.is_ordered()) return;
         if (out_.ended || out_.ended.error().trouble != Trouble::stopped) return;
         out_.ended = fail(Trouble::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
@@ -281,7 +282,13 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
     // The switch is active at and below its place: upwards it is its release that is searched.
     const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);
-    order.position = h.position.value_or(edge);
+    if (h.type >= 3 && !h.position && !h.index_after)
+        return refuse(
+            fmt::format("type {0} ends at the encoder's index, and nothing says where that is; give it position_{1} "
+                        "(what the index is called) or index_after_{1} (how far behind the switch it is)",
+                        h.type, axis.unit()));
+    const double to_home = h.type < 3 ? 0 : h.index_after.value_or(0);
+    order.position = h.position.value_or(plus ? edge + to_home : edge - to_home);
     order.clearance = h.clearance;
     order.switch_active_high = plus;
     order.switch_input = input_of(config, axis, cam ? "cam" : "home", type.home_pins);

@@ -25,6 +25,7 @@ limit_plus_mm = 302
 home_mm = 2
 [axis.X.homing]
 home_type = 4
+position_mm = 0
 [axis.Y]
 card = "motion"
 channel = "y"
@@ -58,7 +59,7 @@ TEST(RackHomes, AllAxesWithASwitchAtOnceAndTheirCountersAreTheMachine) {
     EXPECT_NEAR(y.measured_position, 1, 1e-9);
     EXPECT_NEAR(x.machine_position, 0, 1e-9) << "the index is at whole turns of 5 mm, the switch at 2 mm";
     EXPECT_NEAR(*x.outcome.switch_to_index, 2, 1e-9);
-    EXPECT_NEAR(x.counter_position, 2, 1e-9) << "the file does not say that the index is at 0 mm";
+    EXPECT_NEAR(x.counter_position, 0, 1e-9);
     EXPECT_LT(y.outcome.took_s, x.outcome.took_s);
     EXPECT_NEAR(out.seconds, x.outcome.took_s, 0.005);
 }
@@ -169,6 +170,28 @@ TEST(RackHomes, ToNoOtherIndexThanTheFirstTime) {
     EXPECT_THAT(moved.ended.error().message, HasSubstr("2.0000 mm behind the switch, where it should be 4.0000 mm"));
     EXPECT_FALSE(moved.all_homed());
     EXPECT_EQ(seen[0], 4) << "a search that failed teaches nothing";
+}
+
+TEST(RackHomes, CallsTheIndexByItsWayBehindTheSwitch) {
+    std::string text = two_axes;
+    const auto place = text.find("position_mm = 0");
+    text.replace(place, 15, "index_after_mm = 2.1");  // it is 2 mm, and moves nothing that is within a quarter turn
+    const HomingOutcome out = homed(text);
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_NEAR(out.axes[0].counter_position, 2 - 2.1, 0.5 / 640);
+}
+
+TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
+    std::string text = two_axes;
+    text.erase(text.find("position_mm = 0"), 15);
+    const RackReading reading = read_rack_text(text);
+    ASSERT_TRUE(reading.config);
+    std::string warnings;
+    for (const Error& warning : reading.warnings) warnings += warning.message + "\n";
+    EXPECT_THAT(warnings, HasSubstr("Axis X needs position_mm or index_after_mm to home to its index"));
+    const HomingOutcome out = homed(text);
+    ASSERT_FALSE(out.ended);
+    EXPECT_THAT(out.ended.error().message, HasSubstr("give it position_mm (what the index is called)"));
 }
 
 TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
