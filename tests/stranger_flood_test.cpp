@@ -8,6 +8,7 @@
 #include <fstream>
 #include <motionrack/journal/journal.hpp>
 #include <random>
+#include <tests/environment.hpp>
 #include <tests/ran.hpp>
 #include <tests/served_program.hpp>
 #include <thread>
@@ -178,8 +179,9 @@ TEST_F(AFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
     EXPECT_LT((*book)->read({0, "", 10000})->size(), 400u);
 }
 
+/// Or of MOTIONRACK_FLOOD_SECONDS.
 TEST_F(AFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsHeard) {
-    const Seen seen = flood_beside(0, std::chrono::seconds(60));
+    const Seen seen = flood_beside(0, std::chrono::seconds(from_environment("MOTIONRACK_FLOOD_SECONDS", 60)));
     tell(seen);
     EXPECT_EQ(seen.lost, 0u);
     EXPECT_LT(seen.disk, 10'000'000);

@@ -1,4 +1,5 @@
 // TLS: with a certificate that the test makes.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
@@ -6,6 +7,7 @@
 
 #include <motionrack/frontends/server/service.hpp>
 
+#include "flood.hpp"
 #include "running.hpp"
 
 namespace motionrack::server {
@@ -80,6 +82,17 @@ TEST_F(ATlsServer, SaysNothingToWhoSpeaksWithoutTls) {
     EXPECT_EQ(client.ask("GET", "/").status, 0);
     WebClient good(running.port(), true);
     EXPECT_EQ(good.ask("POST", "/api/stop").status, 200);
+}
+
+TEST_F(ATlsServer, HearsStopInAFloodOfHandshakesThatEndNowhere) {
+    Running running(tls());
+    const std::string half_a_hello("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
+    for (const std::string& says : {std::string(), half_a_hello, std::string("GET / HTTP/1.1\r\n\r\n")})
+        for (const std::size_t held : {0u, 400u}) {
+            const Flood flood(running.port(), held, Flood::Address::another, says);
+            expect_stops_heard(flood, fmt::format("{} bytes said, {} connections held", says.size(), held),
+                               [&] { return WebClient(running.port(), true).ask("POST", "/api/stop").status; });
+        }
 }
 
 TEST_F(ATlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
