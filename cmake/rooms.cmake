@@ -62,9 +62,14 @@ if(MOTIONRACK_UNITY)
 endif()
 
 # motionrack_compile_quickly(TARGET): code that is compiled longer than it runs (the network, the command line, tests)
-# is optimised less.
+# is optimised less: by MOTIONRACK_QUICK, or -O1 where the rest of a Release has more.
+set(MOTIONRACK_QUICK "" CACHE STRING "Compiler option for code that is compiled longer than it runs")
 function(motionrack_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(MOTIONRACK_QUICK)
+    target_compile_options(${target} PRIVATE ${MOTIONRACK_QUICK})
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
 endfunction()
 
 # motionrack_room(NAME [FAST] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME,

@@ -81,6 +81,8 @@ void Invariants::see(const Sight& now) {
         last_.alarms = nullptr;
         return see_alarms(now);
     }
+    searched_ = searches_;
+    searches_ = now.state == MachineState::homing || (searches_ && moves(now.state));
     see_time(now);
     see_motion(now);
     see_counters(now);
@@ -91,6 +93,7 @@ void Invariants::see(const Sight& now) {
     see_alarms(now);
     if (now.latched && now.abrupt) jumped_ = true;
     if (now.at - base_at_ >= interval) end_interval(now);
+    see_jumps(now);
     if (may_declare_ > 0) --may_declare_;
     if (may_move_ > 0) --may_move_;
     last_ = now;
@@ -133,8 +136,7 @@ void Invariants::see_motion(const Sight& now) {
 
 /// Where nothing is homed or declared counters change with the pulses.
 void Invariants::see_counters(const Sight& now) {
-    const bool by_order = now.state == MachineState::homing || last_.state == MachineState::homing ||
-                          (operate::idle(now.state) && (!knows_orders_ || may_declare_)) ||
+    const bool by_order = searches_ || searched_ || (operate::idle(now.state) && (!knows_orders_ || may_declare_)) ||
                           (operate::idle(last_.state) && (!knows_orders_ || may_declare_));
     for (std::size_t i = 0; i < facts_.size() && !by_order; ++i) {
         if (facts_[i].servo || !now.axes[i].trusted) continue;
@@ -184,8 +186,9 @@ void Invariants::see_positions(const Sight& now) {
     }
 }
 
+/// A search for home goes beyond it on purpose, and may have to stop there.
 void Invariants::see_travel(const Sight& now) {
-    if (now.state == MachineState::homing) return;
+    if (searches_) return;
     for (std::size_t i = 0; i < facts_.size(); ++i) {
         const AxisSight &axis = now.axes[i], &before = last_.axes[i];
         if (!axis.trusted || !before.trusted || facts_[i].servo || !moved(i, now)) continue;
@@ -209,15 +212,20 @@ void Invariants::see_stop(const Sight& now) {
                           operate::name_of(last_.state)));
     if (last_.state == MachineState::error_stop && now.state != MachineState::error_stop) {
         const bool rests = now.state == MachineState::standstill || now.state == MachineState::disabled;
-        if ((now.latched && stop_due_ == 0) || (knows_orders_ && !reset_) ||
-            (!rests && !(knows_orders_ && may_move_ > 0)))
+        if ((knows_orders_ && !reset_) || (!rests && !(knows_orders_ && may_move_ > 0)))
             found(Rule::reset_is_needed, now.at,
-                  fmt::format("the error stop ended in the state '{}' {}", operate::name_of(now.state),
-                              now.latched ? "while what stopped the machine is in force" : "without a reset"));
+                  fmt::format("the error stop ended in the state '{}' without a reset", operate::name_of(now.state)));
     }
+    // One that comes with the reset is looked at in the next slice.
+    const bool unheeded = now.latched && operate::idle(now.state) && now.state != MachineState::error_stop;
+    unheeded_ = unheeded ? unheeded_ + 1 : 0;
+    if (unheeded_ > 3)
+        found(Rule::reset_is_needed, now.at,
+              fmt::format("the machine is in the state '{}' while a stop is in force", operate::name_of(now.state)));
     if (last_.latched && !now.latched && knows_orders_ && !reset_)
         found(Rule::reset_is_needed, now.at, "the stop ended without a reset");
-    if (operate::idle(now.state) && now.state != MachineState::error_stop && !now.latched) reset_ = false;
+    const bool rests = operate::idle(now.state) && now.state != MachineState::error_stop;
+    if (rests && !now.latched && stop_due_ == 0) reset_ = false;
     if (now.latched == last_.latched) return;
     latched_at_ = now.at;
     stands_by_ = never;
@@ -316,12 +324,24 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
     const double change = std::fabs(velocity - own_[i].velocity);
     const double allowed = facts.max_accel * 1.05 * (seconds + last_seconds_) / 2 + facts.velocity_step * 1.15 +
                            2 * rounding(i, seconds) + 2 * rounding(i, last_seconds_);
-    if (change > allowed)
-        found(Rule::limits_kept, now.at,
-              fmt::format("the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its "
-                          "limits explain {:g} (state '{}')",
-                          facts.letter, own_[i].velocity, velocity, seconds, change, allowed,
-                          operate::name_of(now.state)));
+    if (change <= allowed) return;
+    std::string text = fmt::format(
+        "the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its limits explain {:g} "
+        "(state '{}')",
+        facts.letter, own_[i].velocity, velocity, seconds, change, allowed, operate::name_of(now.state));
+    if (now.latched && std::fabs(velocity) < std::fabs(own_[i].velocity))
+        own_[i].jumped = std::move(text);
+    else
+        found(Rule::limits_kept, now.at, std::move(text));
+}
+
+/// A card may have to end its pulses without a ramp in a stop; then the axis is not trusted once the machine stands.
+void Invariants::see_jumps(const Sight& now) {
+    for (std::size_t i = 0; i < facts_.size(); ++i) {
+        if (!now.axes[i].trusted) own_[i].jumped.clear();
+        if (own_[i].jumped.empty() || (now.latched && now.state != MachineState::error_stop)) continue;
+        found(Rule::limits_kept, now.at, std::exchange(own_[i].jumped, {}) + ", and it is trusted");
+    }
 }
 
 }  // namespace motionrack::test

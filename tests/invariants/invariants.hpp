@@ -101,6 +101,7 @@ class Invariants {
         bool off = false;
         double velocity = 0;    ///< of the interval before
         std::int64_t base = 0;  ///< pulses at the begin of the interval
+        std::string jumped;     ///< in a stop that goes on: what its velocity did
     };
     bool moved(std::size_t i, const Sight& now) const { return now.axes[i].sent != last_.axes[i].sent; }
     void see_time(const Sight& now);
@@ -112,6 +113,7 @@ class Invariants {
     void see_parts(const Sight& now);
     void see_alarms(const Sight& now);
     void end_interval(const Sight& now);
+    void see_jumps(const Sight& now);
     void see_limits(std::size_t i, double velocity, double seconds, const Sight& now);
     void see_braking(double seconds, const Sight& now);
     double rounding(std::size_t i, double seconds) const { return 1 / (facts_[i].pulses_per_unit * seconds); }
@@ -122,6 +124,7 @@ class Invariants {
     std::vector<Finding> findings_;
     std::set<Rule> told_;
     bool first_ = true;
+    bool searches_ = false, searched_ = false;  ///< for home, or stops on the way to it; in the picture before
     Sight last_;
     std::vector<Own> own_;
     // orders
@@ -136,6 +139,7 @@ class Invariants {
     double lowest_ = 0;
     bool stood_ = false;
     bool linear_moves_ = false;
+    int unheeded_ = 0;  ///< pictures of an idle machine in a stop
     // alarms
     std::int64_t last_alarm_ = 0;
     std::set<std::string> alarm_texts_;

@@ -195,6 +195,14 @@ const Broken broken[] = {
          h.jump(20);
          h.pass(0.03);
      }},
+    {"a_stop_without_a_ramp_that_keeps_trust", Rule::limits_kept,
+     [](History& h) {
+         h.begin();
+         h.latch(true);
+         h.jump(0);
+         h.to(MachineState::error_stop);
+         h.pass(0.1);
+     }},
     {"beyond_its_travel", Rule::travel_kept,
      [](History& h) {
          h.begin();
@@ -250,6 +258,19 @@ TEST(AGoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
     h.begin();
     h.latch(true, true);
     h.jump(0);
+    h.now().axes[0].trusted = false;
+    h.to(MachineState::error_stop);
+    h.pass(0.3);
+    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
+TEST(AGoodHistory, MayEndPulsesAtOnceIfThatTakesTheTrust) {
+    History h;
+    h.begin();
+    h.latch(true);
+    h.jump(0);
+    h.to(MachineState::stopping);
+    h.pass(0.02);
     h.now().axes[0].trusted = false;
     h.to(MachineState::error_stop);
     h.pass(0.3);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <future>
 #include <motionrack/base/fnv.hpp>
@@ -36,6 +36,7 @@ namespace fs = std::filesystem;
 enum class Ending : std::uint8_t { clean, killed, power };
 constexpr std::array ending_names = {"ends clean", "is killed", "loses power"};
 
+constexpr std::size_t events_kept = 12;
 /// mm: a record that is trusted says where the machine stands.
 constexpr double record_tolerance = 0.05;
 
@@ -154,7 +155,8 @@ class Lives {
         truth_ = places();
         book_.reset();
         cut_off_ = forbidden_ != 0 || ending_ != Ending::clean;
-        if (journal_ && ending_ == Ending::clean && !journal_->close()) cut_off_ = true;
+        // An end that could not be written may be there all the same.
+        if (journal_ && ending_ == Ending::clean) (void)journal_->close();
         journal_.reset();
         watch_.reset();
         machine_.reset();
@@ -242,7 +244,12 @@ class Lives {
     void order(const DrawnOrder& drawn) {
         const Result<void> taken = drawn.give(*machine_, draws_);
         out_.refused += !taken;
-        if (std::getenv("SWARM_SAY")) fmt::print(stderr, "   {:.4f} {} {} [{}] x {:.4f} place {:.4f} trusted {}\n", to_seconds(machine_->now()), drawn.name, taken ? "ok" : taken.error().message, operate::name_of(machine_->status().state), machine_->status().axes[0].commanded, machine_->status().axes[0].place, machine_->status().axes[0].trusted);
+        tell(fmt::format("{}{}", drawn.name, taken ? "" : ": " + taken.error().message));
+        if (std::getenv("SWARM_SAY"))
+            fmt::print(stderr, "   {:.4f} {} {} [{}] x {:.4f} place {:.4f} trusted {}\n", to_seconds(machine_->now()),
+                       drawn.name, taken ? "ok" : taken.error().message, operate::name_of(machine_->status().state),
+                       machine_->status().axes[0].commanded, machine_->status().axes[0].place,
+                       machine_->status().axes[0].trusted);
         if (!taken) return;
         ++out_.taken;
         if (drawn.changes) watch_->invariants().ordered(*drawn.changes);
@@ -265,6 +272,7 @@ class Lives {
         const DrawnFault fault = draw_fault(*machine_, draws_);
         if (fault.text.empty()) return;
         ++out_.faults;
+        tell(fault.text);
         if (fault.disturbs) watch_->invariants().disturbed();
     }
 
@@ -316,7 +324,16 @@ class Lives {
         }
     }
 
+    /// For whoever looks for a cause.
+    void tell(const std::string& event) {
+        const operate::AxisStatus& first = machine_->status().axes.front();
+        out_.story.push_back(fmt::format("{:9.4f} s, {}, {} {:.4f}{}: {}", to_seconds(machine_->now()),
+                                         operate::name_of(machine_->status().state), first.letter, first.commanded,
+                                         first.trusted ? "" : "?", event));
+        if (out_.story.size() > events_kept) out_.story.pop_front();
+    }
     void found(const Finding& finding) {
+        if (!out_.finding && machine_) tell("found; " + machine_->status().why);
         if (!out_.finding) out_.finding = finding;
     }
     void hash(std::uint64_t value) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <tests/invariants/invariants.hpp>
@@ -21,6 +22,7 @@ namespace motionrack::swarm {
 struct SeedEnd {
     std::optional<test::Finding> finding;  ///< the first law that was broken
     std::string what;                      ///< what the seed was: the rack, and how its lives ended
+    std::deque<std::string> story;         ///< the last orders and faults
     int taken = 0, refused = 0;            ///< orders
     int lives = 0, faults = 0;
     std::uint64_t history = 0;  ///< hash of all pictures, entries and orders

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdlib>
 #include <limits>
 #include <motionrack/rack/faults.hpp>
 #include <tests/random_program.hpp>
@@ -80,8 +79,7 @@ Result<void> begin_program(Machine& machine, Draws& draws) {
     return machine.begin_program(some_program(machine, draws), "swarm.ngc");
 }
 Result<void> line(Machine& machine, Draws& draws) {
-    const std::string text = some_line(machine, draws); if (std::getenv("SWARM_SAY")) fmt::print(stderr, "  LINE {}\n", text);
-    const auto taken = machine.line(text, 1);
+    const auto taken = machine.line(some_line(machine, draws), 1);
     return taken ? Result<void>() : Result<void>(tl::unexpected<Error>(taken.error()));
 }
 Result<void> hold(Machine& machine, Draws&) {

@@ -45,8 +45,10 @@ TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
         taken += end.taken;
         faults += end.faults;
         ASSERT_FALSE(end.finding) << fmt::format(
-            "at {:.6f} s: {}: {}\n({})\nIt is run again with: MOTIONRACK_SEED={} MOTIONRACK_MACHINES=1 ./test -R swarm",
-            to_seconds(end.finding->at), name_of(end.finding->rule), end.finding->text, end.what, first + i);
+            "at {:.6f} s: {}: {}\n({})\n{}\nIt is run again with: MOTIONRACK_SEED={} MOTIONRACK_MACHINES=1 ./test -R "
+            "swarm",
+            to_seconds(end.finding->at), name_of(end.finding->rule), end.finding->text, end.what,
+            fmt::join(end.story, "\n"), first + i);
     }
     if (count < 10 * parts) return;
     EXPECT_GT(taken, 0);
