@@ -228,11 +228,12 @@ MR_API uint64_t mr_state_hash(const mr_rack* rack);
  * (time_s, signal, value: each change a line). `signals`: patterns with * and ?, separated by blanks or commas ("X.*
  * c1.xlmtp"); NULL or "": every wire, the pulses of each axis (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b)
  * and the card's counters (c1.xlp, c1.xep), these once a millisecond. Pins that a card drives on demand (c1.xpp) are
- * recorded if a pattern names them. One recording at a time. MR_BAD_CALL (null, no signal fits), MR_REFUSED (another
- * ending, .h5 among them; one runs already), MR_IO. */
+ * recorded if a pattern names them. One recording at a time; one that mr_trace_stop could not end is given up for the
+ * new one. MR_BAD_CALL (null, no signal fits), MR_REFUSED (another ending, .h5 among them; one runs already), MR_IO. */
 MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
 
-/* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole). */
+/* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole: the
+ * recording goes on; make room and end it again, or begin another). */
 MR_API int mr_trace_stop(mr_rack* rack);
 
 #ifdef __cplusplus

@@ -158,9 +158,11 @@ Result<void> NewFile::commit() {
         trouble_ = "it was made, but is not what is there now";
         good = false;
     }
-    if (!good && part_ == Part::remove) (void)::unlink(made_.c_str());
-    if (!close() && good) good = fail_with(errno);
     if (!good) return told();
+    if (!close()) {
+        (void)fail_with(errno);
+        return told();
+    }
     if (in_place || sync_folder_of(path_)) return {};
     trouble_ = "it is there, but may be gone after a power failure: " + std::string(std::strerror(EIO));
     return told();

@@ -48,8 +48,14 @@ class NewFile {
     /// Where the bytes are until commit(): for a library that opens files by their names. What it writes is not read
     /// back here.
     const std::string& path_until_whole() const { return made_; }
-    /// False: it could not be written; see trouble(). Nothing is written after a failure.
+    /// False: it could not be written; see trouble(). Nothing is written after a failure; written() says how far it
+    /// came.
     bool write(std::string_view bytes);
+    /// Forgets a failure: who has kept what was not written writes it now, and commits once more. Nothing of a file
+    /// that has ended.
+    void try_again() {
+        if (file_ >= 0) trouble_.clear();
+    }
     std::uint64_t written() const { return written_; }
     /// The first reason of a failure; empty: none.
     const std::string& trouble() const { return trouble_; }
@@ -57,7 +63,7 @@ class NewFile {
     void keep_part() { part_ = Part::keep; }
     bool is_part_kept() const { return part_ == Part::keep; }
     /// Puts it on the disk, compares what is there with what was written, and gives it its name. Errors: io, with the
-    /// reason alone. Done once; later calls do nothing.
+    /// reason alone; it may be tried again. Done once; later calls do nothing.
     Result<void> commit();
     /// Errors: io, the first failure as a sentence, for a file whose part is kept; `kind`: "CSV".
     Result<void> told(std::string_view kind) const;

@@ -116,7 +116,7 @@ std::unique_ptr<Session> Session::copy() {
 }
 
 Result<void> Session::start_trace(const std::string& path, std::string_view signals) {
-    if (recorder_)
+    if (recorder_ && !recorder_->failed())
         return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
     WaveSettings settings;
     settings.path = path;
@@ -135,9 +135,14 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
 
 Result<void> Session::stop_trace() {
     if (!recorder_) return fail(Trouble::refused, "No recording runs; nothing was done.");
-    const std::unique_ptr<WaveRecorder> ended = std::move(recorder_);
+    Result<void> ended = recorder_->finish();
+    if (!ended) {
+        ended.error().message += " The recording goes on; end it again, or begin another in its place.";
+        return ended;
+    }
+    recorder_.reset();
     next_look_ = never;
-    return ended->finish();
+    return {};
 }
 
 }  // namespace motionrack::rack

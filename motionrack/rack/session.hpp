@@ -63,10 +63,10 @@ class Session {
 
     // ---- recordings
     /// Begins one; its name ends in .vcd or .csv. `signals`: patterns with * and ?, separated by blanks or commas;
-    /// empty: all but the pins that cards drive on demand. Errors: refused (one runs already, the name's ending),
-    /// bad_input (no signal fits), io.
+    /// empty: all but the pins that cards drive on demand. One whose end failed is given up for it. Errors: refused
+    /// (one runs already, the name's ending), bad_input (no signal fits), io.
     Result<void> start_trace(const std::string& path, std::string_view signals);
-    /// Ends it. Errors: refused (none runs), io.
+    /// Ends it. Errors: refused (none runs), io: it goes on, and what could not be written is kept for the next time.
     Result<void> stop_trace();
 
   private:

@@ -92,9 +92,15 @@ std::uint64_t WaveRecorder::Counter::value() const {
 
 // ---- choosing
 
-WireTap::WireTap(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "tap")) {
+WireTap::WireTap(sim::Kernel& kernel)
+    : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "tap")), followers_(kernel.wire_count()) {
     for (std::size_t i = 0; i < kernel.wire_count(); ++i)
         if (kernel.lazy(static_cast<sim::WireId>(i))) kernel.listen(static_cast<sim::WireId>(i), id_, 0);
+}
+
+void WireTap::follow(sim::WireId wire, bool wanted) {
+    followers_[sim::Kernel::index(wire)] += wanted ? 1 : -1;
+    kernel_.want(wire, id_, followers_[sim::Kernel::index(wire)] > 0);
 }
 
 WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
@@ -255,14 +261,16 @@ void WaveRecorder::stop_listening() {
 }
 
 Result<void> WaveRecorder::finish() {
-    stop_listening();
     look();
     drain();
-    const Result<void> closed = sink_->close(std::max(rack_.kernel().now(), last_));
-    if (!closed || lost_ == 0) return closed;
-    return fail(
-        Trouble::io,
-        fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
+    Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));
+    if (ended && lost_ > 0)
+        ended = fail(
+            Trouble::io,
+            fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
+    failed_ = !ended;
+    if (ended) stop_listening();
+    return ended;
 }
 
 }  // namespace motionrack::rack

@@ -24,12 +24,14 @@ class WireTap final : public sim::Device {
   public:
     /// Before the rack is started and after everything else was built.
     explicit WireTap(sim::Kernel& kernel);
-    void follow(sim::WireId wire, bool wanted) { kernel_.want(wire, id_, wanted); }
+    /// Counted: a wire is wanted until each of its followers has left it.
+    void follow(sim::WireId wire, bool wanted);
     void act(Instant) override {}
 
   private:
     sim::Kernel& kernel_;
     sim::DeviceId id_;
+    std::vector<int> followers_;  ///< of each wire of the kernel
 };
 
 struct WaveSettings {
@@ -57,8 +59,10 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     void look() { look_at_cards(rack_.kernel().now()); }
     /// Between runs: writes what has come together.
     void drain();
-    /// Ends the file and listens no more. Errors: io.
+    /// Ends the file and listens no more. Errors: io; it goes on then, so that it can be tried again.
     Result<void> finish();
+    /// The last finish() failed.
+    bool failed() const { return failed_; }
     std::uint64_t changes() const { return changes_; }
     Duration register_period() const { return register_period_; }
 
@@ -106,6 +110,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     sim::DeviceId id_{};
     bool is_device_ = false;
     bool recording_ = false;
+    bool failed_ = false;
     std::vector<WaveSignal> signals_;
     std::unique_ptr<WaveSink> sink_;
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded

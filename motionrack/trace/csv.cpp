@@ -94,6 +94,7 @@ CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
     if (this == &other) return *this;
     if (file_) write_out();
     file_ = std::move(other.file_);
+    gave_up_ = other.gave_up_;
     buffer_ = std::move(other.buffer_);
     columns_ = other.columns_;
     fields_ = other.fields_;
@@ -143,12 +144,18 @@ void CsvWriter::end_line() {
     MOTIONRACK_ASSERT(fields_ == columns_);
     fields_ = 0;
     buffer_ += "\r\n";
-    if (buffer_.size() >= csv_buffer_size) write_out();
+    if (buffer_.size() < csv_buffer_size) return;
+    write_out();
+    gave_up_ = gave_up_ || !buffer_.empty();
+    buffer_.clear();
 }
 
+/// What could not be written stays in the buffer.
 void CsvWriter::write_out() {
+    if (!gave_up_) file_.try_again();
+    const std::uint64_t before = file_.written();
     (void)file_.write(buffer_);
-    buffer_.clear();
+    buffer_.erase(0, file_.written() - before);
 }
 
 Result<void> CsvWriter::flush() {
@@ -158,7 +165,6 @@ Result<void> CsvWriter::flush() {
 }
 
 Result<void> CsvWriter::close() {
-    if (!file_) return {};
     write_out();
     (void)file_.commit();
     return file_.told("CSV");

@@ -44,7 +44,8 @@ class CsvWriter {
 
     /// The lines so far are in the file, whatever becomes of this program. Errors: as close.
     Result<void> flush();
-    /// Errors: io, the first error met; what was written is kept under the name that the sentence says.
+    /// Errors: io, the first error met; what was written is kept under the name that the sentence says. If only the
+    /// end is missing it can go on and be closed again.
     Result<void> close();
 
   private:
@@ -55,6 +56,7 @@ class CsvWriter {
     void write_out();
 
     disk::NewFile file_;
+    bool gave_up_ = false;  ///< bytes were left out: the file cannot become whole
     std::string buffer_;
     std::size_t columns_ = 0;
     std::size_t fields_ = 0;

@@ -113,6 +113,7 @@ VcdWriter& VcdWriter::operator=(VcdWriter&& other) noexcept {
     if (file_) flush();
     path_ = std::move(other.path_);
     file_ = std::move(other.file_);
+    gave_up_ = other.gave_up_;
     timescale_ = other.timescale_;
     variables_ = std::move(other.variables_);
     names_ = std::move(other.names_);
@@ -233,12 +234,13 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
 }
 
 Result<void> VcdWriter::close(Instant end) {
-    if (!file_) return {};
-    if (declaring_) end_declarations();
-    room(longest_change);
-    if (end > now_) advance(end);
-    flush();
-    (void)file_.commit();
+    if (file_ && !gave_up_) {
+        if (declaring_) end_declarations();
+        room(longest_change);
+        if (end > now_) advance(end);
+        write_out();
+        (void)file_.commit();
+    }
     return file_.told("VCD");
 }
 
@@ -277,8 +279,20 @@ void VcdWriter::room(std::size_t bytes) {
     if (buffer_.size() - used_ < bytes) flush();
 }
 
-void VcdWriter::flush() {
+/// What could not be written stays in the buffer.
+void VcdWriter::write_out() {
+    if (!gave_up_) file_.try_again();
+    const std::uint64_t before = file_.written();
     (void)file_.write({buffer_.data(), used_});
+    const auto done = static_cast<std::size_t>(file_.written() - before);
+    used_ -= done;
+    std::memmove(buffer_.data(), buffer_.data() + done, used_);
+}
+
+/// Makes the buffer empty, come what may.
+void VcdWriter::flush() {
+    write_out();
+    gave_up_ = gave_up_ || used_ > 0;
     used_ = 0;
 }
 

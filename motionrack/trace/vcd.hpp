@@ -65,7 +65,8 @@ class VcdWriter {
     const std::string& path() const { return path_; }
 
     /// Ends the file at `end` (not before the last change), so that viewers show the time after the last change.
-    /// Errors: io, the first error met. The changes of a writer that is destroyed unclosed stay in `NAME.new`.
+    /// Errors: io, the first error met; if only the end is missing it can go on and be closed again. The changes of a
+    /// writer that is destroyed unclosed stay in `NAME.new`.
     Result<void> close(Instant end);
 
   private:
@@ -86,11 +87,13 @@ class VcdWriter {
     void put_value(const Variable& variable);
     void room(std::size_t bytes);
     void flush();
+    void write_out();
     void advance(Instant at);
     void put_time(std::int64_t units);
 
     std::string path_;
     disk::NewFile file_;
+    bool gave_up_ = false;  ///< bytes were left out: the file cannot become whole
     std::int64_t timescale_ = 1;
     std::vector<Variable> variables_;
     std::vector<std::set<std::string>> names_;  ///< those of each open scope

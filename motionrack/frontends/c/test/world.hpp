@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <motionrack/c.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <string>
 
 namespace motionrack::c_test {
 
@@ -73,5 +78,23 @@ class World {
 
     mr_rack* rack = nullptr;
 };
+
+// ---- files
+
+inline std::string temporary(const std::string& name) {
+    return (std::filesystem::temp_directory_path() / ("motionrack_c_" + std::to_string(::getpid()) + "_" + name))
+        .string();
+}
+
+inline std::string text_of_file(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline int count_of(const std::string& text, const std::string& what) {
+    int out = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++out;
+    return out;
+}
 
 }  // namespace motionrack::c_test

@@ -1,10 +1,7 @@
 // Whole worlds over the C interface: copies, hashes, registers by name, recordings; and the same world over C++.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <motionrack/frontends/c/test/world.hpp>
 #include <motionrack/rack/session.hpp>
 #include <string>
@@ -165,22 +162,6 @@ TEST(CWorld, PeeksShowEachAxisWhateverTheBusShows) {
 }
 
 // ---- recordings
-
-std::string temporary(const std::string& name) {
-    return (std::filesystem::temp_directory_path() / ("motionrack_c_" + std::to_string(::getpid()) + "_" + name))
-        .string();
-}
-
-std::string text_of_file(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-int count_of(const std::string& text, const std::string& what) {
-    int out = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++out;
-    return out;
-}
 
 TEST(CWorld, RecordsSignalsAtAnyTime) {
     const std::string csv = temporary("a.csv"), vcd = temporary("b.vcd");
