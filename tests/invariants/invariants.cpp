@@ -210,21 +210,19 @@ void Invariants::see_stop(const Sight& now) {
         found(Rule::stop_is_taken, now.at,
               fmt::format("a stop was ordered in the state '{}', and no stop is in force",
                           operate::name_of(last_.state)));
+    const bool rests = operate::idle(now.state) && now.state != MachineState::error_stop;
     if (last_.state == MachineState::error_stop && now.state != MachineState::error_stop) {
-        const bool rests = now.state == MachineState::standstill || now.state == MachineState::disabled;
         if ((knows_orders_ && !reset_) || (!rests && !(knows_orders_ && may_move_ > 0)))
             found(Rule::reset_is_needed, now.at,
                   fmt::format("the error stop ended in the state '{}' without a reset", operate::name_of(now.state)));
     }
     // One that comes with the reset is looked at in the next slice.
-    const bool unheeded = now.latched && operate::idle(now.state) && now.state != MachineState::error_stop;
-    unheeded_ = unheeded ? unheeded_ + 1 : 0;
+    unheeded_ = now.latched && rests ? unheeded_ + 1 : 0;
     if (unheeded_ > 3)
         found(Rule::reset_is_needed, now.at,
               fmt::format("the machine is in the state '{}' while a stop is in force", operate::name_of(now.state)));
     if (last_.latched && !now.latched && knows_orders_ && !reset_)
         found(Rule::reset_is_needed, now.at, "the stop ended without a reset");
-    const bool rests = operate::idle(now.state) && now.state != MachineState::error_stop;
     if (rests && !now.latched && stop_due_ == 0) reset_ = false;
     if (now.latched == last_.latched) return;
     latched_at_ = now.at;

@@ -127,7 +127,8 @@ class Lives {
         ends_ = from_seconds(draws_.number(0.2, 2.5));
         next_ = Instant{};
         is_last_ = last;
-        phase_ = forbidden_ = 0;
+        phase_ = 0;
+        finished_ = forbidden_ = false;
         machine_->run();
         end();
     }
@@ -154,7 +155,7 @@ class Lives {
     void end() {
         truth_ = places();
         book_.reset();
-        cut_off_ = forbidden_ != 0 || ending_ != Ending::clean;
+        cut_off_ = forbidden_ || ending_ != Ending::clean;
         // An end that could not be written may be there all the same.
         if (journal_ && ending_ == Ending::clean) (void)journal_->close();
         journal_.reset();
@@ -219,11 +220,15 @@ class Lives {
                 order(draw_order(draws_));
             next_ += from_seconds(draws_.one_in(3) ? draws_.number(0.1, 0.5) : draws_.number(0, 0.05));
         }
-        if (now >= ends_) is_last_&& forbidden_ == 0 ? use_again(now) : finish();
+        if (now < ends_) return;
+        if (is_last_ && !forbidden_)
+            use_again(now);
+        else
+            finish();
     }
 
     void finish() {
-        if (std::exchange(phase_, 99) == 99) return;
+        if (std::exchange(finished_, true)) return;
         if (ending_ != Ending::clean) {  // nothing of what follows is in the record
             lose_power_after_ = disk_->calls();
             book_.reset();
@@ -234,10 +239,10 @@ class Lives {
 
     /// As a server does it.
     void look_at_journal() {
-        if (forbidden_ != 0 || !journal_) return;
+        if (forbidden_ || !journal_) return;
         const std::string failure = journal_->failure();
         if (failure.empty()) return;
-        forbidden_ = 1;
+        forbidden_ = true;
         machine_->forbid_starts("journal", failure);
     }
 
@@ -358,7 +363,8 @@ class Lives {
     std::unique_ptr<Machine> machine_;
     std::optional<test::MachineWatch> watch_;
     Instant next_{}, ends_{}, wait_until_{};
-    int phase_ = 0, forbidden_ = 0;
+    int phase_ = 0;  ///< of use_again()
+    bool forbidden_ = false, finished_ = false;
 };
 
 }  // namespace

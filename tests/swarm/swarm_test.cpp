@@ -1,34 +1,21 @@
 // Thousands of machines, each from a seed. MOTIONRACK_SEED=N picks the first, MOTIONRACK_MACHINES=N how many.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
+#include <motionrack/trace/test/scratch.hpp>
+#include <string>
 #include <tests/environment.hpp>
 #include <tests/swarm/life.hpp>
 
 namespace motionrack::swarm {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A folder that goes with it.
-class Scratch {
-  public:
-    Scratch() : path_(fs::path(testing::TempDir()) / fmt::format("swarm_{}", ::getpid())) {
-        fs::remove_all(path_);
-        fs::create_directories(path_);
-    }
-    ~Scratch() { fs::remove_all(path_); }
-    std::string path() const { return path_.string(); }
-
-  private:
-    fs::path path_;
-};
-
 SeedEnd driven(std::uint64_t seed) {
-    const Scratch folder;
-    return drive_seed(seed, folder.path());
+    const trace::Scratch scratch;
+    const std::string folder = scratch.path("journals");
+    std::filesystem::create_directory(folder);
+    return drive_seed(seed, folder);
 }
 
 /// So that shards share the seeds.
