@@ -246,7 +246,7 @@ void Machine::reset(const StopOrigin& by) {
     StopReport report = stop_report(now(), by, state_, at_work());
     report.releases = idle(state_);
     cancel();
-    reset_wanted_ = true;
+    reset_wanted_ = rack_.stop_latch().trips();
     tell_stop(report, status_.why, stop_listeners_);
 }
 

@@ -200,10 +200,11 @@ class Machine {
     Door door_;
     std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
-    bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;
-    bool stop_taken_ = false;  ///< what the stop latch stops was told to
-    std::string no_starts_;    ///< why nothing may be begun; empty: it may
-    std::string ordered_by_;   ///< the STOP that is in force, in words; empty: nobody gave one
+    bool quit_ = false, stop_wanted_ = false;
+    std::optional<std::uint64_t> reset_wanted_;  ///< with StopLatch::trips() when it was ordered
+    bool stop_taken_ = false;                    ///< what the stop latch stops was told to
+    std::string no_starts_;                      ///< why nothing may be begun; empty: it may
+    std::string ordered_by_;                     ///< the STOP that is in force, in words; empty: nobody gave one
     // the program, or lines one by one
     std::string program_, program_name_;
     std::optional<control::gcode::Walk> walk_;

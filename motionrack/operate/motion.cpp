@@ -78,8 +78,7 @@ Result<control::Axis*> Machine::take_axis(char letter) {
 // ---- the loop
 
 void Machine::run() {
-    while (!quit_) step();
-    while (state_ == MachineState::stopping) step();
+    while (!quit_ || state_ == MachineState::stopping || !positions_wanted_.empty()) step();
     tell();  // where it has come to rest
 }
 
@@ -192,7 +191,7 @@ void Machine::come_to_rest() {
     rack::StopLatch& latch = rack_.stop_latch();
     if (latch.latched() && state_ != MachineState::error_stop)  // what was lost is lost, whoever resets at once
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
-    const bool asked = std::exchange(reset_wanted_, false);
+    const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // of what came later nobody knew
     const Result<void> reset = asked ? latch.reset() : Result<void>();
     if (!reset) status_.why = reset.error().message;
     if (asked && reset) {

@@ -58,6 +58,11 @@ StopLatch::StopLatch(Rack& rack)
       following_(rack),
       ramps_(rack),
       contacts_(kernel_, rack.config().safety) {
+    const auto watch = [this](const Input& input) {
+        MOTIONRACK_ASSERT(input.wire != sim::WireId::none);
+        kernel_.listen(input.wire, id_, static_cast<int>(inputs_.size()));
+        inputs_.push_back(input);
+    };
     watch({kernel_.find_wire("estop"), StopSource::emergency_stop});
     for (std::size_t c = 0; c < rack_.config().cards.size(); ++c) {
         const RackCard& card = rack_.config().cards[c];
@@ -80,12 +85,6 @@ StopLatch::StopLatch(Rack& rack)
     }
     for (std::size_t a = 0; a < rack_.axes().size(); ++a)
         inputs_.push_back({sim::WireId::none, StopSource::following_error, 0, 0, -1, static_cast<int>(a)});
-}
-
-void StopLatch::watch(const Input& input) {
-    MOTIONRACK_ASSERT(input.wire != sim::WireId::none);
-    kernel_.listen(input.wire, id_, static_cast<int>(inputs_.size()));
-    inputs_.push_back(input);
 }
 
 bool StopLatch::is_active(const Input& input) const {
@@ -111,6 +110,7 @@ void StopLatch::disarm() {
     state_ = {};
     state_.left = before.left;
     state_.heard = before.heard;
+    state_.trips = before.trips;
     state_.heeds_door = before.heeds_door;
     halted_ = false;
     following_.end();
@@ -189,6 +189,7 @@ bool StopLatch::is_stopped_by_card(char letter) const {
 
 void StopLatch::trip(StopSource source, int input, Instant now) {
     const Input* from = input < 0 ? nullptr : &inputs_[static_cast<std::size_t>(input)];
+    ++state_.trips;
     if ((state_.tripped & bit(source)) == 0) state_.pending |= bit(source);
     state_.tripped |= bit(source);
     note_lost(source, from, now);

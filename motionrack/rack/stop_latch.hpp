@@ -72,6 +72,9 @@ class StopLatch final : public sim::Device {
     Instant at() const { return state_.at; }
     /// Whether whoever drives this axis is to brake it: it is latched, and the card does not stop it by itself.
     bool is_to_brake(char letter) const { return latched() && !is_stopped_by_card(letter); }
+    /// How often something has asked for a stop since the rack was made: a reset releases what was there when it was
+    /// ordered.
+    std::uint64_t trips() const { return state_.trips; }
     /// Whether this source has set it, first or later.
     bool tripped_by(StopSource source) const { return (state_.tripped & bit(source)) != 0; }
     /// False where steps may have been lost (the motor was faster than it can stop without a ramp and was to, or its
@@ -103,7 +106,8 @@ class StopLatch final : public sim::Device {
     };
     struct State {
         Instant at{};
-        std::uint64_t heard = 0;                              ///< conditions of the kernel that were looked at
+        std::uint64_t heard = 0;  ///< conditions of the kernel that were looked at
+        std::uint64_t trips = 0;
         std::array<Instant, 2 * control::axis_count> left{};  ///< when an axis' - and + limit switch was left last
         std::int32_t armed = 0, heeds_limits = 1, latched = 0, cause = 0;
         std::int32_t input = -1;  ///< that set it; -1: an order
@@ -114,7 +118,6 @@ class StopLatch final : public sim::Device {
     };
     static constexpr std::uint32_t bit(StopSource source) { return 1u << static_cast<unsigned>(source); }
 
-    void watch(const Input& input);
     void look_at_watchdogs();
     bool is_active(const Input& input) const;
     Instant& left_at(const Input& input);

@@ -56,6 +56,8 @@ releases it:
 
 - **No motion before a reset.** Programs, lines, jogs, homing, marking and resume are refused, with what stopped the
   machine.
+- **A reset releases what was there when it was ordered.** A stop that comes later, while the machine still brakes,
+  stays until the next reset.
 - **A reset moves nothing.** Programs and lines that were under way are forgotten; belts and stages stay
   where they are until the order `start_part`.
 - **A new start takes both**: the reset and a new order.

@@ -63,8 +63,8 @@ void Invariants::ordered(Order order) {
     if (order == Order::position) may_declare_ = 25;
     if (order == Order::position) alarm_texts_.clear();
     if (order == Order::part) parts_stand_ = false;
-    if (order == Order::stop) stop_due_ = 2;
-    if (order == Order::reset) reset_ = true;
+    if (order == Order::stop) stop_due_ = 2, stop_now_ = true, reset_now_ = false;
+    if (order == Order::reset) reset_ = reset_now_ = true, stop_now_ = false;
 }
 
 /// A motor that is held or pushed by hand is off by right until it is looked at again.
@@ -155,8 +155,11 @@ void Invariants::see_positions(const Sight& now) {
         Own& own = own_[i];
         const AxisSight &axis = now.axes[i], &before = last_.axes[i];
         const double off = axis.place - axis.commanded;
-        // Declared: so it is what the person says. Homed: it is the place of the machine.
-        const bool homed = last_.state == MachineState::homing && now.state != MachineState::homing;
+        // Declared: so it is what the person says. Homed: it is the place of the machine, also where a stop came with
+        // the edge of the switch.
+        const bool counts_anew = axis.counter - before.counter != axis.sent - before.sent;
+        const bool homed = (last_.state == MachineState::homing && now.state != MachineState::homing) ||
+                           (searched_ && now.state == MachineState::stopping && counts_anew);
         const bool declared = axis.trusted && !before.trusted && !homed;
         const bool again = operate::idle(now.state) && (knows_orders_ ? may_declare_ : !moved(i, now)) &&
                            axis.commanded != before.commanded;
@@ -224,6 +227,8 @@ void Invariants::see_stop(const Sight& now) {
     if (last_.latched && !now.latched && knows_orders_ && !reset_)
         found(Rule::reset_is_needed, now.at, "the stop ended without a reset");
     if (rests && !now.latched && stop_due_ == 0) reset_ = false;
+    if (stop_now_ || (now.latched && !last_.latched && !reset_now_)) reset_ = false;  // it knew nothing of this stop
+    stop_now_ = reset_now_ = false;
     if (now.latched == last_.latched) return;
     latched_at_ = now.at;
     stands_by_ = never;

@@ -128,7 +128,9 @@ class Invariants {
     Sight last_;
     std::vector<Own> own_;
     // orders
-    bool knows_orders_ = false, reset_ = false, parts_stand_ = false;
+    bool knows_orders_ = false, parts_stand_ = false;
+    bool reset_ = false;                                 ///< since the stop
+    bool reset_now_ = false, stop_now_ = false;          ///< since the last picture, the one that came last
     int may_move_ = 0, may_declare_ = 0, stop_due_ = 0;  ///< for so many pictures
     // the interval in which velocities are measured
     Instant base_at_{};

@@ -245,6 +245,14 @@ TEST(AMachine, TrustsADeclaredPosition) {
     EXPECT_NEAR(o.y(), 33, 1e-9);
 }
 
+TEST(AMachine, EndsWithThePositionThatWasDeclaredLast) {
+    Operated o(two_axes());
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.declare_position('Y', 33)); });
+    o.run(1);
+    EXPECT_TRUE(o.machine->status().axes[1].trusted);
+    EXPECT_NEAR(o.y(), 33, 1e-9);
+}
+
 TEST(AMachine, HearsManyThreadsAtOnce) {
     MachineSettings settings;
     auto machine = *Machine::make(two_axes(), settings);

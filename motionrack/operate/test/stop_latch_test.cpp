@@ -115,6 +115,55 @@ TEST(TheStopLatch, IsSetByTheStopOrderToo) {
     EXPECT_NEAR(o.x(), 30, 0.01);
 }
 
+/// In motion, reset, and before it stands stopped by something else.
+void expect_reset_does_not_release(const std::function<void(Machine&)>& later_stop) {
+    Operated o(two_axes());
+    double stood = 0;
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\n", "p")); });
+    o.at(1, [](Machine& m) { m.reset(); });
+    o.at(1.01, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::stopping);
+        later_stop(m);
+    });
+    o.at(3, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop) << "nobody has reset since";
+        EXPECT_FALSE(m.line("G1 X30 F600", 1));
+        EXPECT_FALSE(m.jog('X', 5));
+        stood = m.status().axes[0].commanded;
+        m.reset();
+    });
+    o.run(4);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
+    EXPECT_EQ(o.x(), stood);
+}
+
+TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeAStopOrder) {
+    expect_reset_does_not_release([](Machine& m) { m.stop(); });
+}
+
+TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeALimitSwitch) {
+    expect_reset_does_not_release([](Machine& m) { EXPECT_TRUE(m.wires().set("m.xlmtp", 0)); });
+}
+
+TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeAShortPressOfTheButton) {
+    expect_reset_does_not_release([](Machine& m) {
+        EXPECT_TRUE(m.wires().set("estop", 0));
+        EXPECT_TRUE(m.wires().set("estop", 1));
+    });
+}
+
+TEST(TheStopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\n", "p")); });
+    o.at(1, [](Machine& m) { m.stop(); });
+    o.at(1.01, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::stopping);
+        m.reset();
+    });
+    o.run(3);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
+}
+
 TEST(TheStopLatch, StaysSetWhileItsCauseIsThere) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("m.xalarm", 0)); });
@@ -173,6 +222,27 @@ TEST(TheStopLatch, StopsAllThatIsJoggedWhereOneAxisReachesItsLimitSwitch) {
         o.run(3);
         EXPECT_EQ(o.machine->state(), MachineState::error_stop);
         EXPECT_NEAR(o.x(), o.y() + 10, 0.6) << "they began together, and both braked at the switch";
+    }
+}
+
+TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
+    for (const char* profile : {"trapezoid", "jerk_limited"}) {
+        rack::RackConfig config = router();
+        config.controller.profile = profile;
+        Operated o(config);
+        o.at(0.05, [](Machine& m) {
+            for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, axis.place));
+        });
+        o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({80, 80, 20, 20}, 50)); });
+        o.at(0.5, [](Machine& m) {
+            EXPECT_GT(m.status().axes[3].speed, 2);
+            EXPECT_TRUE(m.wires().set("Z.limit_minus", 0));
+        });
+        o.at(0.9, [&](Machine& m) {
+            EXPECT_EQ(m.status().axes[3].speed, 0) << profile;
+            EXPECT_EQ(m.state(), MachineState::error_stop) << profile;
+        });
+        o.run(1.2);
     }
 }
 

@@ -230,6 +230,8 @@ Result<void> Axes::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
         if (!status.driving(xyzu) && !status.interpolating()) break;
+        // The path was ended by a switch or an alarm; a fourth axis has not heard of it.
+        if (!status.interpolating() && status.error(xyzu)) driver_.SlowStop(xyzu);
         const bool brakes = driver_.interrupt().stop_requested();
         if (brakes) MOTIONRACK_CHECK(brake());
         if (driver_.interrupt().wait(brakes ? brake_look : joint_timeout)) clear_interrupts();
