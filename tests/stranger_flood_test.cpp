@@ -100,7 +100,7 @@ class AFlood : public InFolder {
         std::vector<std::unique_ptr<Stranger>> held;
         const std::string name(900, 'x');
         while (!quit) {
-            held.push_back(std::make_unique<Stranger>(port, 1 + random() % 2000));
+            held.push_back(std::make_unique<Stranger>(port, random() % 8 == 0 ? 0 : 1 + random() % 2000));
             const Stranger& one = *held.back();
             bool open = true;
             for (int i = 0; i < 50 && open && !quit; ++i, ++asked) {

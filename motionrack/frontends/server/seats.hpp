@@ -3,7 +3,8 @@
 //   accept ─► caller ─whole head─► seat: 500, of one network 250 ─► HTTP ─► perhaps a WebSocket
 //             128       │     └──► no seat: STOP is heard, all else is answered 503
 //              │        └ STOP is heard in any case
-//              └─► one more: the oldest of the networks that have the most is let go
+//              └─► one more: of the older quarter the oldest of the networks that have the most is let go; the others
+//                  came so lately that what they have sent may not have been read
 #pragma once
 
 #include <cstddef>
@@ -36,7 +37,7 @@ class Seats {
     void replace(Open* before, Open* open);
     void leave(Open* open);
 
-    /// Ends the oldest caller of the networks that have the most. False: there is none.
+    /// Ends, of the older quarter of the callers, the oldest of the networks that have the most. False: there is none.
     bool end_a_caller();
     void end_all(std::string_view why);
     bool empty() const { return seats_.empty() && callers_.empty(); }

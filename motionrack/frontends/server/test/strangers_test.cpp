@@ -38,16 +38,32 @@ Limits few() {
 }
 
 TEST(Seats, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
-    const Limits limits = few();
+    Limits limits = few();
+    limits.callers = 16;
     Seats seats(limits);
     Someone lone;
     std::list<Someone> flood;
     seats.arrive(&lone, "lone");
-    for (int i = 0; i < 10; ++i) seats.arrive(&flood.emplace_back(), "flood");
+    for (int i = 0; i < 40; ++i) seats.arrive(&flood.emplace_back(), "flood");
     EXPECT_FALSE(lone.ended);
     EXPECT_EQ(seats.callers(), limits.callers);
     int at = 0;
-    for (const Someone& one : flood) EXPECT_EQ(one.ended, at++ < 7) << at;
+    for (const Someone& one : flood) EXPECT_EQ(one.ended, at++ < 25) << at;
+}
+
+TEST(Seats, LeaveThoseAloneThatCameLately) {
+    Limits limits = few();
+    limits.callers = 16;
+    Seats seats(limits);
+    std::list<Someone> others;
+    Someone stop;
+    for (int i = 0; i < 14; ++i) seats.arrive(&others.emplace_back(), std::to_string(i));
+    seats.arrive(&others.emplace_back(), "here");
+    seats.arrive(&stop, "here");
+    for (int i = 0; i < 11; ++i) {
+        seats.arrive(&others.emplace_back(), "here");
+        EXPECT_FALSE(stop.ended) << "what it has sent may not have been read";
+    }
 }
 
 TEST(Seats, EndTheOldestCallerWhereEachNetworkHasOne) {
