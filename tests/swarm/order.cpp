@@ -107,10 +107,13 @@ Result<void> enable(Machine& machine, Draws& draws) {
 Result<void> home(Machine& machine, Draws& draws) {
     return machine.home(draws.one_in(2) ? std::string(1, some_letter(machine, draws)) : std::string());
 }
-/// As an honest person declares it: where it is.
+/// As an honest person declares it: where it is, at this instant.
 Result<void> declare(Machine& machine, Draws& draws) {
-    const operate::AxisStatus axis = some_axis(machine, draws);
-    return machine.declare_position(axis.letter, axis.place);
+    const char letter = some_axis(machine, draws).letter;
+    for (const rack::RunningAxis& axis : machine.rack().axes())
+        if (axis.config.letter == letter)
+            return machine.declare_position(letter, axis.machine->position(machine.now()));
+    return {};
 }
 Result<void> set_overrides(Machine& machine, Draws& draws) {
     machine.set_overrides(draws.number(0.01, 2), draws.number(0.01, 1));
