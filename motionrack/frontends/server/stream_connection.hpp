@@ -36,6 +36,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         socket_.text(true);
         socket_.async_accept(request_, [self = this->shared_from_this()](error_code error) {
             if (error || self->left_) return;
+            self->opened_ = true;
             self->hall_->clients.add(self->client_);
             self->client_->opened();
             self->read();
@@ -58,6 +59,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
     void allow(std::size_t bytes) override { socket_.read_message_max(bytes); }
 
     void close(int code, std::string_view reason) override {
+        if (!opened_) return beast::get_lowest_layer(socket_).close();  // its handshake is still being written
         reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
         if (!writes_) return say_goodbye();
         // Who does not read gets no reason either.
@@ -98,7 +100,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
     std::shared_ptr<Client> client_;
     beast::flat_buffer buffer_;
     std::optional<websocket::close_reason> reason_;
-    bool writes_ = false, left_ = false;
+    bool opened_ = false, writes_ = false, left_ = false;
 };
 
 }  // namespace motionrack::server
