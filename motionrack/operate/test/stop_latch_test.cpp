@@ -238,6 +238,12 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
             EXPECT_GT(m.status().axes[3].speed, 2);
             EXPECT_TRUE(m.wires().set("Z.limit_minus", 0));
         });
+        std::int64_t stood = 0;
+        o.each_status([&](const Status& status) {
+            if (status.at <= milliseconds(500) || status.axes[3].speed != 0) return;
+            if (stood == 0) stood = status.axes[3].pulses;
+            EXPECT_EQ(status.axes[3].pulses, stood) << profile << ": it moved again, at " << to_seconds(status.at);
+        });
         o.at(0.9, [&](Machine& m) {
             EXPECT_EQ(m.status().axes[3].speed, 0) << profile;
             EXPECT_EQ(m.state(), MachineState::error_stop) << profile;

@@ -160,7 +160,7 @@ Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int3
 /// The others stand and it does: what it still lacks.
 Result<void> Axes::finish_companion() {
     const std::int64_t at = driver_.ReadLPS(companion_);
-    if (driver_.status().error(1u << companion_)) return {};
+    if (driver_.status().error(xyzu)) return {};  // what has ended the path has ended it for all
     const std::int64_t target = expected_[static_cast<std::size_t>(companion_)];
     const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
     const double half =
