@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <motionrack/journal/seal.hpp>
 #include <motionrack/journal/tables.hpp>
 
@@ -11,6 +12,8 @@ namespace {
 
 constexpr std::int64_t version = 2;
 constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": tells a journal from other files of SQLite
+
+constexpr std::uintmax_t page_bytes = 4096;  // SQLite's default
 
 constexpr std::int64_t max_number = 1'000'000'000'000'000;  // of an entry or run: none is counted so far
 
@@ -86,15 +89,28 @@ std::string numbers_of(const Database& database) {
     return "ok";
 }
 
-Result<void> quick_check(const Database& database, const std::string& path) {
-    std::string found = structure_of(database);
-    if (found == "ok") found = numbers_of(database);
-    if (found == "ok") return {};
+tl::unexpected<Error> damaged(const std::string& path, const std::string& how) {
     return fail(
         Trouble::io,
         fmt::format("The journal '{}' is damaged: {}. Nothing was started. Keep the file for whoever looks into "
                     "the damage, name another one, and home the machine.",
-                    path, found));
+                    path, how));
+}
+
+Result<void> quick_check(const Database& database, const std::string& path) {
+    std::string found = structure_of(database);
+    if (found == "ok") found = numbers_of(database);
+    if (found == "ok") return {};
+    return damaged(path, found);
+}
+
+/// A file without tables has a first page at most; one that has more has lost that of its tables.
+Result<void> check_new(const std::string& path) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (error) return fail(Trouble::io, fmt::format("its size cannot be asked for: {}", error.message()));
+    if (bytes <= page_bytes) return {};
+    return damaged(path, fmt::format("it has {} bytes and no tables", bytes));
 }
 
 ChainEnd chain_end(const Database& database, const char* name) {
@@ -110,6 +126,7 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
     MOTIONRACK_CHECK(database.run("PRAGMA synchronous = EXTRA"));
     const std::int64_t id = database.number("PRAGMA application_id");
     if (id == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0) {
+        MOTIONRACK_CHECK(check_new(path));
         MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
         const std::string all = fmt::format(
             "BEGIN IMMEDIATE; {} PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT;", tables, mark, version);

@@ -150,6 +150,23 @@ TEST_F(ADamagedJournal, IsRefusedWhereItsStructureIsBroken) {
     EXPECT_THAT(refused.error().message, HasSubstr("Nothing was started. Keep the file"));
 }
 
+/// A disk that lost the last writes to it: the file begins as it did before it had tables.
+TEST_F(ADamagedJournal, IsRefusedWhereItsFirstPageIsThatOfANewFile) {
+    make();
+    change("PRAGMA wal_checkpoint(TRUNCATE)");
+    const std::string whole = path_ + ".whole";
+    std::filesystem::rename(path_, whole);
+    change("PRAGMA journal_mode = WAL");
+    std::string page(4096, '\0');
+    ASSERT_TRUE(std::ifstream(path_, std::ios::binary).read(page.data(), 4096));
+    std::filesystem::rename(whole, path_);
+    std::fstream(path_, std::ios::in | std::ios::out | std::ios::binary).write(page.data(), 4096);
+    const auto refused = Journal::open(path_);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::AllOf(HasSubstr("bytes and no tables"), HasSubstr("Nothing was started. Keep the file")));
+}
+
 TEST_F(ADamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
     for (const char* sql :
          {"UPDATE entry SET number = 9223372036854775807 WHERE number = 3",
