@@ -217,6 +217,16 @@ void convert(const toml::node& from, TomlNode& to) {
     }
 }
 
+/// toml++ reads numbers through a stream, which takes a lack of memory for a number that is none: what it refuses is
+/// read once more.
+toml::table parse_twice(std::string_view text) {
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error&) {
+        return toml::parse(text);
+    }
+}
+
 }  // namespace
 
 Result<TomlNode> parse_toml(std::string_view text, std::string_view file) {
@@ -231,7 +241,7 @@ Result<TomlNode> parse_toml(std::string_view text, std::string_view file) {
         return tl::unexpected<Error>(std::move(*error));
     }
     try {
-        const toml::table table = toml::parse(text);
+        const toml::table table = parse_twice(text);
         TomlNode root;
         root.key_place = root.value_place = {1, 1};
         convert_table(table, root);
