@@ -92,6 +92,7 @@ void Invariants::see(const Sight& now) {
     see_parts(now);
     see_alarms(now);
     if (now.latched && now.abrupt) jumped_ = true;
+    braked_ = braked_ || now.latched;
     if (now.at - base_at_ >= interval) end_interval(now);
     see_jumps(now);
     if (may_declare_ > 0) --may_declare_;
@@ -316,6 +317,7 @@ void Invariants::end_interval(const Sight& now) {
     last_seconds_ = seconds;
     base_at_ = now.at;
     jumped_ = now.latched && now.abrupt;
+    braked_ = now.latched;
 }
 
 void Invariants::see_limits(std::size_t i, double velocity, double seconds, const Sight& now) {
@@ -332,7 +334,7 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
         "the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its limits explain {:g} "
         "(state '{}')",
         facts.letter, own_[i].velocity, velocity, seconds, change, allowed, operate::name_of(now.state));
-    if (now.latched && std::fabs(velocity) < std::fabs(own_[i].velocity))
+    if (braked_ && std::fabs(velocity) < std::fabs(own_[i].velocity))
         own_[i].jumped = std::move(text);
     else
         found(Rule::limits_kept, now.at, std::move(text));
