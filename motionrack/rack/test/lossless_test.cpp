@@ -122,6 +122,21 @@ TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
     }
 }
 
+/// Moves from rest to rest, along each of which X has less than half a pulse.
+TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
+    RackConfig config = router(GetParam());
+    set_microsteps(config, 16);
+    Path path{"G21 G90 G61\nG0 X150 Y100 Z75\nG1 F1200\n", 150, 100};
+    for (int i = 1; i <= 8; ++i) {
+        path.x += 0.0007;
+        path.y += i % 2 != 0 ? 9 : -8;
+        path.text += fmt::format("X{:.4f} Y{:.4f} Z{}\n", path.x, path.y, i % 2 != 0 ? 72 : 75);
+    }
+    const Driven driven = drive_with(config, path.text + "M2\n", {});
+    expect_lossless(driven);
+    expect_end(driven, path.x, path.y);
+}
+
 TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
     bool late = false;
     const Path path = spiral(0.2, 200);

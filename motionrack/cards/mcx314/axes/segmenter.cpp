@@ -207,9 +207,19 @@ void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
     emit_line(work, work.to, speeds.exit, speeds.acceleration);
 }
 
-/// One S-curve from rest to rest, if the chip's ramp fits into the move and its slowest jerk is slow enough.
-bool Segmenter::emit_s_curve(const Work& work) {
-    if (work.shape != Shape::line || work.companion >= 0) return false;
+/// One S-curve from rest to rest, if the chip's ramp fits into the move and its slowest jerk is slow enough. It is the
+/// whole chain, so no axis may be left for a piece with room: a third one, which the moves before have less than a
+/// pulse each of, goes into the line too.
+bool Segmenter::emit_s_curve(const Work& planned) {
+    if (planned.shape != Shape::line || planned.companion >= 0) return false;
+    const Pulses4 way = way_between(planned, at_, planned.to);
+    const auto moving = way.size() - static_cast<std::size_t>(std::count(way.begin(), way.end(), 0));
+    if (moving > 3) return false;
+    Work work = planned;
+    if (moving > 2 && work.constant_vector) {
+        work.constant_vector = false;
+        work.units_in = work.units_out = units_along(work, work.path.tangent_in);
+    }
     const double units = work.units_in;
     const double initial = std::floor(units * start_speed(work.path.tangent_in));
     const double k = std::ceil(rules::jerk_unit / (units * work.move.jerk));

@@ -94,7 +94,7 @@ class Segmenter {
     void look_at_next(Work& work, const Work& next) const;
     void make_even(const Work& work, Speeds& speeds);
     void emit_pause(const Work& work);
-    bool emit_s_curve(const Work& work);
+    bool emit_s_curve(const Work& planned);
     void emit_straight(const Work& work, const Speeds& speeds);
     void emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
     bool emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
