@@ -159,6 +159,11 @@ class Machine {
     Instant now() const { return rack_.kernel().now(); }
 
   private:
+    struct Declared {
+        char letter = 'X';
+        double position = 0;
+        rack::TrustWatch::Mark stood;  ///< when it was declared
+    };
     Machine(const rack::RackConfig& config, MachineSettings settings);
     Result<void> start(const rack::RackConfig& config);
     Result<void> take_group();
@@ -216,7 +221,7 @@ class Machine {
     // by hand
     Jogs jogs_;
     std::optional<std::string> home_wanted_;
-    std::vector<std::pair<char, double>> positions_wanted_;  ///< until all of them are declared
+    std::vector<Declared> positions_wanted_;  ///< until all of them are taken
     std::optional<rack::HomingOutcome> homed_;
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};

@@ -31,8 +31,9 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
         const Standing here = standing_of(axis.config, settings_.standing, known);
-        if (here.trusted) MOTIONRACK_CHECK(one->set_position(here.commanded));
-        trust_.set(axis.config.letter, here.trusted);
+        if (!here.trusted) continue;
+        MOTIONRACK_CHECK(one->set_position(here.commanded));
+        trust_.begin(here.letter, trust_.mark(here.letter));
     }
     MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
     control::StreamSettings settings;
@@ -170,7 +171,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
         stop_taken_ = true;
         for (const rack::RackAxis& axis : rack_.config().axes) {
             if (latch.keeps_position(axis.index())) continue;
-            trust_.set(axis.letter, false);
+            trust_.lose(axis.letter);
             lost += axis.letter;
         }
         if (!lost.empty() || !says_lost(text)) text += ' ' + latch.position_sentence();
@@ -264,7 +265,7 @@ void Machine::jog_all() {
         if (one.how || one.how.error().trouble == Trouble::stopped) continue;
         status_.why = one.how.error().message;
         if (one.trusted || !trust_.of(one.letter)) continue;
-        trust_.set(one.letter, false);  // it stopped without a ramp, or does not know its counts
+        trust_.lose(one.letter);  // it stopped without a ramp, or does not know its counts
         supersede(status_.alarms, {&one.letter, 1});
         jogs_.let_go();
         stop_wanted_ = true;
@@ -281,10 +282,13 @@ void Machine::home_all() {
     settings.stop = &home_stop_;
     settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
     settings.seen_indexes = &seen_indexes_;
+    settings.on_homed = [this](char letter, Instant since) {
+        trust_.begin(letter, {since, trust_.mark(letter).lost_pulses});
+    };
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
-        if (axis.begun) trust_.set(axis.letter, axis.outcome.homed);
+        if (axis.begun && !axis.outcome.homed) trust_.lose(axis.letter);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (!homed.ended && homed.ended.error().trouble == Trouble::machine) return failed(homed.ended.error());
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
@@ -293,10 +297,10 @@ void Machine::home_all() {
 void Machine::change_positions() {
     Result<void> done;
     for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
-        const auto [letter, position] = positions_wanted_[i];
-        const Result<control::Axis*> axis = take_axis(letter);
-        done = axis ? (*axis)->set_position(position) : tl::unexpected<Error>(axis.error());
-        if (done) trust_.set(letter, true);
+        const Declared declared = positions_wanted_[i];  // others may come meanwhile
+        const Result<control::Axis*> axis = take_axis(declared.letter);
+        done = axis ? (*axis)->set_position(declared.position) : tl::unexpected<Error>(axis.error());
+        if (done) trust_.begin(declared.letter, declared.stood);
     }
     if (Result<void> taken = take_group(); done) done = taken;
     positions_wanted_.clear();

@@ -1,6 +1,7 @@
 // Trust gained and lost.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <motionrack/operate/trust.hpp>
 #include <utility>
 
@@ -17,10 +18,16 @@ std::size_t Trust::index(char letter) const {
     return static_cast<std::size_t>(rack_.config().axis(letter)->index());
 }
 
-void Trust::set(char letter, bool on) {
-    trusted_[index(letter)] = on;
-    for (std::size_t i = 0; on && i < rack_.axes().size(); ++i)
-        if (rack_.axes()[i].config.letter == letter) watch_.begin(i);
+std::size_t Trust::number(char letter) const {
+    const auto& axes = rack_.axes();
+    const auto found =
+        std::find_if(axes.begin(), axes.end(), [letter](const auto& axis) { return axis.config.letter == letter; });
+    return static_cast<std::size_t>(found - axes.begin());
+}
+
+void Trust::begin(char letter, const rack::TrustWatch::Mark& from) {
+    trusted_[index(letter)] = true;
+    watch_.begin(number(letter), from);
 }
 
 /// While axes search home nothing is known of them yet; while a stop comes its own alarm says what is lost by it.
@@ -40,7 +47,7 @@ std::vector<Alarm> Trust::look(Instant now, MachineState state) {
         }
         const char letter = rack_.axes()[found.axis].config.letter;
         if (!of(letter)) continue;  // known, and its counters mean nothing
-        if (found.lost) set(letter, false);
+        if (found.lost) lose(letter);
         Alarm& alarm = out.emplace_back();
         alarm.source = found.follows_badly ? "following error" : "position";
         alarm.text = found.lost
@@ -56,7 +63,7 @@ std::string Trust::lose_unknown() {
     for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
         const char letter = rack_.axes()[i].config.letter;
         if (!of(letter) || watch_.knows_itself(i)) continue;
-        set(letter, false);
+        lose(letter);
         out += fmt::format("{}{}", out.empty() ? "" : ", ", letter);
     }
     return out;

@@ -17,7 +17,11 @@ class Trust {
     explicit Trust(rack::Rack& rack) : rack_(rack), watch_(rack) {}
 
     bool of(char letter) const { return trusted_[index(letter)]; }
-    void set(char letter, bool on);
+    void lose(char letter) { trusted_[index(letter)] = false; }
+    /// An axis, and what it has lost so far: it stands where somebody will say.
+    rack::TrustWatch::Mark mark(char letter) const { return watch_.mark(number(letter)); }
+    /// It is trusted; and what it has lost since `from` is lost.
+    void begin(char letter, const rack::TrustWatch::Mark& from);
     /// What was lost since the last look, counts wrongly or stays behind: alarms with source, text and axis. Now
     /// and then, between drives.
     std::vector<Alarm> look(Instant now, MachineState state);
@@ -26,6 +30,7 @@ class Trust {
 
   private:
     std::size_t index(char letter) const;
+    std::size_t number(char letter) const;  ///< in Rack::axes()
 
     rack::Rack& rack_;
     rack::TrustWatch watch_;

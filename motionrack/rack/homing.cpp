@@ -190,6 +190,10 @@ class Homing {
 
     void note_end(Work& work) {
         const control::HomeOutcome found = work.axis->home_outcome();
+        if (found.homed && settings_.on_homed)
+            settings_.on_homed(
+                work.running->config.letter,
+                found.edges.empty() ? found.from : later(found.from, from_seconds(found.edges.back().seconds)));
         if (!found.homed && out_.ended)
             out_.ended = fail(rack_.cards().front()->host().stop_requested() ? Trouble::stopped : Trouble::machine,
                               found.sentence);

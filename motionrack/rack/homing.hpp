@@ -35,6 +35,8 @@ struct HomingSettings {
     const std::atomic<bool>* stop = nullptr;  ///< Ctrl-C
     SeenIndexes* seen_indexes = nullptr;  ///< of searches before, which one whose place no key gives must agree with
     std::function<void(const HomingProgress&)> progress = {};  ///< every 50 ms of virtual time
+    /// An axis is home, while others may still search; its place is that of the last edge that it found, at `since`.
+    std::function<void(char letter, Instant since)> on_homed = {};
 };
 
 /// What was seen of an axis, every `sample_period` at first, each time twice that when there are too many.

@@ -17,17 +17,18 @@ TrustWatch::TrustWatch(Rack& rack) : rack_(rack), watched_(rack.axes().size()) {
     }
 }
 
-void TrustWatch::begin(std::size_t axis) {
+void TrustWatch::begin(std::size_t axis, const Mark& from) {
     Watched& one = watched_[axis];
-    one.since = rack_.kernel().now();
-    one.lost_pulses = lost_pulses(axis);
+    one.from = from;
     one.counted_wrongly = counted_wrongly(axis);
     one.lost = one.told_counts = false;
     rack_.stop_latch().following().begin(axis);
+    std::erase_if(early_, [&](const TrustFinding& found) { return found.axis == axis; });
+    for (const sim::Condition& condition : rack_.kernel().conditions()) look_for_lost(axis, condition, early_);
 }
 
 std::vector<TrustFinding> TrustWatch::look(bool standing) {
-    std::vector<TrustFinding> out;
+    std::vector<TrustFinding> out = std::exchange(early_, {});
     look_at_conditions(out);
     for (FollowingWatch::Warning& warning : rack_.stop_latch().following().take_warnings())
         out.push_back({warning.axis, warning.at, std::move(warning.text), false, true});
@@ -54,10 +55,13 @@ void TrustWatch::look_at(const sim::Condition& condition, std::vector<TrustFindi
         if (stage.processor != nullptr && stage.processor->id() == condition.device &&
             stage.config.output == condition.a)
             out.push_back({TrustFinding::no_axis, condition.at, rack_.describe(condition)});
-    if (condition.code != static_cast<std::uint16_t>(parts::AxisCondition::lost_steps)) return;
-    for (std::size_t k = 0; k < watched_.size(); ++k)
-        if (condition.device == rack_.axes()[k].machine->id() && condition.at > watched_[k].since)
-            lose(k, condition.at, rack_.describe(condition), out);
+    for (std::size_t k = 0; k < watched_.size(); ++k) look_for_lost(k, condition, out);
+}
+
+void TrustWatch::look_for_lost(std::size_t axis, const sim::Condition& condition, std::vector<TrustFinding>& out) {
+    if (condition.code == static_cast<std::uint16_t>(parts::AxisCondition::lost_steps) &&
+        condition.device == rack_.axes()[axis].machine->id() && condition.at > watched_[axis].from.at)
+        lose(axis, condition.at, rack_.describe(condition), out);
 }
 
 void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
@@ -69,7 +73,7 @@ void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
              fmt::format("axis {} does not know its position any more; look at its motor and its encoder, then home it",
                          letter),
              out);
-    if (const std::int64_t lost = lost_pulses(axis) - one.lost_pulses; lost != 0)
+    if (const std::int64_t lost = lost_pulses(axis) - one.from.lost_pulses; lost != 0)
         lose(axis, now,
              fmt::format("the motor of axis {} did not follow {} pulses; find home again", letter, std::abs(lost)),
              out);

@@ -31,8 +31,15 @@ class TrustWatch {
   public:
     /// Of a rack since its start; encoders count right here and now.
     explicit TrustWatch(Rack& rack);
-    /// An axis is where it says from now on: it was homed, or declared.
-    void begin(std::size_t axis);
+    /// What an axis has lost so far.
+    struct Mark {
+        Instant at{};  ///< what came before does not matter
+        std::int64_t lost_pulses = 0;
+    };
+    Mark mark(std::size_t axis) const { return {rack_.kernel().now(), lost_pulses(axis)}; }
+    /// An axis was where it says at `from`: it was homed, or declared. What it has lost since is found in the next
+    /// look.
+    void begin(std::size_t axis, const Mark& from);
     /// What was found since the last look, each once until begin(). `standing`: nothing moves, so counters and rotors
     /// can be compared and axes asked.
     std::vector<TrustFinding> look(bool standing);
@@ -42,8 +49,7 @@ class TrustWatch {
 
   private:
     struct Watched {
-        Instant since{-1};                 ///< what came before does not matter
-        std::int64_t lost_pulses = 0;      ///< when it began
+        Mark from{Instant{-1}};
         std::int64_t counted_wrongly = 0;  ///< when it began
         bool counted = false;              ///< its card counts its encoder beside the pulses
         bool lost = false, told_counts = false;
@@ -54,11 +60,13 @@ class TrustWatch {
     void lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out);
     void look_at_conditions(std::vector<TrustFinding>& out);
     void look_at(const sim::Condition& condition, std::vector<TrustFinding>& out);
+    void look_for_lost(std::size_t axis, const sim::Condition& condition, std::vector<TrustFinding>& out);
     void compare(std::size_t axis, std::vector<TrustFinding>& out);
 
     Rack& rack_;
     std::vector<Watched> watched_;
-    std::uint64_t seen_ = 0;  ///< conditions
+    std::uint64_t seen_ = 0;           ///< conditions
+    std::vector<TrustFinding> early_;  ///< for the next look
 };
 
 }  // namespace motionrack::rack

@@ -153,6 +153,55 @@ TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
     EXPECT_NEAR(o.y(), 7, 1e-3);
 }
 
+TEST(AMachine, DoesNotTrustAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.declare_position('X', 5));
+        EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=640", "X"));
+    });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_FALSE(m.status().axes[0].trusted) << "it was declared where it stood before";
+        ASSERT_THAT(m.status().alarms, testing::SizeIs(1));
+        EXPECT_THAT(m.status().alarms[0].text, HasSubstr(lost));
+        EXPECT_TRUE(m.declare_position('X', 6));
+    });
+    o.run(1);
+    EXPECT_TRUE(o.machine->status().axes[0].trusted) << "it is declared where it stands now";
+}
+
+/// The router's A is home long before the others.
+void push_what_is_home(Operated& o, void (*then)(Machine&)) {
+    bool pushed = false;
+    o.each_status([&o, then, pushed](const Status& status) mutable {
+        if (status.homing.find("A HOMED") == std::string::npos || std::exchange(pushed, true)) return;
+        EXPECT_EQ(status.state, MachineState::homing);
+        then(*o.machine);
+        EXPECT_TRUE(rack::inject_fault(o.machine->rack(), "motor.push=64", "A"));
+    });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('A', 0)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home({})); });
+    o.run(40);
+    const Status& status = o.machine->status();
+    ASSERT_EQ(status.axes[3].letter, 'A');
+    EXPECT_FALSE(status.axes[3].trusted);
+    std::vector<std::string> alarms;
+    for (const Alarm& alarm : status.alarms) alarms.push_back(alarm.text);
+    EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr("The position of axis A is not trusted any more.")));
+}
+
+TEST(AMachine, DoesNotTrustAnAxisThatIsPushedWhileOthersStillSearchHome) {
+    Operated o(router());
+    push_what_is_home(o, [](Machine&) {});
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(o.machine->status().axes[i].trusted);
+}
+
+TEST(AMachine, DoesNotTrustAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
+    Operated o(router());
+    push_what_is_home(o, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
+    EXPECT_EQ(o.machine->state(), MachineState::error_stop);
+}
+
 TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X60 F300\nM2\n", "p")); });
