@@ -178,6 +178,27 @@ const Broken broken[] = {
          h.place_off = -2;
          h.pass(0.1);
      }},
+    {"a_table_pushed_right_before_a_ride", Rule::position_is_true,
+     [](History& h) {
+         h.order(Invariants::Order::position);
+         h.place_off = -0.64;
+         h.begin();
+         h.end();
+         h.pass(0.2);
+     }},
+    {"a_home_that_was_pushed_while_others_search", Rule::position_is_true,
+     [](History& h) {
+         h.order(Invariants::Order::motion);
+         h.to(MachineState::homing);
+         h.pass(0.1);
+         h.counter_off = 500;
+         h.place_off = 5;
+         h.pass(0.1);
+         h.place_off = 5.64;
+         h.pass(0.1);
+         h.to(MachineState::standstill);
+         h.pass(0.2);
+     }},
     {"a_counter_that_jumps", Rule::counters_are_pulses,
      [](History& h) {
          h.begin();
@@ -272,6 +293,32 @@ TEST(AGoodHistory, MayEndPulsesAtOnceIfThatTakesTheTrust) {
     h.to(MachineState::stopping);
     h.pass(0.02);
     h.now().axes[0].trusted = false;
+    h.to(MachineState::error_stop);
+    h.pass(0.3);
+    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
+TEST(AGoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
+    History h;
+    h.order(Invariants::Order::position);
+    h.counter_off = 500;
+    h.begin();
+    h.end();
+    h.pass(0.2);
+    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
+TEST(AGoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
+    History h;
+    h.begin();
+    h.latch(true);
+    h.to(MachineState::stopping);
+    h.now().axes[0].driven = true;
+    h.drive(0.098, -500);
+    h.jump(0.4);  // each 25 ms a pulse
+    h.pass(0.1);
+    h.now().axes[0].driven = false;
+    h.jump(0);
     h.to(MachineState::error_stop);
     h.pass(0.3);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;

@@ -59,6 +59,7 @@ Sight RackWatch::sight() {
     for (rack::RunningAxis& axis : rack_.axes()) {
         AxisSight& one = out.axes.emplace_back();
         one.sent = axis.turned_by().count(now);
+        one.driven = axis.servo == nullptr && axis.turned_by().rate(now) != 0;
         one.counter = axis.card->pulse_counter(axis.channel);
         one.commanded = static_cast<double>(one.counter) / axis.config.pulses_per_unit();
         one.place = axis.machine->position(now);
