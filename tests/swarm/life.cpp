@@ -91,7 +91,7 @@ class Lives {
         }
         out_.what += fmt::format("; {}{}", plan.nth > 0 ? fmt::format("disk fails at {}, ", plan.nth) : "",
                                  ending_names[static_cast<std::size_t>(ending_)]);
-        if (plan.nth > 0 || ending_ == Ending::power) hashes_ = false;
+        if (plan.nth > 0 || ending_ == Ending::power) out_.repeats = false;
         ++out_.lives;
         const BadDisk disk(plan);
         lose_power_after_ = 0;
@@ -207,7 +207,7 @@ class Lives {
 
     void see(const Status& status) {
         if (book_) book_->see(status);
-        if (!hashes_) return;
+        if (!out_.repeats) return;
         hash(static_cast<std::uint64_t>(status.at.count()));
         hash(static_cast<std::uint64_t>(status.state));
         for (const operate::AxisStatus& axis : status.axes) hash(static_cast<std::uint64_t>(axis.pulses));
@@ -348,14 +348,13 @@ class Lives {
         if (!out_.finding) out_.finding = finding;
     }
     void hash(std::uint64_t value) {
-        if (hashes_) out_.history = fnv_step(out_.history, value);
+        if (out_.repeats) out_.history = fnv_step(out_.history, value);
     }
 
     Draws draws_;
     std::string folder_;
     SeedEnd out_;
     rack::RackConfig config_;
-    bool hashes_ = true;
     std::vector<Standing> truth_;  ///< where the life before left the axes
     std::vector<Taken> taken_;
     bool cut_off_ = false, lost_at_end_ = false;  ///< the life before

@@ -25,7 +25,10 @@ struct SeedEnd {
     std::deque<std::string> story;         ///< the last orders and faults
     int taken = 0, refused = 0;            ///< orders
     int lives = 0, faults = 0;
-    std::uint64_t history = 0;  ///< hash of all pictures, entries and orders
+    /// The seed decides on all that happens. A disk's nth call is not of it, nor what was on the disk when power went:
+    /// how many entries share a transaction is the journal's thread's affair, and with it when an entry fails.
+    bool repeats = true;
+    std::uint64_t history = 0;  ///< hash of all pictures, entries and orders, for as long as it repeats
 };
 
 /// `folder`: an empty one, for the journals.
