@@ -192,6 +192,23 @@ TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     w.expect_limits();
 }
 
+TEST_P(AStream, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
+    const std::string program = "G21 G90 G61\nG3 X2 Y2 I0 J2 F600\nG1 A20 F3000\nG1 X0 F600\n";
+    for (double at = 0.02; at < 0.5; at += 0.02) {
+        SCOPED_TRACE(at);
+        Watched w(router(GetParam()));
+        bool asked = false;
+        w.on_slice = [&] {
+            if (!asked && w.seconds() > at) w.stream->hold(), asked = true;
+            if (w.stream->state() == StreamState::held) w.stream->resume();
+        };
+        drive_all(w, program);
+        w.expect_limits();
+        EXPECT_LE(w.worst_deviation(), w.tolerance + 2.5 / 640);
+        EXPECT_NEAR(w.rack.axes()[3].machine->position(w.rack.kernel().now()), 20, 0.01);
+    }
+}
+
 TEST_P(AStream, StoppedForgetsTheRestAndTheNextLineBeginsWhereItStands) {
     Watched w(router(GetParam()));
     bool asked = false;

@@ -26,14 +26,14 @@ double length_on_arc(const Geometry& path, const Point& place) {
     return path.length * (angle / whole);
 }
 
-double length_on_straight(const Geometry& path, const Point& place) {
+double length_on_straight(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
     double along = 0, square = 0;
-    const std::size_t first = path.shape == PathShape::rotary ? 3 : 0;
-    for (std::size_t i = first; i < first + 3; ++i) {
-        along += (place[i] - path.start[i]) * path.tangent_in[i];
-        square += path.tangent_in[i] * path.tangent_in[i];
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        const double tangent = path.tangent_in[i] * pulses[i];
+        along += (place[i] - path.start[i]) * pulses[i] * tangent;
+        square += tangent * tangent;
     }
-    return std::clamp(along / square, 0.0, path.length);
+    return square > 0 ? std::clamp(along / square, 0.0, path.length) : 0;
 }
 
 }  // namespace
@@ -50,21 +50,20 @@ Move part_of(const Move& move, const Geometry& path, double from, double to) {
     return part;
 }
 
-Nearest nearest_on(const Geometry& path, const Point& place) {
+Nearest nearest_on(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
     Nearest out;
     if (path.shape == PathShape::arc)
         out.length = length_on_arc(path, place);
     else if (path.shape != PathShape::nothing)
-        out.length = length_on_straight(path, place);
+        out.length = length_on_straight(path, place, pulses);
     const Point nearest = position_at(path, out.length);
-    const std::size_t first = path.shape == PathShape::rotary ? 3 : 0;
-    for (std::size_t i = first; i < first + 3; ++i)
-        out.distance = std::max(out.distance, std::fabs(place[i] - nearest[i]));
+    for (std::size_t i = 0; i < place.size(); ++i)
+        out.distance = std::max(out.distance, std::fabs(place[i] - nearest[i]) * pulses[i]);
     return out;
 }
 
-Move rest_of(const Move& move, const Geometry& path, const Point& place) {
-    const double left = path.length - nearest_on(path, place).length;
+Move rest_of(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+    const double left = path.length - nearest_on(path, place, pulses).length;
     Move rest = move;
     rest.feed = share_of_time(move, path.length, left);
     if (path.shape != PathShape::arc) return rest;

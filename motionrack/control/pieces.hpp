@@ -11,15 +11,20 @@ namespace motionrack::control {
 /// share of the move's time.
 Move part_of(const Move& move, const Geometry& path, double from, double to);
 
+/// Each axis' pulses per mm or degree: what makes places of linear and rotary axes comparable. An axis with 0 of them
+/// does not count.
+using PulsesPerUnit = Point;
+inline constexpr PulsesPerUnit units_alone = {1, 1, 1, 1, 1, 1};
+
 /// The point of a path that is nearest to a place. An arc may turn by less than a whole turn.
 struct Nearest {
     double length = 0;    ///< along the path
-    double distance = 0;  ///< greatest difference of X, Y, Z, mm; of A, B, C, degrees, where only these move
+    double distance = 0;  ///< greatest difference of any of the six axes, in its pulses
 };
-Nearest nearest_on(const Geometry& path, const Point& place);
+Nearest nearest_on(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
 
 /// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of
 /// an arc so little may be left that it is a straight line.
-Move rest_of(const Move& move, const Geometry& path, const Point& place);
+Move rest_of(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
 
 }  // namespace motionrack::control

@@ -293,8 +293,10 @@ Result<StreamState> Stream::interrupted(const Error& error) {
 void Stream::keep_rest_of_path() {
     const Point place = axes_->commanded_position();
     while (!entries_.empty() && !entries_.front().is_move()) pop();
+    PulsesPerUnit pulses;
+    for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.gcode.limits[i].pulses_per_unit;
     const auto beside = [&](const Entry& entry) {
-        return nearest_on(geometry_of(entry.step.move, entry.start), place);
+        return nearest_on(geometry_of(entry.step.move, entry.start), place, pulses);
     };
     // A block may stand for several moves.
     std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
@@ -309,7 +311,7 @@ void Stream::keep_rest_of_path() {
     for (; nearest > 0; --nearest) pop();
     if (!entries_.empty() && handed_ > 0) {
         Entry& entry = entries_.front();
-        entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place);
+        entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
         entry.start = place;
         if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)
             pop();
