@@ -69,7 +69,19 @@ TEST_F(CanonCommand, FindsSubprogramsBesideTheProgram) {
     EXPECT_THAT(motionrack("canon - < parts/part.ngc").out,
                 HasSubstr("came without a folder in which another file could have it"));
     std::filesystem::remove(folder / "parts/hole.ngc");
-    EXPECT_THAT(motionrack("canon parts/part.ngc").out, HasSubstr("beside it is not there"));
+    const Ran missing = motionrack("check parts/part.ngc");
+    EXPECT_THAT(missing.out, HasSubstr("beside it is not there"));
+    EXPECT_EQ(missing.code, 2);
+}
+
+TEST_F(CanonCommand, TellsASubprogramThatCannotBeReadFromAWrongOne) {
+    write("part.ngc", "G21 G90\no<hole> call [5]\nM2\n");
+    std::filesystem::create_directories(folder / "hole.ngc");
+    for (const std::string command : {"canon", "check", "run --no-report"}) {
+        const Ran ran = motionrack(command + " part.ngc");
+        EXPECT_EQ(ran.code, 5) << command;
+        EXPECT_THAT(ran.out, HasSubstr("hole.ngc cannot be read: it is a folder"));
+    }
 }
 
 }  // namespace

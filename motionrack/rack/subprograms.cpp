@@ -8,16 +8,13 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::uintmax_t largest = 64 << 20;
+constexpr ReadLimit limit{std::size_t{64} << 20, "a subprogram"};
 
 Result<std::string> read(const std::filesystem::path& file) {
-    std::error_code missing;
-    const std::uintmax_t size = std::filesystem::file_size(file, missing);
-    if (missing)
-        return fail(Trouble::bad_input, fmt::format("{} beside it is not there or cannot be read", file.string()));
-    if (size > largest)
-        return fail(Trouble::bad_input, fmt::format("{} beside it is larger than 64 MiB", file.string()));
-    return read_whole_file(file.string(), {largest, "a subprogram"});
+    std::error_code unknown;
+    if (!std::filesystem::exists(file, unknown) && !unknown)
+        return fail(Trouble::bad_input, fmt::format("{} beside it is not there", file.string()));
+    return read_whole_file(file.string(), limit);
 }
 
 }  // namespace

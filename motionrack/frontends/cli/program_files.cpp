@@ -93,10 +93,14 @@ bool may_write(const std::vector<std::string>& inputs, const std::vector<std::st
 
 int print_problems(const control::gcode::Check& check, const std::string& name) {
     if (check.problems.empty()) return exit_done;
-    for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());
+    bool is_unreadable = false;
+    for (const control::gcode::Problem& problem : check.problems) {
+        print_error(problem.text());
+        is_unreadable |= problem.trouble == Trouble::io;
+    }
     print_error(fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
                             rack::counted(check.problems.size(), "problem")));
-    return exit_bad_input;
+    return is_unreadable ? exit_io : exit_bad_input;
 }
 
 }  // namespace motionrack::cli

@@ -153,9 +153,12 @@ bool Walk::load(const FlowPlace& place, const std::string& label, bool numbered,
         return fail(place, place.column,
                     fmt::format("a program may use {} files of subprograms; this is one more", most_files));
     Result<std::string> text = subprogram_(name);
-    if (!text)
-        return fail(place, place.column,
-                    fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
+    if (!text) {
+        fail(place, place.column,
+             fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
+        problem_.trouble = text.error().trouble;
+        return false;
+    }
     auto source = std::make_unique<Source>();
     source->kept = std::move(*text);
     source->text = source->kept;
