@@ -350,7 +350,7 @@ Result<void> Machine::declare_position(char axis, double position) {
     MOTIONRACK_CHECK(ready("The position was not declared"));
     MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not declared", axis));
     if (!std::isfinite(position)) return fail(Trouble::bad_input, "The position was not declared: it is not a number.");
-    positions_wanted_.push_back({axis, position, trust_.mark(axis)});
+    positions_wanted_.push_back(trust_.declared(axis, position));
     return {};
 }
 

@@ -159,11 +159,6 @@ class Machine {
     Instant now() const { return rack_.kernel().now(); }
 
   private:
-    struct Declared {
-        char letter = 'X';
-        double position = 0;
-        rack::TrustWatch::Mark stood;  ///< when it was declared
-    };
     Machine(const rack::RackConfig& config, MachineSettings settings);
     Result<void> start(const rack::RackConfig& config);
     Result<void> take_group();

@@ -31,9 +31,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
         const Standing here = standing_of(axis.config, settings_.standing, known);
-        if (!here.trusted) continue;
-        MOTIONRACK_CHECK(one->set_position(here.commanded));
-        trust_.begin(here.letter, trust_.mark(here.letter));
+        if (here.trusted) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
     }
     MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
     control::StreamSettings settings;
@@ -282,9 +280,7 @@ void Machine::home_all() {
     settings.stop = &home_stop_;
     settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
     settings.seen_indexes = &seen_indexes_;
-    settings.on_homed = [this](char letter, Instant since) {
-        trust_.begin(letter, {since, trust_.mark(letter).lost_pulses});
-    };
+    settings.on_homed = [this](char letter, Instant since) { trust_.begin_at_home(letter, since); };
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
@@ -299,8 +295,7 @@ void Machine::change_positions() {
     for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
         const Declared declared = positions_wanted_[i];  // others may come meanwhile
         const Result<control::Axis*> axis = take_axis(declared.letter);
-        done = axis ? (*axis)->set_position(declared.position) : tl::unexpected<Error>(axis.error());
-        if (done) trust_.begin(declared.letter, declared.stood);
+        done = axis ? trust_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
     }
     if (Result<void> taken = take_group(); done) done = taken;
     positions_wanted_.clear();

@@ -30,6 +30,16 @@ void Trust::begin(char letter, const rack::TrustWatch::Mark& from) {
     watch_.begin(number(letter), from);
 }
 
+Result<void> Trust::take(control::Axis& axis, const Declared& declared) {
+    MOTIONRACK_CHECK(axis.set_position(declared.position));
+    begin(declared.letter, declared.stood);
+    return {};
+}
+
+void Trust::begin_at_home(char letter, Instant since) {
+    begin(letter, {since, watch_.mark(number(letter)).lost_pulses});
+}
+
 /// While axes search home nothing is known of them yet; while a stop comes its own alarm says what is lost by it.
 std::vector<Alarm> Trust::look(Instant now, MachineState state) {
     std::vector<Alarm> out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <motionrack/control/axis.hpp>
 #include <motionrack/control/move.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/rack/trust.hpp>
@@ -9,6 +10,13 @@
 #include <vector>
 
 namespace motionrack::operate {
+
+/// Somebody says where an axis stands; its card takes that over a little later.
+struct Declared {
+    char letter = 'X';
+    double position = 0;
+    rack::TrustWatch::Mark stood;  ///< when it was said
+};
 
 /// Axes by their letters, which the rack has.
 class Trust {
@@ -18,10 +26,11 @@ class Trust {
 
     bool of(char letter) const { return trusted_[index(letter)]; }
     void lose(char letter) { trusted_[index(letter)] = false; }
-    /// An axis, and what it has lost so far: it stands where somebody will say.
-    rack::TrustWatch::Mark mark(char letter) const { return watch_.mark(number(letter)); }
-    /// It is trusted; and what it has lost since `from` is lost.
-    void begin(char letter, const rack::TrustWatch::Mark& from);
+    Declared declared(char letter, double position) const { return {letter, position, watch_.mark(number(letter))}; }
+    /// It is trusted then; what it has lost since it was declared is lost. Errors: as Axis::set_position.
+    Result<void> take(control::Axis& axis, const Declared& declared);
+    /// It is trusted, and where it says since then.
+    void begin_at_home(char letter, Instant since);
     /// What was lost since the last look, counts wrongly or stays behind: alarms with source, text and axis. Now
     /// and then, between drives.
     std::vector<Alarm> look(Instant now, MachineState state);
@@ -31,6 +40,7 @@ class Trust {
   private:
     std::size_t index(char letter) const;
     std::size_t number(char letter) const;  ///< in Rack::axes()
+    void begin(char letter, const rack::TrustWatch::Mark& from);
 
     rack::Rack& rack_;
     rack::TrustWatch watch_;
