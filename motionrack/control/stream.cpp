@@ -289,37 +289,6 @@ Result<StreamState> Stream::interrupted(const Error& error) {
     return state_ = StreamState::held;
 }
 
-/// The axes stand somewhere on the move that they began last, or already on the one that was queued behind it.
-void Stream::keep_rest_of_path() {
-    const Point place = axes_->commanded_position();
-    while (!entries_.empty() && !entries_.front().is_move()) pop();
-    PulsesPerUnit pulses;
-    for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.gcode.limits[i].pulses_per_unit;
-    const auto beside = [&](const Entry& entry) {
-        return nearest_on(geometry_of(entry.step.move, entry.start), place, pulses);
-    };
-    // A block may stand for several moves.
-    std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
-    known += blocks_.size() > 1 ? blocks_[1] : 0;
-    std::size_t nearest = 0;
-    double least = handed_ > 0 ? beside(entries_.front()).distance : 0;
-    for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
-        if (!entries_[i].is_move()) continue;
-        --known;
-        if (const double off = beside(entries_[i]).distance; off < least) least = off, nearest = i;
-    }
-    for (; nearest > 0; --nearest) pop();
-    if (!entries_.empty() && handed_ > 0) {
-        Entry& entry = entries_.front();
-        entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
-        entry.start = place;
-        if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)
-            pop();
-    }
-    planned_ = handed_ = 0;
-    new_planner(place);
-}
-
 void Stream::forget() {
     entries_.clear();
     cutting_.reset();

@@ -137,6 +137,23 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
     expect_end(driven, path.x, path.y);
 }
 
+TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
+    const Path path{"G21 G90 G61\nG0 X10 Y10\nG1 F3000\nX20.3 Y14.7\nX8.1 Y9.133\nX21 Y15.02\nX11 Y10.457\nM2\n", 11,
+                    10.457};
+    const RackConfig config = router(GetParam());
+    const Driven undisturbed = drive_with(config, path.text, {});
+    for (double at = 0.45; at < 1; at += 0.044) {
+        SCOPED_TRACE(at);
+        const Driven held = drive_with(config, path.text, {{at, "hold"}, {at + 0.2, "resume"}});
+        expect_lossless(held);
+        expect_end(held, path.x, path.y);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const std::int64_t sent = held.outcome.axes[i].pulses_sent;
+            EXPECT_LE(std::llabs(sent - undisturbed.outcome.axes[i].pulses_sent), 4) << "axis " << i << ": " << sent;
+        }
+    }
+}
+
 TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
     bool late = false;
     const Path path = spiral(0.2, 200);
