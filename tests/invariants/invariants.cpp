@@ -321,7 +321,7 @@ void Invariants::end_interval(const Sight& now) {
     last_seconds_ = seconds;
     base_at_ = now.at;
     jumped_ = now.latched && now.abrupt;
-    braked_ = now.latched;
+    was_braked_ = std::exchange(braked_, now.latched);
 }
 
 void Invariants::see_limits(std::size_t i, double velocity, double seconds, const Sight& now) {
@@ -338,7 +338,7 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
         "the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its limits explain {:g} "
         "(state '{}')",
         facts.letter, own_[i].velocity, velocity, seconds, change, allowed, operate::name_of(now.state));
-    if (braked_ && std::fabs(velocity) < std::fabs(own_[i].velocity))
+    if ((braked_ || was_braked_) && std::fabs(velocity) < std::fabs(own_[i].velocity))
         own_[i].jumped = std::move(text);
     else
         found(Rule::limits_kept, now.at, std::move(text));

@@ -324,6 +324,21 @@ TEST(AGoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
+TEST(AGoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
+    History h;
+    h.begin();
+    h.latch(true);
+    h.to(MachineState::stopping);
+    h.order(Invariants::Order::reset);
+    h.pass(0.004);
+    h.jump(0);
+    h.now().axes[0].trusted = false;
+    h.latch(false);
+    h.to(MachineState::standstill);
+    h.pass(0.3);
+    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
 TEST(AFinding, IsToldOnceARuleAndWithItsName) {
     History h;
     for (int i = 0; i < 3; ++i) h.ask_for(Rule::usable_again);
