@@ -137,6 +137,26 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
     expect_end(driven, path.x, path.y);
 }
 
+/// A ramp in chords, or in quarters of a circle, in each of which Z has less than half a pulse.
+TEST_P(Lossless, AnAxisWithLessThanAPulseInEachChordStaysOnTheWay) {
+    const auto ramp = [](double angle, double rise, bool arcs) {
+        Path out{"G21 G90 G64 P0.01\nG0 X170 Y100 Z40\nG1 F1200\n"};
+        for (int i = 1; i <= static_cast<int>(21 / angle); ++i) {
+            out.x = 150 + 20 * std::cos(i * angle);
+            out.y = 100 + 20 * std::sin(i * angle);
+            out.text += fmt::format("{} X{:.4f} Y{:.4f} Z{:.4f}{}\n", arcs ? "G3" : "G1", out.x, out.y, 40 - i * rise,
+                                    arcs ? " R20" : "");
+        }
+        out.text += "M2\n";
+        return out;
+    };
+    for (const Path& path : {ramp(0.01, 0.0005, false), ramp(0.01, 0.0001, false), ramp(1.5, 0.0007, true)}) {
+        const Driven driven = drive_with(router(GetParam()), path.text, {});
+        expect_lossless(driven);
+        expect_end(driven, path.x, path.y);
+    }
+}
+
 TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
     const Path path{"G21 G90 G61\nG0 X10 Y10\nG1 F3000\nX20.3 Y14.7\nX8.1 Y9.133\nX21 Y15.02\nX11 Y10.457\nM2\n", 11,
                     10.457};

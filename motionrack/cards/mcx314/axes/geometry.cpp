@@ -13,23 +13,37 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
     return out;
 }
 
+namespace {
+
+/// Whether the chip must be able to move an axis on this path. Along a line it moves however little it has of it: where
+/// many lines have less than a pulse each, one of them has the pulse. Beside an arc, which the chip draws itself if
+/// nothing else moves, only a pulse counts.
+bool has_part(const AxisMap& map, const control::Geometry& path, const control::Point& worst, std::size_t axis) {
+    constexpr double least_of_line = 1e-6;  // pulses: more than the rounding of coordinates
+    const double scale = map.limits[axis].pulses_per_unit, pulses = worst[axis] * path.length * scale;
+    if (path.shape != control::PathShape::arc) return pulses >= least_of_line;
+    if (axis == path.first || axis == path.second) return pulses >= 0.5;
+    return nearest_pulse(path.start[axis], scale) != nearest_pulse(path.end[axis], scale);
+}
+
+}  // namespace
+
 Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes) {
     const control::Point worst = control::worst_components(path);
+    Drawing out;
     int moving = 0, last = -1;
     bool rotary = false, beside_plane = false;
     double scale = 0, least = 1e300;
     for (std::size_t i = 0; i < worst.size(); ++i) {
-        const bool moves =
-            axes != 0 ? (axes >> i & 1) != 0 : worst[i] * path.length * map.limits[i].pulses_per_unit >= 0.5;
-        if (map.channel[i] < 0 || !moves) continue;
+        if (map.channel[i] < 0 || !(axes != 0 ? (axes >> i & 1) != 0 : has_part(map, path, worst, i))) continue;
         ++moving;
         last = map.channel[i];
+        out.channels |= static_cast<std::uint8_t>(1u << last);
         rotary = rotary || i >= 3;
         beside_plane = beside_plane || (path.shape == control::PathShape::arc && i != path.first && i != path.second);
         scale = std::max(scale, map.limits[i].pulses_per_unit);
         least = std::min(least, map.limits[i].pulses_per_unit);
     }
-    Drawing out;
     out.companion = moving > 3 ? last : -1;
     out.constant_vector = moving == 2 && !rotary && !beside_plane && scale - least <= 1e-9 * scale;
     return out;

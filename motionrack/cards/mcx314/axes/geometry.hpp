@@ -40,7 +40,8 @@ struct AxisMap {
 /// is not interpolated, -1: none.
 struct Drawing {
     bool constant_vector = false;
-    int companion = -1;  ///< channel
+    int companion = -1;         ///< channel
+    std::uint8_t channels = 0;  ///< that move, a bit each
 };
 /// `axes`: those that may move, a bit each; 0: those that do.
 Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes = 0);

@@ -73,6 +73,7 @@ Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
     }
     const Drawing drawing = drawing_of(map_, work.path, move.axes);
     work.companion = drawing.companion;
+    work.channels = drawing.channels;
     // From piece to piece of a ride a basic pulse must stay what it is: pulses of the longest axis.
     work.constant_vector = drawing.constant_vector && !move.even;
     if (work.path.shape == control::PathShape::arc)

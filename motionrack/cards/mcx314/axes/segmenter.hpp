@@ -69,6 +69,7 @@ class Segmenter {
         double units_out = 0;  ///< and at its end; the same unless it is made of chords
         std::int32_t block = 0;
         std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
+        std::uint8_t channels = 0;    ///< that it moves, a bit each
         Pulses4 to = {};
         std::int32_t most_at_end = rules::most_units;  ///< V with which the piece after it may begin
         bool turns_back = false;                       ///< the piece after it goes back
@@ -101,6 +102,7 @@ class Segmenter {
     void emit_chords(const Work& work, const Speeds& speeds);
     void add_rest(const Work& work, const Speeds& speeds);
     void emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
+    std::size_t waits_for_room(const Work& work, const Pulses4& to) const;
     void append(Segment segment, const Work& work, const Pulses4& to);
     void close_chain();
     void note_split(const Work& work, const char* why, double deviation_mm);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/axes/segmenter.hpp>
 #include <motionrack/cards/mcx314/driver/parameters.hpp>
+#include <utility>
 
 namespace motionrack::mcx314 {
 
@@ -62,6 +64,20 @@ bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::i
     return true;
 }
 
+/// Of the channels with pulses before `to` the one that is left out: none that the move itself moves, if there is
+/// another one; of these the one with the fewest.
+std::size_t Segmenter::waits_for_room(const Work& work, const Pulses4& to) const {
+    std::size_t out = 0;
+    std::pair<bool, std::int64_t> least = {true, std::numeric_limits<std::int64_t>::max()};
+    for (std::size_t c = 0; c < to.size(); ++c) {
+        const std::int64_t pulses = std::llabs(to[c] - at_[c]);
+        if (pulses == 0 || static_cast<int>(c) == work.companion) continue;
+        const std::pair<bool, std::int64_t> one = {(work.channels >> c & 1) != 0, pulses};
+        if (one < least) least = one, out = c;
+    }
+    return out;
+}
+
 void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration) {
     std::array<int, 4> moving{};
     int count = 0;
@@ -77,15 +93,8 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     // Beside two axes with constant vector speed is no room: with a third axis a basic pulse would be another length of
     // path.
     if (count > (work.constant_vector ? 2 : 3)) {
-        int least = 0;
-        auto size = [&](int i) {
-            return std::llabs(to[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])] -
-                              at_[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])]);
-        };
-        for (int i = 1; i < count; ++i)
-            if (size(i) < size(least)) least = i;
         Pulses4 without = to;
-        const auto left = static_cast<std::size_t>(moving[static_cast<std::size_t>(least)]);
+        const std::size_t left = waits_for_room(work, to);
         without[left] = at_[left];
         return emit_line(work, without, v, acceleration);
     }
