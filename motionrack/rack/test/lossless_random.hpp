@@ -28,7 +28,8 @@ inline constexpr double probe_height = 60, program_height = 75;
 /// Paths of straight moves: smooth curves, sharp corners and ways back, each in chords of one length or of many.
 class ChordMaker : public Chance {
   public:
-    explicit ChordMaker(std::uint64_t seed) : Chance(seed), probing_(~seed), probes_(probing_.pick(4) == 0) {}
+    explicit ChordMaker(std::uint64_t seed)
+        : Chance(seed), probing_(~seed), probes_(probing_.pick(4) == 0), ramps_(seed ^ 0x7a4d) {}
 
     struct Program {
         std::string text;
@@ -77,6 +78,9 @@ class ChordMaker : public Chance {
         const bool mixed = pick(4) == 0, with_z = pick(3) == 0;
         if (pick(3) == 0) out_.text += fmt::format("F{:.0f}\n", feed());
         if (pick(2) == 0) heading_ += number(-3.2, 3.2);
+        // A ramp: Z goes along by less than a pulse a chord, or by more.
+        const bool is_ramp = ramps_.pick(3) == 0;
+        const double slope = is_ramp ? ramps_.even_on_log(1e-5, 0.1) * (ramps_.pick(2) == 0 ? 1 : -1) : 0;
         double z = 0;
         for (double s = 0; s < length;) {
             // From wherever the way back towards the middle begins it does not lead off the table.
@@ -87,9 +91,12 @@ class ChordMaker : public Chance {
             if (std::hypot(out_.x - 150, out_.y - 100) > 45) heading_ = std::atan2(100 - out_.y, 150 - out_.x);
             out_.x = rounded(out_.x + step * std::cos(heading_));
             out_.y = rounded(out_.y + step * std::sin(heading_));
-            if (with_z) z = std::clamp(z + 0.3 * step * number(-1, 1), -3.0, 3.0);
-            out_.text +=
-                fmt::format("X{:.4f} Y{:.4f}{}\n", out_.x, out_.y, with_z ? fmt::format(" Z{:.4f}", 75 + z) : "");
+            if (is_ramp)
+                z += slope * step;
+            else if (with_z)
+                z = std::clamp(z + 0.3 * step * number(-1, 1), -3.0, 3.0);
+            out_.text += fmt::format("X{:.4f} Y{:.4f}{}\n", out_.x, out_.y,
+                                     with_z || is_ramp ? fmt::format(" Z{:.4f}", 75 + z) : "");
             s += step;
         }
         out_.seconds += length / 60;
@@ -98,6 +105,7 @@ class ChordMaker : public Chance {
 
     Chance probing_;
     bool probes_;
+    Chance ramps_;
     Program out_;
     double heading_ = 0;
 };
