@@ -73,7 +73,7 @@ constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", H
 
 // clang-format off
 constexpr std::array type1 = {
-    check_start, search_start, search_wait({{{done, "ZERO_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
+    check_start, search_start, search_wait({{{done, "ZERO_START"}, {early, "REST_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
     settle_start, settle_wait("SEARCH_START"), zero_start, stopping_wait, homed, failed};
 constexpr std::array type2 = {
@@ -82,7 +82,7 @@ constexpr std::array type2 = {
     settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("ZERO_START"), zero_start, stopping_wait, homed,
     failed};
 constexpr std::array type3 = {
-    check_start, search_start, search_wait({{{done, "INDEX_START"}, {early, "BACK_START"}, {limit, "REST_START"}}}),
+    check_start, search_start, search_wait({{{done, "INDEX_START"}, {early, "REST_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
     settle_start, settle_wait("SEARCH_START"), index_start, index_wait, zero_start, stopping_wait, homed, failed};
 constexpr std::array type4 = {
