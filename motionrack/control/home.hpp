@@ -23,6 +23,8 @@ struct HomeOrder {
     double speed = 0;           ///< of the search, > 0, at most the axis' greatest
     double slow_speed = 0;      ///< of the second approach and of the way to the index, > 0, at most the start speed
     double position = 0;        ///< what the home place is called
+    /// Way back until the switch is released: edges that this does not explain are not trusted. Absent: not compared.
+    std::optional<double> hysteresis;
     double clearance = 0.1;     ///< mm or degrees driven on after the switch is released, >= 0
     double settle_s = 0.005;    ///< how long contacts must be at rest, 0 .. 10 s
     double travel = 0;          ///< longest search, mm or degrees; 0: a fifth more than the axis' travel

@@ -293,6 +293,7 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
                         h.type, axis.unit()));
     const double to_home = h.type < 3 ? 0 : h.index_after.value_or(0);
     order.position = h.position.value_or(plus ? edge + to_home : edge - to_home);
+    order.hysteresis = cam ? 0 : axis.switches.hysteresis;
     order.clearance = h.clearance;
     order.switch_active_high = plus;
     order.switch_input = input_of(config, axis, cam ? "cam" : "home", type.home_pins);

@@ -37,7 +37,10 @@ void HomeSearch::begin(const control::HomeOrder& order, const HomeFrame& frame, 
     outcome_.from = now;
     error_ = {};
     turned_ = zeroed_ = false;
-    way_ = pace_ = 0;
+    way_ = pace_ = step_ = 0;
+    std::optional<double> hysteresis;
+    if (order.hysteresis) hysteresis = *order.hysteresis * frame.counts_per_unit;
+    edges_.begin(hysteresis, contacts_repeat * frame.counts_per_unit + 2);
     state_ = State::idle;
     looked_ = now;
     Result<void> begun;
@@ -122,7 +125,7 @@ Result<void> HomeSearch::enter(State state, Instant now) {
     state_ = state;
     entered_ = still_since_ = now;
     entered_way_ = way_;
-    marked_ = counted_ = seen_ = off_ = false;
+    marked_ = counted_ = seen_ = off_ = under_ = false;
     stop_seen_ = never;
     switch (state) {
         case State::back:
@@ -157,6 +160,7 @@ Result<void> HomeSearch::count(Instant now) {
     }
     if (counts != counts_) still_since_ = now;
     way_ += step;
+    step_ = std::fabs(step);
     counts_ = counts;
     looked_ = now;
     return {};
@@ -223,6 +227,7 @@ Result<void> HomeSearch::look_back(Instant now) {
     } else if (seen_ && !off_) {
         off_ = true;
         off_way_ = way_;
+        edges_.released(towards(way_) - step_, 2 * step_);
         outcome_.edges.push_back({"switch off", std::string(state_name()), way_,
                                   std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
                                   std::fabs(pace_) / frame_.counts_per_unit, since(now)});
@@ -231,10 +236,27 @@ Result<void> HomeSearch::look_back(Instant now) {
     return enter(State::back_stop, now);
 }
 
+/// The reference has become active between two looks. A way that the counter's 0 hides is known to a look's.
+Result<void> HomeSearch::check_edge(double way) {
+    const auto conflict = edges_.acted(towards(way) + step_, 2 * step_);
+    if (!conflict) return {};
+    return failed(
+        fmt::format("the reference is not sound: {}; look for a loose wire and for contacts that break or stick",
+                    conflict->text([&](double counts) {
+                        return fmt::format("{:.3f} {}", counts / frame_.counts_per_unit, frame_.unit);
+                    })));
+}
+
 Result<void> HomeSearch::look_search(Instant now) {
+    const bool index = (marks() & event::ZERO) != 0;
+    if (index && !under_ && driver_.status().reference()) {
+        under_ = true;
+        MOTIONRACK_CHECK(check_edge(way_));
+    }
     if (!marked_) return {};
-    outcome_.edges.push_back({(marks() & event::ZERO) != 0 ? "index" : "switch on", std::string(state_name()),
-                              home_way_, 0, std::fabs(pace_) / frame_.counts_per_unit, since(now)});
+    if (!index) MOTIONRACK_CHECK(check_edge(home_way_));
+    outcome_.edges.push_back({index ? "index" : "switch on", std::string(state_name()), home_way_, 0,
+                              std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     zeroed_ = true;
     return enter(state_ == State::search ? State::search_stop : State::slow_stop, now);
 }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/base/switch_edges.hpp>
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
 #include <motionrack/control/home.hpp>
@@ -61,6 +62,8 @@ class HomeSearch {
     Result<void> look(Instant now);
     Result<void> look_back(Instant now);
     Result<void> look_search(Instant now);
+    Result<void> check_edge(double way);
+    double towards(double way) const { return order_.towards_plus ? way : -way; }
     Result<void> look_standing(Instant now);
     Result<void> look_at_events(Instant now);
     Result<void> look_at_stop(Instant now);
@@ -89,6 +92,9 @@ class HomeSearch {
     double home_way_ = 0;      // where that was
     double pace_ = 0;          // counts a second at the last look
     Instant looked_{};
+    double step_ = 0;     // counts from the last look to this one
+    SwitchEdges edges_;   // in counts
+    bool under_ = false;  // the reference was seen active on the way to the index under it
     double off_way_ = 0;  // BACK: where the reference was left
     bool off_ = false;
     Instant still_since_{};

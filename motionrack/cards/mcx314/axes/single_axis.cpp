@@ -199,6 +199,11 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
         MOTIONRACK_CHECK(outside("the way from the switch to the index", *order.index_after, 0, most_way));
         out.index_after = pulses(*order.index_after);
     }
+    if (order.hysteresis) {
+        MOTIONRACK_CHECK(outside("the hysteresis of the switch", *order.hysteresis, 0, most_way));
+        out.hysteresis = pulses(*order.hysteresis) + 1;
+        out.repeats = pulses(contacts_repeat) + 2;
+    }
     out.clearance = std::min(out.travel, pulses(order.clearance));
     out.settle = from_seconds(order.settle_s);
     out.turn_at_limit = order.turn_at_limit;

@@ -97,6 +97,9 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
     report_.negative = settings_.negative;
     report_.input = settings_.input;
     report_.home_position = settings_.home_position;
+    conflict_.reset();
+    edges_.begin(settings_.hysteresis < 0 ? std::nullopt : std::optional(static_cast<double>(settings_.hysteresis)),
+                 static_cast<double>(settings_.repeats));
     report_.from = now;
     running_ = true;
     stop_asked_ = turned_ = again_ = false;
@@ -273,6 +276,7 @@ void Home::drive_reached(const Look& look, Instant now) {
         if (!edge_in_state_) switch_on_ = edge.active;
         edge_in_state_ = true;
     }
+    if (!is_edge_of_switch(edge)) return fail(HomeFault::edges_differ, look, now);
     if (state_->until == HomeUntil::on) {
         report_.switch_lp = edge.lp;
         report_.switch_within = edge.within;
@@ -288,6 +292,15 @@ void Home::drive_reached(const Look& look, Instant now) {
             "the switch came before V was reached, with no way for a longer run-up: a start from farther away may end "
             "elsewhere");
     leave_by(HomeCause::done, look, now);
+}
+
+/// Edges on the way towards the switch are compared with those before them.
+bool Home::is_edge_of_switch(const HomeEdge& edge) {
+    const auto up = static_cast<double>(way_between(report_.stays.front().from_lp, edge.lp));
+    const double way = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
+    if (state_->until == HomeUntil::off) edges_.released(way, within);
+    if (state_->until == HomeUntil::on && state_->way == HomeWay::towards) conflict_ = edges_.acted(way, within);
+    return !conflict_;
 }
 
 /// Where types 1 and 3 end depends on the speed at the switch: they want it to be V.

@@ -7,6 +7,7 @@
 // not depend on how often step() is called, and if the host dies the axis stops by itself.
 #pragma once
 
+#include <motionrack/base/switch_edges.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/driver/home_report.hpp>
 #include <motionrack/cards/mcx314/driver/home_table.hpp>
@@ -31,8 +32,10 @@ struct HomeSettings {
     std::int64_t travel = param::pulses.greatest;  ///< longest way of a search, 1 .. 268,435,455
     std::int64_t index_after =
         -1;  ///< pulses from the switch to the index, within a quarter of `turn`; -1: wherever it is first
-    std::int64_t turn = 0;        ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
-    std::int64_t clearance = 50;  ///< driven on after the switch is released, 0 .. travel
+    std::int64_t turn = 0;  ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
+    std::int64_t hysteresis = -1;  ///< way back until the switch is released; -1: not known, edges are not compared
+    std::int64_t repeats = 2;      ///< its edges come again within so many pulses
+    std::int64_t clearance = 50;   ///< driven on after the switch is released, 0 .. travel
     Duration settle = milliseconds(5);      ///< how long contacts must be at rest, 0 .. 10 s
     Duration timeout = whole_seconds(600);  ///< of one state, > 0; less where the way and the speed tell
     bool turn_at_limit = true;              ///< at the limit switch, search the other way
@@ -94,6 +97,7 @@ class Home {
     void drive(const Look& look, Instant now);
     void wait_end(const Look& look, Instant now);
     void drive_reached(const Look& look, Instant now);
+    bool is_edge_of_switch(const HomeEdge& edge);
     bool stopped_early() const;
     void zero(const Look& look, Instant now);
     void fail(HomeFault fault, const Look& look, Instant now);
@@ -108,7 +112,7 @@ class Home {
     std::string text(std::int64_t pulses) const;
     std::string place(std::int32_t lp) const;
     std::string switch_text() const;
-    std::pair<std::string, std::string> index_failure(const std::string& how_far) const;
+    std::pair<std::string, std::string> edge_failure(const std::string& how_far) const;
     std::string why_failed(const Look& look) const;
 
     Driver& driver_;
@@ -117,6 +121,8 @@ class Home {
     const HomeTable* table_ = nullptr;
     const HomeState* state_ = nullptr;
     HomeReport report_;
+    SwitchEdges edges_;
+    std::optional<EdgeConflict> conflict_;
     bool running_ = false;
     bool stop_asked_ = false;
     bool switch_on_ = false;           ///< as last seen, or as the chip's stop tells

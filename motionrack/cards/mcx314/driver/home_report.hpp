@@ -16,6 +16,7 @@ enum class HomeFault : std::uint8_t {
     none,
     not_found,        ///< the switch was not found within the travel, or before the limit
     not_released,     ///< the switch is active and stays so
+    edges_differ,     ///< the switch acted where a sound one would not, by what was seen of it before
     no_index,         ///< the encoder's index was not seen
     index_at_switch,  ///< the index is active where the switch acts: the next start may find another turn
     wrong_index,      ///< an index was seen, but not where it is: there are two, or the switch was moved

@@ -84,6 +84,8 @@ Result<void> Home::check_ready() {
         {"the slow speed (at most SV)", s.slow_v == 0 ? 1 : s.slow_v, 1, s.sv},
         {"the travel", s.travel, 1, param::pulses.greatest},
         {"the pulses of a turn", s.turn, 0, param::pulses.greatest},
+        {"the hysteresis of the switch (-1: not known)", s.hysteresis, -1, param::pulses.greatest},
+        {"the way within which the switch repeats", s.repeats, 0, param::pulses.greatest},
         {"the clearance", s.clearance, 0, s.travel},
         {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
         {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
@@ -128,11 +130,15 @@ std::string Home::switch_text() const {
     return fmt::format("the home switch (IN{}, active {})", settings_.input, settings_.active_high ? "High" : "Low");
 }
 
-/// What was wrong with the index, and what to do.
-std::pair<std::string, std::string> Home::index_failure(const std::string& how_far) const {
+/// What was wrong with the edges of switch or index, and what to do.
+std::pair<std::string, std::string> Home::edge_failure(const std::string& how_far) const {
     const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input,
                                           settings_.index_high ? "High" : "Low");
     switch (report_.fault) {
+        case HomeFault::edges_differ:
+            return {fmt::format("{} is not sound: {}", switch_text(),
+                                conflict_->text([&](double way) { return text(std::llround(way)); })),
+                    "Look for a loose wire and for contacts that break, stick or bounce for long"};
         case HomeFault::no_index:
             return {fmt::format("{} was not seen within {} after the switch", index, how_far),
                     "Look at the encoder's Z wire and level, or home without it (type 1 or 2)"};
@@ -175,10 +181,11 @@ std::string Home::why_failed(const Look& look) const {
             what = fmt::format("{} is active and was not released within {}", switch_text(), how_far);
             next = "Look whether it is stuck or has the other level, or move the axis off it by hand";
             break;
+        case HomeFault::edges_differ:
         case HomeFault::no_index:
         case HomeFault::index_at_switch:
         case HomeFault::wrong_index:
-            std::tie(what, next) = index_failure(how_far);
+            std::tie(what, next) = edge_failure(how_far);
             break;
         case HomeFault::alarm:
             what = "the drive's alarm became active", next = "Clear the cause in the drive";

@@ -1,0 +1,45 @@
+// Comparing the edges of a search.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/base/switch_edges.hpp>
+
+namespace motionrack {
+
+std::string EdgeConflict::said(std::string_view way, std::string_view most) const {
+    return fmt::format("it acted {} {} the place where it {} in this search, and a sound switch explains {}", way,
+                       beyond ? "beyond" : "before", with_release ? "was released" : "had acted", most);
+}
+
+void SwitchEdges::begin(std::optional<double> hysteresis, double repeats) {
+    hysteresis_ = hysteresis;
+    repeats_ = repeats;
+    acted_.reset();
+    released_.reset();
+}
+
+void SwitchEdges::released(double way, double within) {
+    const Span here{way, way + within};
+    released_ = released_ ? Span{std::min(released_->low, here.low), std::max(released_->high, here.high)} : here;
+}
+
+std::optional<EdgeConflict> SwitchEdges::acted(double way, double within) {
+    if (!hysteresis_) return {};
+    const Span here{way - within, way};
+    std::optional<EdgeConflict> out;
+    if (released_) out = conflict(here, *released_, *hysteresis_);
+    if (out) out->with_release = true;
+    if (!out && acted_) out = conflict(here, *acted_, 0);
+    acted_ = here;
+    released_.reset();
+    return out;
+}
+
+std::optional<EdgeConflict> SwitchEdges::conflict(const Span& edge, const Span& other, double slack) const {
+    const double beyond = edge.low - other.high, before = other.low - edge.high;
+    if (beyond > slack + repeats_) return EdgeConflict{false, true, beyond, slack + repeats_};
+    if (before > repeats_) return EdgeConflict{false, false, before, repeats_};
+    return {};
+}
+
+}  // namespace motionrack
