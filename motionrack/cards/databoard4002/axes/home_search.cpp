@@ -149,6 +149,8 @@ void HomeSearch::step(Instant now) {
 /// The way since the last look; where the counter was set to 0 meanwhile, from the pace before.
 Result<void> HomeSearch::count(Instant now) {
     MOTIONRACK_TRY(const std::int64_t counts, driver_.position());
+    // Perhaps the counter has just become 0, and perhaps after it was read: the next look knows.
+    if (marking() && !marked_ && driver_.status().event()) return {};
     const double seconds = to_seconds(now - looked_);
     double step = static_cast<double>(counts - counts_);
     if (marked_ && !counted_) {
