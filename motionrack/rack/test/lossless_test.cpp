@@ -157,6 +157,20 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachChordStaysOnTheWay) {
     }
 }
 
+/// The end of its short drives may come at the instant in which the queue has room.
+TEST_P(Lossless, AFourthAxisThatOftenStandsHoldsNothingUp) {
+    Path path{"G21 G90 G64 P0.01 F1051\nG0 X170 Y100 Z40\n", 0, 0};
+    for (int i = 1; i < 153; ++i) {
+        path.x = 150 + 20 * std::cos(i * 0.005);
+        path.y = 100 + 20 * std::sin(i * 0.005);
+        path.text +=
+            fmt::format("G1 X{:.4f} Y{:.4f} Z{:.4f} A{:.4f}\n", path.x, path.y, 40 - 0.0005 * i, 0.0083226 * i);
+    }
+    const Driven driven = drive_with(router(GetParam()), path.text + "M2\n", {});
+    expect_lossless(driven);
+    expect_end(driven, path.x, path.y);
+}
+
 TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
     const Path path{"G21 G90 G61\nG0 X10 Y10\nG1 F3000\nX20.3 Y14.7\nX8.1 Y9.133\nX21 Y15.02\nX11 Y10.457\nM2\n", 11,
                     10.457};

@@ -173,7 +173,11 @@ Result<void> Axes::wait_for_joint(const Segment& queued) {
             ran_alone_ = true;  // it has run and ended already
             return {};
         }
-        if (woken) clear_interrupts();  // something else woke us (a companion's end)
+        if (std::exchange(woken, false)) {
+            // Something else woke us, a companion's end. What was cleared with it may have been the room in the queue.
+            clear_interrupts();
+            continue;
+        }
         const bool brakes = driver_.interrupt().stop_requested();
         if (brakes) MOTIONRACK_CHECK(brake());
         // The next piece is queued as soon as there is room for it, while the axes brake too.
