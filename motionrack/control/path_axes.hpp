@@ -15,7 +15,7 @@ namespace motionrack::control {
 /// What driving a path differently from how it was programmed costs, told to the user.
 struct PathNote {
     int line = 0;             ///< line of the part program
-    std::string what;         ///< a sentence
+    std::string what;         ///< a sentence without the line
     double deviation_mm = 0;  ///< greatest distance from the programmed path that it adds
     double late_seconds =
         -1;        ///< a piece of the path came so much too late, and the axes stopped at its start; < 0: none

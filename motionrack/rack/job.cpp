@@ -181,9 +181,10 @@ JobOutcome Job::run() {
     out.chip_segments = rack_.axes().front().card->segments();
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();
-    take_notes(**axes, out);
+    const std::vector<DrivenOtherwise> others = take_notes(**axes, out);
     collect_conditions(out);
     collect_breaches(out);
+    tell(others, out);
     for (TrustFinding& found : trust.look(true)) {
         if (found.axis == TrustFinding::no_axis) continue;  // told with the conditions
         if (found.lost)
@@ -220,14 +221,36 @@ void Job::tell_stop(JobOutcome& out) {
                      {line_, 1});
 }
 
-void Job::take_notes(control::PathAxes& axes, JobOutcome& out) {
-    for (const control::PathNote& note : axes.take_notes()) {
-        if (note.late_seconds >= 0)
+/// Those of pieces that came too late are breaches; one of each other kind is returned, with the lines it is of.
+std::vector<Job::DrivenOtherwise> Job::take_notes(control::PathAxes& axes, JobOutcome& out) {
+    std::vector<DrivenOtherwise> others;
+    for (control::PathNote& note : axes.take_notes()) {
+        if (note.late_seconds >= 0) {
             out.breaches.add(
                 {BreachKind::late, -1, note.late_seconds, 0, note.at, note.line, monitor_->place_at(note.at)});
-        else
-            out.warnings.push_back(
-                {began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
+            continue;
+        }
+        const auto same = std::find_if(others.begin(), others.end(),
+                                       [&](const DrivenOtherwise& one) { return one.first.what == note.what; });
+        if (same == others.end()) {
+            others.push_back({note, note.line, 1});
+            continue;
+        }
+        same->first.deviation_mm = std::max(same->first.deviation_mm, note.deviation_mm);
+        same->lines += std::exchange(same->last_line, note.line) != note.line;
+    }
+    return others;
+}
+
+/// Behind what was lost or broken: these moves were driven as they should.
+void Job::tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const {
+    for (const DrivenOtherwise& one : others) {
+        const std::string lines = one.lines == 1
+                                      ? fmt::format("line {}", one.first.line)
+                                      : fmt::format("{} lines from {} to {}", one.lines, one.first.line, one.last_line);
+        out.warnings.push_back(
+            {began_, one.first.line,
+             fmt::format("{}: {} (it costs at most {:.4f} mm)", lines, one.first.what, one.first.deviation_mm)});
     }
 }
 

@@ -105,13 +105,21 @@ class Job {
     static constexpr std::size_t most_planned = 20'000;
 
   private:
+    /// What moves of some lines were driven with instead, and what that costs at most.
+    struct DrivenOtherwise {
+        control::PathNote first;
+        int last_line = 0;
+        std::int64_t lines = 0;
+    };
+
     Result<void> drive(control::PathAxes& axes, JobOutcome& out);
     Result<void> drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out);
     void programmed(const control::Move& move, const control::Point& start, JobOutcome& out);
     void planned(std::int64_t block, const control::PlannedMove& move);
     void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
-    void take_notes(control::PathAxes& axes, JobOutcome& out);
+    std::vector<DrivenOtherwise> take_notes(control::PathAxes& axes, JobOutcome& out);
+    void tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const;
     void collect_breaches(JobOutcome& out);
     void collect_conditions(JobOutcome& out);
     void tell_stop(JobOutcome& out);

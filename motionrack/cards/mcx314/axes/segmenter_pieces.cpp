@@ -1,6 +1,4 @@
 // The pieces of a move as segments of the chip: arcs that it can draw, lines, and what no axis may pass on them.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -199,7 +197,7 @@ std::int64_t Segmenter::companion_pulses_ahead(int channel, int direction) const
 }
 
 void Segmenter::note_split(const Work& work, const char* why, double deviation_mm) {
-    notes_.push_back({work.move.move.line, fmt::format("line {}: {}", work.move.move.line, why), deviation_mm});
+    notes_.push_back({work.move.move.line, why, deviation_mm});
 }
 
 }  // namespace motionrack::mcx314
