@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <motionrack/control/gcode/lines.hpp>
 #include <motionrack/control/gcode/number.hpp>
@@ -144,11 +146,11 @@ std::string to_text(const Tool& tool) {
     std::string out = fmt::format("T{} P{}", tool.number, tool.pocket);
     const auto add = [&out](char letter, double value) {
         if (value == 0) return;
-        std::string digits = fmt::format("{:.17f}", value);  // no exponent, which the table does not know
-        digits.erase(digits.find_last_not_of('0') + 1);
-        if (digits.back() == '.') digits.pop_back();
-        const std::string plain = fmt::format("{}", value);
-        out += fmt::format(" {}{}", letter, plain.find('e') == std::string::npos ? plain : digits);
+        std::array<char, 400> digits;  // the longest, of the smallest double, have 343
+        const auto [end, error] =
+            std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+        MOTIONRACK_ASSERT(error == std::errc());
+        out.append({' ', letter}).append(digits.data(), end);
     };
     for (std::size_t axis = 0; axis < axis_count; ++axis) add(axis_letters[axis], tool.offset[axis]);
     add('D', tool.diameter_mm);

@@ -46,7 +46,8 @@ class ToolTable {
 /// Errors: a line that is no tool, with its place in `file`.
 Result<ToolTable> read_tool_table(std::string_view text, const std::string& file = {});
 
-/// "T1 P1 Z42.5 D3.175", without a line end.
+/// "T1 P1 Z42.5 D3.175", without a line end. Each number has the fewest digits that read back as the same number, and
+/// no exponent, which the table does not know. Requires finite numbers.
 std::string to_text(const Tool& tool);
 
 }  // namespace motionrack::control::gcode

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <motionrack/control/gcode/number.hpp>
 
 #include "gcode_support.hpp"
 
@@ -60,6 +61,33 @@ TEST(GcodeTools, AreReadFromATable) {
     ASSERT_TRUE(again) << again.error().text();
     EXPECT_EQ(again->tools()[0].offset[2], 1e-7);
     EXPECT_EQ(again->tools()[0].diameter_mm, 5e-5);
+}
+
+TEST(GcodeTools, AreWrittenWithTheFewestDigitsThatReadBackAsTheSameNumber) {
+    const std::pair<double, std::string> rows[] = {
+        {1e-7, "0.0000001"},
+        {1e-17, "0.00000000000000001"},
+        {1 / 3e5, "0.0000033333333333333333"},
+        {5e-324, "0." + std::string(323, '0') + "5"},
+        {-2.2250738585072014e-308, "-0." + std::string(307, '0') + "22250738585072014"},
+        {0.1, "0.1"},
+        {999'999'999.99999988, "999999999.9999999"},
+        {1e9, "1000000000"},
+        {-1e22, "-1" + std::string(22, '0')},
+    };
+    for (const auto& [value, digits] : rows) {
+        const Tool tool{3, 0, {0, 0, value}, value};
+        const std::string text = to_text(tool);
+        EXPECT_EQ(text, "T3 P0 Z" + digits + " D" + digits);
+        const auto again = read_tool_table(text);
+        if (std::fabs(value) > largest_number) {
+            EXPECT_FALSE(again) << "a number of G-code is not so large";
+            continue;
+        }
+        ASSERT_TRUE(again) << again.error().text();
+        EXPECT_EQ(again->tools()[0].offset[2], value);
+        EXPECT_EQ(again->tools()[0].diameter_mm, value);
+    }
 }
 
 TEST(GcodeTools, FaultyTablesAreRefusedWithTheirPlace) {
