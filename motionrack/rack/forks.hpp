@@ -18,14 +18,13 @@ class EdgeFork final : public sim::EdgeListener {
     /// `attach`: makes somebody the one listener, or nobody (nullptr).
     explicit EdgeFork(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
 
-    /// Between runs.
+    /// Between runs. Nothing is done where an ear is to be removed that was not added.
     void add(sim::EdgeListener& ear) {
         ears_.push_back(&ear);
         if (ears_.size() == 1) attach_(this);
     }
     void remove(sim::EdgeListener& ear) {
-        ears_.erase(std::remove(ears_.begin(), ears_.end(), &ear), ears_.end());
-        if (ears_.empty()) attach_(nullptr);
+        if (std::erase(ears_, &ear) > 0 && ears_.empty()) attach_(nullptr);
     }
     void edges(const sim::EdgeBatch& batch) override {
         for (sim::EdgeListener* ear : ears_) ear->edges(batch);

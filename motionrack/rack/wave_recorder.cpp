@@ -133,9 +133,7 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
         out->is_device_ = true;
     }
-    out->recording_ = true;
-    for (const sim::WireId wire : out->followed_) out->tap_->follow(wire, true);
-    rack.wire_ears().add(*out);
+    out->listen();
     return out;
 }
 
@@ -158,20 +156,15 @@ void WaveRecorder::choose_axes() {
         if (pulses) {
             const std::size_t step = add(name, "step", 1, 0), direction = add(name, "dir", 1, 1);
             steps_.push_back(std::make_unique<StepEar>(*this, step, direction));
-            hear(*axis.pulse_ears, *steps_.back());
+            heard_.emplace_back(axis.pulse_ears.get(), steps_.back().get());
         }
         if (lines) {
             const parts::Lines now = machine.encoder_lines(rack_.kernel().now());
             const std::size_t a = add(name, "enc_a", 1, now.a != 0), b = add(name, "enc_b", 1, now.b != 0);
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
-            hear(*axis.encoder_ears, *lines_.back());
+            heard_.emplace_back(axis.encoder_ears.get(), lines_.back().get());
         }
     }
-}
-
-void WaveRecorder::hear(EdgeFork& fork, sim::EdgeListener& ear) {
-    fork.add(ear);
-    heard_.emplace_back(&fork, &ear);
 }
 
 std::uint64_t WaveRecorder::shown(sim::WireId wire, int level) const {
@@ -248,6 +241,14 @@ void WaveRecorder::drain() {
     }
     changes_ += buffer_.size();
     buffer_.clear();
+}
+
+/// Parts of the rack keep that they are listened to, so this comes behind all that can fail.
+void WaveRecorder::listen() {
+    for (const auto& [fork, ear] : heard_) fork->add(*ear);
+    recording_ = true;
+    for (const sim::WireId wire : followed_) tap_->follow(wire, true);
+    rack_.wire_ears().add(*this);
 }
 
 void WaveRecorder::stop_listening() {

@@ -49,7 +49,8 @@ struct WaveSettings {
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
     /// Before the rack is started it becomes a device that looks at the registers by itself after begin(); in a running
-    /// rack its owner calls look(). Errors: io; refused (timescale); bad_input if no signal fits the patterns.
+    /// rack its owner calls look(). Errors: io; refused (timescale); bad_input if no signal fits the patterns. The rack
+    /// is as it was then.
     static Result<std::unique_ptr<WaveRecorder>> create(Rack& rack, const WaveSettings& settings);
     ~WaveRecorder() override;
 
@@ -94,9 +95,9 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     /// What is recorded of a wire's level.
     std::uint64_t shown(sim::WireId wire, int level) const;
     void choose_axes();
-    void hear(EdgeFork& fork, sim::EdgeListener& ear);
     void choose_wires();
     void choose_counters();
+    void listen();
     void stop_listening();
     void push(Instant at, std::size_t signal, std::uint64_t value);
     void look_at_cards(Instant now);
@@ -116,7 +117,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepEar>> steps_;
     std::vector<std::unique_ptr<LineEar>> lines_;
-    std::vector<std::pair<EdgeFork*, sim::EdgeListener*>> heard_;
+    std::vector<std::pair<EdgeFork*, sim::EdgeListener*>> heard_;  ///< which ear listens to which edges
     std::vector<sim::WireId> followed_;
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;

@@ -238,6 +238,28 @@ TEST(CWorld, RecordingsThatCannotBeMadeAreRefused) {
     EXPECT_EQ(copy.hash(), world.hash()) << "nothing was left behind";
 }
 
+TEST(CWorld, ARecordingThatCannotBeginLeavesTheRackAsItWas) {
+    World world;
+    begin_motion(world);
+    world.pass(123'456'789);
+    World copy(world.rack);
+    const std::uint64_t before = world.hash();
+    const std::string vcd = temporary("h.vcd"), nowhere = "/no/such/folder/a.vcd";
+    const std::pair<const char*, const char*> starts[] = {{nowhere.c_str(), nullptr},
+                                                          {nowhere.c_str(), "X.*,A.* c1.*"},
+                                                          {nowhere.c_str(), "c1.xpp"},
+                                                          {vcd.c_str(), "Q.*"},
+                                                          {"a.txt", "X.*"},
+                                                          {"/tmp/a.h5", ""}};
+    for (const auto& [path, signals] : starts) {
+        EXPECT_NE(mr_trace_start(world, path, signals), MR_OK) << path;
+        EXPECT_EQ(world.hash(), before) << path << ": " << mr_last_error();
+    }
+    for (World* each : {&world, &copy}) each->pass(700'000'000);
+    EXPECT_EQ(world.hash(), copy.hash());
+    EXPECT_FALSE(std::filesystem::exists(vcd));
+}
+
 TEST(CWorld, NullPointersAreBadCalls) {
     World world;
     double value = 0;
