@@ -159,7 +159,9 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
     void answer(HttpAnswer one, bool keep_alive) {
         busy_ = true;
-        response_ = response_of(one, head_.method == "HEAD", keep_alive && !peer_.spare);
+        // Of this request, also where nothing more of its head can be read.
+        const bool head_only = parser_->get().method() == http::verb::head;
+        response_ = response_of(one, head_only, keep_alive && !peer_.spare);
         body_ = std::move(one.body);
         expire(limits().body);
         http::async_write(stream_, *response_, [self = this->shared_from_this()](error_code error, std::size_t) {

@@ -34,6 +34,33 @@ TEST_F(AServer, GivesAPageThatRunsNothingFromElsewhere) {
     EXPECT_EQ(head.status, 404);
 }
 
+TEST_F(AServer, AnswersEachRequestBehindAHeadRequestInItsTurn) {
+    EXPECT_EQ(client.ask("HEAD", "/").status, 200);
+    EXPECT_THAT(client.ask("GET", "/").body, HasSubstr("its page has not been built"));
+    client.send("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\nGET /api/status HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(client.answer(true).status, 200);
+    EXPECT_TRUE(client.answer().json()["done"]);
+    EXPECT_EQ(client.ask("HEAD", "/").status, 200);
+    client.send("GET / HTTP/1.1\r\nHost localhost\r\n\r\n");
+    const WebAnswer broken = client.answer();
+    EXPECT_EQ(broken.status, 400);
+    EXPECT_THAT(broken.message(), HasSubstr("no HTTP/1.1 request")) << "the body is that of the broken request";
+    EXPECT_EQ(client.receive().kind, -1) << "nothing comes behind it";
+}
+
+TEST_F(AServer, GivesABrokenHeadRequestNoBody) {
+    for (const std::string& request :
+         {std::string("HEAD / HTTP/1.1\r\nHost localhost\r\n\r\n"),
+          "HEAD / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(9000, 'x') + "\r\n\r\n"}) {
+        WebClient other = running.client();
+        other.send(request);
+        const WebAnswer head = other.answer(true);
+        EXPECT_EQ(head.status, request.size() > 9000 ? 431 : 400);
+        EXPECT_NE(head.fields.at("content-length"), "0");
+        EXPECT_EQ(other.receive().kind, -1) << "nothing comes behind its head";
+    }
+}
+
 TEST_F(AServer, AnswersQueriesOfThisComputerWithoutAToken) {
     const WebAnswer status = client.ask("GET", "/api/status");
     ASSERT_EQ(status.status, 200) << status.body;
