@@ -95,18 +95,18 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         if (error) return;
         peer_.spare = !hall_->seats.take_seat(this, peer_.network);
         head_ = head_of(parser_->get(), peer_);
+        head_.has_more = !parser_->is_done() || (head_.upgrade && buffer_.size() > 0);
         if (head_.upgrade) {
             if (auto refused = hall_->service->refuse_stream(head_)) return answer(std::move(*refused), false);
             expire_never();
             return serve_stream(std::move(stream_), parser_->release(), std::move(peer_), hall_, this);
         }
         admission_ = hall_->service->admit(head_);
-        const bool has_body = !parser_->is_done();
-        if (admission_.answer) return answer(std::move(*admission_.answer), parser_->keep_alive() && !has_body);
+        if (admission_.answer) return answer(std::move(*admission_.answer), parser_->keep_alive() && !head_.has_more);
         const auto length = parser_->content_length();
         if (length && *length > admission_.body_limit) return too_large();
         parser_->body_limit(admission_.body_limit);
-        if (!has_body) return handle();
+        if (!head_.has_more) return handle();
         if (beast::iequals(parser_->get()[http::field::expect], "100-continue")) return go_on();
         read_body();
     }

@@ -22,7 +22,9 @@ struct Peer {
 struct Head {
     Peer peer;
     std::string method, target, host, origin, authorization;
-    bool upgrade = false;  ///< to a WebSocket
+    bool upgrade = false;   ///< to a WebSocket
+    bool has_more = false;  ///< a body, or bytes behind the head of an upgrade
+    std::string websocket_key, websocket_version;
 };
 
 struct HttpAnswer {

@@ -22,6 +22,34 @@ std::string token_of(const Head& head) {
     return head.authorization.substr(0, 7) == "Bearer " ? head.authorization.substr(7) : "";
 }
 
+/// 16 bytes in base64.
+bool is_websocket_key(std::string_view key) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    return key.size() == 24 && key.find_first_not_of(digits) == 22 && key.substr(22) == "==";
+}
+
+/// What RFC 6455 (4.2) has a server look at.
+std::optional<HttpAnswer> refuse_handshake(const Head& head) {
+    if (head.websocket_version != "13") {
+        HttpAnswer answer =
+            http_error(426, "bad_input",
+                       fmt::format("The handshake asks for version \"{}\" of the WebSocket protocol; version 13 is "
+                                   "spoken here. No WebSocket was opened.",
+                                   shown(head.websocket_version)));
+        return with(with(std::move(answer), "Sec-WebSocket-Version", "13"), "Upgrade", "websocket");
+    }
+    if (!is_websocket_key(head.websocket_key))
+        return http_error(
+            400, "bad_input",
+            fmt::format("The Sec-WebSocket-Key \"{}\" is not 16 bytes in base64. No WebSocket was opened.",
+                        shown(head.websocket_key)));
+    if (head.has_more)
+        return http_error(400, "bad_input",
+                          "There are bytes behind the handshake, which was not answered so far. No WebSocket was "
+                          "opened; wait for the answer.");
+    return std::nullopt;
+}
+
 }  // namespace
 
 bool is_query(const panel::AskRow& row) {
@@ -160,7 +188,7 @@ std::optional<HttpAnswer> Service::refuse_stream(const Head& head) {
     if (const std::string problem = guard_.problem(head); !problem.empty()) return http_error(403, "denied", problem);
     if (auto refused = refuse(head)) return refused;
     if (head.target != "/api/stream") return http_error(404, "bad_input", "The WebSocket is at /api/stream.");
-    return std::nullopt;
+    return refuse_handshake(head);
 }
 
 // ---- with it

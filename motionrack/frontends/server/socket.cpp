@@ -28,6 +28,8 @@ Head head_of(const Request& request, const Peer& peer) {
     head.origin = field(request, http::field::origin);
     head.authorization = field(request, http::field::authorization);
     head.upgrade = beast::websocket::is_upgrade(request);
+    head.websocket_key = field(request, http::field::sec_websocket_key);
+    head.websocket_version = field(request, http::field::sec_websocket_version);
     return head;
 }
 

@@ -114,6 +114,41 @@ TEST(AHostileStream, IsRefusedOrEndedWithAReason) {
               426);
 }
 
+TEST(AHostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
+    const Running running;
+    const std::string head =
+        "GET /api/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n";
+    const std::string version = "Sec-WebSocket-Version: 13\r\n", name = "Sec-WebSocket-Key: ";
+    const std::string key = name + "AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+    struct Case {
+        std::string fields;
+        int status;
+        const char* says;
+    };
+    for (const Case& one : {Case{key + "\r\n", 426, "version \"\""},
+                            {key + "Sec-WebSocket-Version: 12\r\n\r\n", 426, "version \"12\""},
+                            {version + "\r\n", 400, "Sec-WebSocket-Key \"\""},
+                            {version + name + "AAAA\r\n\r\n", 400, "16 bytes in base64"},
+                            {version + name + "AAAAAAAAAAAAAAAAAAAAAAAA\r\n\r\n", 400, "16 bytes in base64"},
+                            {version + name + "AAAAAAAAAAAAA*AAAAAAAA==\r\n\r\n", 400, "16 bytes in base64"},
+                            {version + name + std::string(100, 'A') + "\r\n\r\n", 400, "16 bytes in base64"},
+                            {version + key + "Content-Length: 2\r\n\r\n{}", 400, "bytes behind the handshake"},
+                            {version + key + "\r\n\x81\x80rack", 400, "bytes behind the handshake"}}) {
+        WebClient client = running.client();
+        client.send(head + one.fields);
+        const WebAnswer answer = client.answer();
+        EXPECT_EQ(answer.status, one.status) << one.fields;
+        EXPECT_THAT(answer.message(), HasSubstr(one.says)) << one.fields;
+        EXPECT_THAT(answer.message(), HasSubstr("No WebSocket was opened")) << one.fields;
+        EXPECT_EQ(answer.fields.at("content-type"), "application/json") << one.fields;
+        EXPECT_EQ(answer.fields.count("sec-websocket-version"), one.status == 426 ? 1u : 0u) << one.fields;
+        EXPECT_TRUE(client.ended());
+    }
+    WebClient client = running.client();
+    client.send(head + version + key + "\r\n");
+    EXPECT_EQ(client.answer().status, 101);
+}
+
 TEST(AHostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
     Running running([](ServerSettings& settings) {
         settings.limits.messages_at_once = 3;
