@@ -64,7 +64,7 @@ Admitted<Doorkeeper::Paired> Doorkeeper::admit(std::string_view name, Role role,
     token.hash = hash_of(paired.token);
     const auto whole =
         std::chrono::time_point_cast<std::chrono::seconds>(now + settings_.token_life);  // as the file has it
-    token.identity = {token.hash.substr(0, 16), std::string(name), role, whole};
+    token.identity = {id_of(token.hash), std::string(name), role, whole};
     paired.identity = token.identity;
     tokens_.push_back(std::move(token));
     if (const Result<void> written = write(); !written) {

@@ -93,6 +93,7 @@ class Doorkeeper {
         Identity identity;
         std::string hash;
     };
+    static std::string id_of(const std::string& hash) { return hash.substr(0, 16); }
     struct Invitation {
         std::string hash;
         Role role;

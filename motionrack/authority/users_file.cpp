@@ -9,6 +9,7 @@
 #include <motionrack/base/read_whole_file.hpp>
 #include <motionrack/disk/new_file.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace motionrack::authority {
 
@@ -42,6 +43,7 @@ Result<void> Doorkeeper::read() {
     const nlohmann::json file = nlohmann::json::parse(text, nullptr, false);
     if (!file.is_object() || !file.contains("users") || !file["users"].is_array())
         return damaged("it has no list of users");
+    std::set<std::string> ids;
     for (const nlohmann::json& one : file["users"]) {
         if (!one.is_object()) return damaged("a user is no object");
         const auto text_of = [&](const char* key) {
@@ -52,12 +54,14 @@ Result<void> Doorkeeper::read() {
         if (const std::string problem = name_problem(name); !problem.empty()) return damaged("a user's name is wrong");
         if (!role || *role == Role::nobody) return damaged(fmt::format("{} has no role", name));
         if (!is_hash(hash)) return damaged(fmt::format("{} has no token_sha256", name));
+        if (!ids.insert(id_of(hash)).second)
+            return damaged(fmt::format("{} has the token_sha256 of another user", name));
         if (!one.contains("expires") || !one["expires"].is_number_integer())
             return damaged(fmt::format("{} has no expires", name));
         const std::int64_t expires = one["expires"].get<std::int64_t>();
         if (expires < 0 || expires > 9'000'000'000)
             return damaged(fmt::format("{} has an expires of {}", name, expires));
-        tokens_.push_back({{hash.substr(0, 16), name, *role, WallTime(std::chrono::seconds(expires))}, hash});
+        tokens_.push_back({{id_of(hash), name, *role, WallTime(std::chrono::seconds(expires))}, hash});
     }
     return {};
 }

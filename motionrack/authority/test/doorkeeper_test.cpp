@@ -162,7 +162,9 @@ TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
              user(name + ",\"role\":\"nobody\"," + token + "," + expires),
              user("\"name\":1," + role + "," + token + "," + expires),
              user(name + "," + role + ",\"token_sha256\":\"aa\"," + expires), user(name + "," + role + "," + token),
-             user(name + "," + role + "," + token + ",\"expires\":-1")}) {
+             user(name + "," + role + "," + token + ",\"expires\":-1"),
+             user(name + "," + role + "," + token + "," + expires + "},{\"name\":\"b\",\"role\":\"maintain\"," + token +
+                  "," + expires)}) {
         write(wrong);
         const auto opened = try_open();
         ASSERT_FALSE(opened) << wrong;
