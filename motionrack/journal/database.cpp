@@ -46,7 +46,12 @@ Result<Database> Database::open(const std::string& path, Use use) {
     if (code != SQLITE_OK)
         return fail(Trouble::io, fmt::format("The journal '{}' cannot be opened: {}.", path, sqlite3_errstr(code)));
     sqlite3_busy_timeout(one, 5000);
+    database.set_log_kept(true);
     return database;
+}
+
+void Database::set_log_kept(bool kept) const {
+    sqlite3_db_config(get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, kept ? 1 : 0, nullptr);
 }
 
 Result<void> Database::run(const char* sql) const {

@@ -37,6 +37,9 @@ class Database {
     /// Errors: io, with what SQLite says.
     static Result<Database> open(const std::string& path, Use use);
     sqlite3* get() const { return database_.get(); }
+    /// Whether the log (-wal) stays beside the file when it is closed, as it does at first: a file that is refused is
+    /// left as it is. Else what is in the log goes into the file.
+    void set_log_kept(bool kept) const;
     /// Errors: io.
     Result<void> run(const char* sql) const;
     /// The first number of the first row; 0 if there is none.

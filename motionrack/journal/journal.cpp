@@ -98,6 +98,7 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
         return fail(Trouble::io,
                     fmt::format("The journal '{}' cannot be written: {}. Free the disk or name another file.", path,
                                 begun.error().message));
+    journal->writer_->set_log_kept(false);
     journal->files_ = std::make_unique<FileWatch>();
     for (const char* end : {"", "-wal", ".lock"}) journal->files_->add(path + end);
     journal->thread_ = std::thread([one = journal.get()] { one->work(); });

@@ -89,6 +89,15 @@ std::string numbers_of(const Database& database) {
     return "ok";
 }
 
+/// What is written is of a run: without one it would be taken for a journal that begins. "ok", or what is wrong.
+std::string runs_of(const Database& database) {
+    if (database.number("SELECT count(*) FROM run") > 0) return "ok";
+    for (const char* sql :
+         {"SELECT count(*) FROM entry", "SELECT count(*) FROM kept", "SELECT count(*) FROM sqlite_sequence"})
+        if (database.number(sql) > 0) return "it has what runs have written, and none of these runs";
+    return "ok";
+}
+
 tl::unexpected<Error> damaged(const std::string& path, const std::string& how) {
     return fail(
         Trouble::io,
@@ -100,6 +109,7 @@ tl::unexpected<Error> damaged(const std::string& path, const std::string& how) {
 Result<void> quick_check(const Database& database, const std::string& path) {
     std::string found = structure_of(database);
     if (found == "ok") found = numbers_of(database);
+    if (found == "ok") found = runs_of(database);
     if (found == "ok") return {};
     return damaged(path, found);
 }
@@ -137,14 +147,13 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
             Trouble::io,
             fmt::format("'{}' is a file of SQLite, but no journal. It was left as it is; name another file.", path));
     MOTIONRACK_CHECK(quick_check(database, path));
-    MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
     const std::int64_t seen = database.number("PRAGMA user_version");
-    if (seen == 1) return upgrade(database);
-    if (seen != version)
+    if (seen < 1 || seen > version)
         return fail(Trouble::io, fmt::format("The journal '{}' has version {}; this program knows versions up to {}. "
                                              "It was left as it is; name another file.",
                                              path, seen, version));
-    return {};
+    MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
+    return seen == 1 ? upgrade(database) : Result<void>();
 }
 
 ChainEnd chain_head(const Database& database) {

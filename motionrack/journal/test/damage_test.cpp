@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <iterator>
 #include <motionrack/journal/seal.hpp>
 
 #include "journal_file.hpp"
@@ -23,6 +24,10 @@ class ADamagedJournal : public AJournal {
         for (const char* text : {"one", "two", "three"}) write(*journal, "audit", text);
         journal->keep("machine", "X 12.5");
         ASSERT_TRUE(journal->close());
+    }
+    static std::string text_of(const std::string& path) {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
     /// What the next run makes of it.
     LastRun next() const {
@@ -179,6 +184,34 @@ TEST_F(ADamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
         ASSERT_FALSE(refused) << sql;
         EXPECT_THAT(refused.error().message,
                     testing::AllOf(HasSubstr("outside 0 to"), HasSubstr("Nothing was started")));
+    }
+}
+
+TEST_F(ADamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
+    make();
+    change("DELETE FROM run");
+    const auto refused = Journal::open(path_);
+    ASSERT_FALSE(refused) << "it would be taken for a journal that begins";
+    EXPECT_THAT(refused.error().message,
+                testing::AllOf(HasSubstr("none of these runs"), HasSubstr("Nothing was started. Keep the file")));
+}
+
+/// As a program that was killed leaves it: what was written last is in the log beside the file.
+TEST_F(ADamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
+    for (const char* mode : {"PRAGMA journal_mode = WAL", "PRAGMA journal_mode = DELETE"}) {
+        make();
+        sqlite3* other = nullptr;
+        ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
+        sqlite3_db_config(other, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+        EXPECT_EQ(sqlite3_exec(other, mode, nullptr, nullptr, nullptr), SQLITE_OK);
+        EXPECT_EQ(sqlite3_exec(other, "PRAGMA user_version = 9", nullptr, nullptr, nullptr), SQLITE_OK);
+        sqlite3_close(other);
+        const std::string file = text_of(path_), log = text_of(path_ + "-wal");
+        const auto refused = Journal::open(path_);
+        ASSERT_FALSE(refused);
+        EXPECT_THAT(refused.error().message, HasSubstr("has version 9; this program knows versions up to 2"));
+        EXPECT_EQ(text_of(path_), file) << mode;
+        EXPECT_EQ(text_of(path_ + "-wal"), log) << mode;
     }
 }
 
