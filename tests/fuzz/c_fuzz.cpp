@@ -1,0 +1,330 @@
+// libFuzzer: any bytes as calls of motionrack/c.h and motionrack/flex2pos.h with good and bad arguments, null pointers
+// among them. Each gives one of its codes; one that fails has a sentence and changes nothing: the state hash and the
+// place for the value are as they were. What only looks changes nothing either; a copy of a rack is the same rack.
+#include <motionrack/c.h>
+#include <motionrack/flex2pos.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <motionrack/sim/test/fuzz_feed.hpp>
+#include <string>
+#include <tests/fuzz/scratch_file.hpp>
+
+namespace {
+
+using motionrack::fuzz::Bytes;
+using motionrack::fuzz::require;
+using motionrack::fuzz::ScratchFile;
+
+constexpr const char* rack_text = R"([card.c1]
+type = "mcx314"
+[axis.X]
+card = "c1"
+channel = "x"
+[axis.X.switches]
+limit_plus_mm = 301
+home_mm = 1
+[axis.B]
+card = "c1"
+channel = "y"
+[card.p]
+type = "databoard4002"
+[card.i]
+type = "ioflex02"
+[card.s]
+type = "rtc5"
+list_memory = 2000
+[belt.line]
+card = "s"
+speed_mm_s = 100
+counts_per_mm = 1000
+[scanner.head]
+card = "s"
+)";
+
+constexpr std::array names = {"c1.xlmtp",
+                              "c1.xlmtm",
+                              "c1.xeca",
+                              "c1.xecb",
+                              "c1.yeca",
+                              "c1.yecb",
+                              "c1.xin0",
+                              "c1.emgn",
+                              "c1.xalarm",
+                              "estop",
+                              "X.limit_plus",
+                              "X.home",
+                              "X.enc_z",
+                              "B.enc_z",
+                              "X.step",
+                              "c1.xpp",
+                              "c1.int_n",
+                              "X.position_mm",
+                              "B.position_deg",
+                              "X.position_pulses",
+                              "X.in_step",
+                              "RR0",
+                              "x.RR1",
+                              "u.LP",
+                              "x.WR2",
+                              "y.P",
+                              "X",
+                              "B",
+                              "line",
+                              "head",
+                              "line.speed_mm_s",
+                              "line.parts",
+                              "head.spot_x_mm",
+                              "head.marked_mm",
+                              "s.xout",
+                              "s.mcbsp",
+                              "s.start_n",
+                              "p.esl",
+                              "p.vout",
+                              "i.in0",
+                              "motor.stall",
+                              "motor.stall=0",
+                              "motor.push=99",
+                              "motor.lose_steps=3",
+                              "encoder.broken_a",
+                              "encoder.swapped=1",
+                              "limit_plus.stuck_closed",
+                              "home.stuck_open=0",
+                              "drive.speed=5",
+                              "sender.silent",
+                              "encoder.jitter=1e-6",
+                              "motor.load=nan"};
+constexpr std::uint64_t most_ns = 1'000'000'000'000'001;  ///< from here on mr_advance_ns refuses
+constexpr std::array cards = {"c1", "p", "i", "s", "c2", ""};
+constexpr std::array patterns = {"",     "*",           "X.* c1.xlmtp", "c1.xpp,c1.xlp", "Q.*", "line.* head.*",
+                                 "????", "c1.*\n\t,s.*"};
+constexpr std::array<double, 12> numbers = {0,
+                                            1,
+                                            0.5,
+                                            -1,
+                                            17.25,
+                                            1e6,
+                                            1e300,
+                                            -1e-300,
+                                            std::numeric_limits<double>::quiet_NaN(),
+                                            std::numeric_limits<double>::infinity(),
+                                            -std::numeric_limits<double>::infinity(),
+                                            2};
+
+class Caller {
+  public:
+    explicit Caller(Bytes& bytes) : bytes_(bytes) {
+        require(mr_rack_open(rack_text, &rack_) == MR_OK && rack_ != nullptr, "the rack is opened", mr_last_error());
+    }
+    ~Caller() {
+        flex2pos_close(flex_);
+        mr_rack_close(rack_);
+    }
+    Caller(const Caller&) = delete;
+    Caller& operator=(const Caller&) = delete;
+
+    void call() {
+        const std::uint64_t before = mr_state_hash(rack_), now = mr_now_ns(rack_);
+        looks_ = false;
+        const int code = one();
+        require(code == MR_OK || code == MR_BAD_CALL || code == MR_REFUSED || (code == MR_IO && is_file_),
+                "a call gives one of its codes", mr_last_error());
+        require(mr_now_ns(rack_) >= now, "time does not go back");
+        if (code != MR_OK) require(std::strlen(mr_last_error()) > 20, "an error has a sentence", mr_last_error());
+        if (code == MR_OK && !looks_) return;
+        require(mr_state_hash(rack_) == before, "a call that fails, or looks, changes nothing", mr_last_error());
+        require(mr_now_ns(rack_) == now, "a call that fails, or looks, takes no time", mr_last_error());
+    }
+
+  private:
+    // ---- arguments
+    std::uint32_t below(std::uint32_t n) { return bytes_.below(n); }
+    /// Null now and then.
+    template <class Pointer>
+    Pointer or_null(Pointer pointer) {
+        return below(40) == 0 ? nullptr : pointer;
+    }
+    mr_rack* rack() { return or_null(rack_); }
+    const char* card() { return or_null(cards[below(16) % cards.size()]); }
+    double number() { return below(4) == 0 ? bytes_.word() / 16.0 - 1000 : numbers[below(numbers.size())]; }
+    std::uint32_t offset() {
+        switch (below(8)) {
+            case 0:
+                return bytes_.word() << 16 | bytes_.word();
+            case 1:
+                return 0x2300 + below(0x40);
+            case 2:
+                return below(32);
+            default:
+                return 2 * below(8);
+        }
+    }
+    /// A name as it is or with another letter in it.
+    const char* name() {
+        std::string& text = texts_[next_++ % texts_.size()];
+        text = names[below(names.size())];
+        if (below(8) == 0) text[below(static_cast<std::uint32_t>(text.size()))] = static_cast<char>(1 + below(255));
+        if (below(16) == 0) text.resize(below(static_cast<std::uint32_t>(text.size() + 1)));
+        return or_null(text.c_str());
+    }
+    const char* path() {
+        static const ScratchFile file("fuzz.vcd");
+        static const std::string csv = file.beside("fuzz.csv"), nowhere = file.beside("no/such.vcd"),
+                                 text = file.beside("fuzz.txt"), folder = file.beside("");
+        const std::array<const char*, 8> all = {file.path().c_str(), csv.c_str(), nowhere.c_str(), text.c_str(),
+                                                folder.c_str(),      "",          ".h5",           ".csv"};
+        return or_null(all[below(all.size())]);
+    }
+
+    // ---- calls
+    // Arguments are drawn one after the other: in a call their order would be the compiler's.
+    int one() {
+        is_file_ = false;
+        mr_rack* const on = rack();
+        const std::uint32_t what = below(16);
+        if (what >= 12) return write(on);
+        if (what == 11) return read(on);
+        if (what == 10) return use_flex2pos(on);
+        if (what == 9) return record(on);
+        if (what == 8) return copy(on);
+        if (what == 7) return peek(on);
+        if (what < 2) return mr_advance_ns(on, below(8) == 0 ? most_ns + bytes_.word() : 30 * bytes_.word());
+        const char* const of = name();
+        if (what == 6) return look(&mr_part_get, on, of);
+        if (what == 5) return look(&mr_wire_get, on, of);
+        if (what == 4) return mr_fault(on, of, name());
+        return what == 3 ? mr_part_set(on, of, number()) : mr_wire_set(on, of, number());
+    }
+    int look(int (*function)(mr_rack*, const char*, double*), mr_rack* on, const char* of) {
+        looks_ = true;
+        double value = 123;
+        const int code = function(on, of, or_null(&value));
+        if (code != MR_OK) require(value == 123, "a call that fails leaves the value alone", mr_last_error());
+        return code;
+    }
+    int peek(mr_rack* on) {
+        looks_ = true;
+        std::uint64_t value = 123;
+        const char* const of = card();
+        const char* const what = name();
+        const int code = mr_peek(on, of, what, or_null(&value));
+        if (code != MR_OK) require(value == 123, "a call that fails leaves the value alone", mr_last_error());
+        return code;
+    }
+    template <class Word>
+    int read_word(int (*function)(mr_rack*, const char*, std::uint32_t, Word*), mr_rack* on) {
+        Word value = 123;
+        const char* const of = card();
+        const std::uint32_t at = offset();
+        const int code = function(on, of, at, or_null(&value));
+        if (code != MR_OK) require(value == 123, "a call that fails leaves the value alone", mr_last_error());
+        return code;
+    }
+    int read(mr_rack* on) {
+        const std::uint32_t width = below(4);
+        if (width == 0) return read_word(&mr_read8, on);
+        return width == 1 ? read_word(&mr_read32, on) : read_word(&mr_read16, on);
+    }
+    int write(mr_rack* on) {
+        const std::uint32_t width = below(8);
+        const char* const of = card();
+        const std::uint32_t at = offset(), value = bytes_.word();
+        if (width == 0) return mr_write32(on, of, at, value);
+        return width < 4 ? mr_write8(on, of, at, static_cast<std::uint8_t>(value))
+                         : mr_write16(on, of, at, static_cast<std::uint16_t>(value));
+    }
+    int copy(mr_rack* on) {
+        looks_ = true;
+        mr_rack* copy = rack_;
+        const int code = mr_snapshot(on, or_null(&copy));
+        if (code != MR_OK) {
+            require(copy == nullptr || copy == rack_, "a copy that failed is none");
+            return code;
+        }
+        require(mr_state_hash(copy) == mr_state_hash(rack_), "a copy is the same rack");
+        require(mr_trace_stop(copy) == MR_REFUSED, "a recording stays with the first");
+        if (!records_ && below(4) == 0) {
+            const std::uint64_t ns = 20 * bytes_.word();
+            require(mr_advance_ns(copy, ns) == MR_OK && mr_advance_ns(rack_, ns) == MR_OK, "time passes in both");
+            require(mr_state_hash(copy) == mr_state_hash(rack_), "a copy goes the same way");
+            looks_ = false;
+        }
+        mr_rack_close(copy);
+        return code;
+    }
+    int record(mr_rack* on) {
+        is_file_ = true;
+        if (records_ && below(2) == 0) {
+            const int code = mr_trace_stop(on);
+            records_ = records_ && code != MR_OK;
+            return code;
+        }
+        const char* signals = below(4) == 0 ? nullptr : patterns[below(patterns.size())];
+        const int code = mr_trace_start(on, path(), signals);
+        if (code == MR_OK) require(!records_, "one recording runs at a time");
+        records_ = records_ || code == MR_OK;
+        return code;
+    }
+    int use_flex2pos(mr_rack* on) {
+        if (flex_ == nullptr) {
+            looks_ = true;
+            return flex2pos_open(on, or_null(&flex_));
+        }
+        flex2pos* const flex = or_null(flex_);
+        const auto number = [&] { return static_cast<int>(below(8)) - 2; };
+        std::int32_t time = 0, at[4] = {};
+        int states[4] = {};
+        switch (below(8)) {
+            case 0:
+                flex2pos_Init(flex, static_cast<std::uint16_t>(below(4) == 0 ? bytes_.word() : 0x2300));
+                break;
+            case 1:
+                flex2pos_ReadPosition(flex, number());
+                break;
+            case 2: {
+                std::int32_t* const to = or_null(&time);
+                flex2pos_ReadTimeClrPosition(flex, to, below(4) == 0 ? nullptr : at);
+                break;
+            }
+            case 3:
+                flex2pos_WriteOutL(flex, static_cast<std::uint8_t>(bytes_.word()));
+                break;
+            case 4: {
+                const int first = number(), second = number(), third = number();
+                flex2pos_WriteCmd(flex, first, second, third, number());
+                break;
+            }
+            case 5:
+                flex2pos_ReadSts(flex, below(4) == 0 ? nullptr : states);
+                break;
+            case 6:
+                flex2pos_ReadInH(flex);
+                break;
+            default:
+                flex2pos_GetIdent(flex);
+        }
+        require(flex2pos_why(flex) != nullptr, "why a call failed is a text");
+        return MR_OK;
+    }
+
+    Bytes& bytes_;
+    mr_rack* rack_ = nullptr;
+    flex2pos* flex_ = nullptr;
+    std::array<std::string, 4> texts_;
+    std::size_t next_ = 0;
+    bool looks_ = false;    ///< the call only looks
+    bool is_file_ = false;  ///< it makes or ends a file
+    bool records_ = false;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Bytes bytes({data, size});
+    Caller caller(bytes);
+    for (int i = 0; i < 300 && !bytes.empty(); ++i) caller.call();
+    return 0;
+}
