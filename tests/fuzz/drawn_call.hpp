@@ -1,0 +1,24 @@
+// Calls of C functions with arguments that are drawn by their types.
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+namespace motionrack::fuzz {
+
+/// Calls `function`. `arguments.draw(std::type_identity<T>{})` gives an argument of type T; they are drawn in their
+/// order, whatever the compiler. What the function answers, as a whole number; 0 where that is nothing or an address.
+template <class Arguments, class Answer, class... Parameters>
+std::int64_t call_with_drawn(Answer (*function)(Parameters...), Arguments& arguments) {
+    const std::tuple<Parameters...> drawn{arguments.draw(std::type_identity<Parameters>{})...};
+    static_cast<void>(arguments);  // of a function without parameters
+    if constexpr (std::is_arithmetic_v<Answer>) {
+        return static_cast<std::int64_t>(std::apply(function, drawn));
+    } else {
+        std::apply(function, drawn);
+        return 0;
+    }
+}
+
+}  // namespace motionrack::fuzz
