@@ -16,6 +16,11 @@ std::string field(const Request& request, http::field name) {
     return {text.data(), text.size()};
 }
 
+/// Empty where there are two of them: which one holds is not known, so none does.
+std::string only_field(const Request& request, http::field name) {
+    return request.count(name) == 1 ? field(request, name) : "";
+}
+
 }  // namespace
 
 Head head_of(const Request& request, const Peer& peer) {
@@ -23,13 +28,12 @@ Head head_of(const Request& request, const Peer& peer) {
     head.peer = peer;
     head.method = std::string(request.method_string());
     head.target = std::string(request.target());
-    // Two of them: which one holds is not known, so none does.
-    head.host = request.count(http::field::host) == 1 ? field(request, http::field::host) : "";
+    head.host = only_field(request, http::field::host);
     head.origin = field(request, http::field::origin);
     head.authorization = field(request, http::field::authorization);
     head.upgrade = beast::websocket::is_upgrade(request);
-    head.websocket_key = field(request, http::field::sec_websocket_key);
-    head.websocket_version = field(request, http::field::sec_websocket_version);
+    head.websocket_key = only_field(request, http::field::sec_websocket_key);
+    head.websocket_version = only_field(request, http::field::sec_websocket_version);
     return head;
 }
 

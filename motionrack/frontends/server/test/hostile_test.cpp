@@ -129,6 +129,8 @@ TEST(AHostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
                             {key + "Sec-WebSocket-Version: 12\r\n\r\n", 426, "version \"12\""},
                             {version + "\r\n", 400, "Sec-WebSocket-Key \"\""},
                             {version + name + "AAAA\r\n\r\n", 400, "16 bytes in base64"},
+                            {version + key + key + "\r\n", 400, "Sec-WebSocket-Key \"\""},
+                            {version + version + key + "\r\n", 426, "version \"\""},
                             {version + name + "AAAAAAAAAAAAAAAAAAAAAAAA\r\n\r\n", 400, "16 bytes in base64"},
                             {version + name + "AAAAAAAAAAAAA*AAAAAAAA==\r\n\r\n", 400, "16 bytes in base64"},
                             {version + name + std::string(100, 'A') + "\r\n\r\n", 400, "16 bytes in base64"},
