@@ -1,26 +1,25 @@
 // libFuzzer: any bytes as a capture of any format; it is refused with a place or gives counts that fit together.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <motionrack/decode/analysis.hpp>
 #include <motionrack/decode/report.hpp>
+#include <tests/fuzz/require.hpp>
 
 namespace {
 
 using namespace motionrack::decode;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
+using motionrack::fuzz::require;
 
 void check(const ChannelResult& channel, const Analysis& analysis) {
-    require(channel.count == static_cast<std::int64_t>(channel.up - channel.down));
-    require(channel.up + channel.down + channel.illegal <= analysis.samples);
-    require(channel.first_illegal.size() <= channel.illegal && channel.first_indexes.size() <= channel.indexes);
-    require(std::isfinite(channel.mean_per_s) && channel.seconds >= 0);
+    require(channel.count == static_cast<std::int64_t>(channel.up - channel.down), "a count is ups less downs");
+    require(channel.up + channel.down + channel.illegal <= analysis.samples, "a sample is one step at most");
+    require(channel.first_illegal.size() <= channel.illegal && channel.first_indexes.size() <= channel.indexes,
+            "no more events are listed than were counted");
+    require(std::isfinite(channel.mean_per_s) && channel.seconds >= 0, "a mean speed is a number");
     for (std::size_t i = 0; i < channel.first_indexes.size(); ++i) {
-        require(channel.first_indexes[i].sample < analysis.samples);
-        require(i == 0 || channel.first_indexes[i].time_s >= channel.first_indexes[i - 1].time_s);
+        require(channel.first_indexes[i].sample < analysis.samples, "an index is in the capture");
+        require(i == 0 || channel.first_indexes[i].time_s >= channel.first_indexes[i - 1].time_s,
+                "indexes are in the order of time");
     }
 }
 
@@ -32,7 +31,7 @@ void decode(std::uint8_t choice, std::string_view text) {
     settings.sample_rate_hz = (choice & 4) != 0 ? 1e6 : 0;
     settings.sample_bytes = 1 + (choice >> 5);
     auto capture = open_capture(from_memory(text), "fuzz", settings);
-    if (!capture) return require(!capture.error().message.empty());
+    if (!capture) return require(!capture.error().message.empty(), "a refusal has a sentence");
     const auto& signals = (*capture)->signals();
     auto channels = choose_channels(signals, {});
     if (!channels && signals.size() >= 2)
@@ -43,9 +42,10 @@ void decode(std::uint8_t choice, std::string_view text) {
     how.window_s = (choice & 8) != 0 ? 1e-3 : 1e-6;
     how.channel.index_low = (choice & 16) != 0;
     const auto analysis = analyse(**capture, *channels, how);
-    if (!analysis) return require(!analysis.error().message.empty());
+    if (!analysis) return require(!analysis.error().message.empty(), "a refusal has a sentence");
     for (const ChannelResult& channel : analysis->channels) check(channel, *analysis);
-    require(!analysis_text(*analysis, "fuzz", 10).empty() && !analysis_json(*analysis, "fuzz").empty());
+    require(!analysis_text(*analysis, "fuzz", 10).empty() && !analysis_json(*analysis, "fuzz").empty(),
+            "an analysis can be told");
 }
 
 }  // namespace

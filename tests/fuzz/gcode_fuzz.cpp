@@ -1,19 +1,16 @@
 // libFuzzer: any bytes as a G-code program; the reader refuses with a place in the text or gives moves within the
-// limits, in its whole language. The same bytes as lines of a sender, and as a tool table.
+// limits, in its whole language. The same bytes as lines of a sender.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <motionrack/control/gcode/canon.hpp>
 #include <string_view>
+#include <tests/fuzz/require.hpp>
 
 namespace {
 
 using namespace motionrack::control;
 using namespace motionrack::control::gcode;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
+using motionrack::fuzz::require;
 
 Settings machine(std::uint8_t choice) {
     Settings settings;
@@ -37,32 +34,35 @@ Settings machine(std::uint8_t choice) {
 }
 
 void check_point(const Point& point) {
-    for (const double value : point) require(value >= -400 - limit_slack && value <= 600 + limit_slack);
+    for (const double value : point)
+        require(value >= -400 - limit_slack && value <= 600 + limit_slack, "a place is within the limits");
 }
 
 void check_move(const Move& move, std::int32_t line) {
-    require(move.line == line && line >= 1);
+    require(move.line == line && line >= 1, "a move has its line");
     check_point(move.end);
-    require(std::isfinite(move.feed) && move.feed >= 0 && std::isfinite(move.tolerance_mm) && move.tolerance_mm >= 0);
-    require(std::isfinite(move.seconds) && move.seconds >= 0);
-    if (move.kind == MoveKind::feed || move.kind == MoveKind::arc) require(move.feed > 0);
+    require(std::isfinite(move.feed) && move.feed >= 0 && std::isfinite(move.tolerance_mm) && move.tolerance_mm >= 0,
+            "feed and tolerance are numbers");
+    require(std::isfinite(move.seconds) && move.seconds >= 0, "a dwell takes some time");
+    if (move.kind == MoveKind::feed || move.kind == MoveKind::arc) require(move.feed > 0, "a cut has a feed");
     if (move.kind != MoveKind::arc) return;
-    require(move.turns != 0 && move.first < 3 && move.second < 3 && move.first != move.second);
+    require(move.turns != 0 && move.first < 3 && move.second < 3 && move.first != move.second, "an arc is in a plane");
     const double radius =
         std::hypot(move.end[move.first] - move.centre_first, move.end[move.second] - move.centre_second);
-    require(std::isfinite(radius) && radius > 0);
+    require(std::isfinite(radius) && radius > 0, "an arc has a radius");
 }
 
 void check_problem(const Problem& problem, std::string_view text) {
-    require(!problem.message.empty() && problem.status != GrblStatus::none);
-    require(problem.place.line >= 1 && problem.place.column >= 1);
+    require(!problem.message.empty() && problem.status != GrblStatus::none, "a problem has a sentence and a number");
+    require(problem.place.line >= 1 && problem.place.column >= 1, "a problem has a place", problem.message);
     if (problem.file != "f") return;
     Lines lines(text);
     std::string_view line;
-    while (lines.number() < problem.place.line) require(lines.next(line));
-    require(static_cast<std::size_t>(problem.place.column) <= line.size() + 1);
+    while (lines.number() < problem.place.line) require(lines.next(line), "a problem's line is in the text");
+    require(static_cast<std::size_t>(problem.place.column) <= line.size() + 1, "a problem's column is in its line");
     require(problem.word.empty() ||
-            line.substr(static_cast<std::size_t>(problem.place.column - 1)).starts_with(problem.word));
+                line.substr(static_cast<std::size_t>(problem.place.column - 1)).starts_with(problem.word),
+            "a problem's word is at its place", problem.word);
 }
 
 }  // namespace
@@ -92,14 +92,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Lines lines(text);
     for (std::string_view line; lines.next(line);) {
         if (const auto read = sender.line(line, lines.number(), Language::words); !read)
-            require(read.error().status != GrblStatus::none);
-        require(!sender.block().flow && sender.block().assignments.empty());
+            require(read.error().status != GrblStatus::none, "a refused line has a number");
+        require(!sender.block().flow && sender.block().assignments.empty(), "a sender's line has no flow");
     }
-    if (const auto table = read_tool_table(text)) require(table->tools().size() <= most_tools);
     if (steps < 20'000 && problems == 0) {
-        require(before == reader.interpreter().position());
+        require(before == reader.interpreter().position(), "the reader is where the last move ends");
         const auto printed = print_canon(text, machine(data[0]), {}, [](std::string_view) {});
-        require(printed.has_value());
+        require(printed.has_value(), "a program that is read is printed");
     }
     return 0;
 }

@@ -1,18 +1,15 @@
 // libFuzzer: any bytes down a Grbl port of a machine that runs. The first byte picks the machine; FFh lets 20 ms go by.
 // What comes back is lines of ASCII; after a reset the machine comes to rest, and an empty line is answered with ok.
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <motionrack/grbl/session.hpp>
 #include <string>
+#include <tests/fuzz/require.hpp>
 
 namespace {
 
 using namespace motionrack;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
+using fuzz::require;
 
 const rack::RackConfig& machine(bool homes) {
     const auto read = [](const std::string& switches) {
@@ -39,7 +36,8 @@ class Played {
     }
     void run() {
         machine_->run();
-        require(stood_ && said_.ends_with("ok\r\n"));
+        require(stood_, "the machine stands after a reset");
+        require(said_.ends_with("ok\r\n"), "an empty line is answered with ok", said_);
     }
 
   private:
@@ -54,7 +52,8 @@ class Played {
             end(now);
         }
         said_ = session_->take_output().substr(0, 100'000);
-        for (const char c : said_) require((c >= ' ' && c <= '~') || c == '\r' || c == '\n');
+        for (const char c : said_)
+            require((c >= ' ' && c <= '~') || c == '\r' || c == '\n', "an answer is lines of ASCII", said_);
     }
     void end(Instant now) {
         switch (ending_++) {

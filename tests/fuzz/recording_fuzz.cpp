@@ -1,25 +1,19 @@
 // libFuzzer: any bytes as a recording of any kind; it is refused with a sentence, or what it says fits together.
-#include <unistd.h>
-
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <motionrack/trace/diff.hpp>
 #include <motionrack/trace/report_csv.hpp>
 #include <string>
+#include <tests/fuzz/scratch_file.hpp>
 #include <vector>
 
 namespace {
 
 using namespace motionrack;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
+using fuzz::require;
 
 void read_whole(const std::string& path) {
     const auto reader = trace::RecordingReader::open(path);
-    if (!reader) return require(!reader.error().message.empty());
+    if (!reader) return require(!reader.error().message.empty(), "a refusal has a sentence");
     for (const trace::RecordedSeries& series : reader->series()) {
         const auto columns = reader->columns(series);
         if (!columns) continue;
@@ -31,7 +25,7 @@ void read_whole(const std::string& path) {
         }
     }
     const auto data = reader->report();
-    require(data || !data.error().message.empty());
+    require(data || !data.error().message.empty(), "a refusal has a sentence");
 }
 
 }  // namespace
@@ -42,18 +36,18 @@ extern "C" const char* __asan_default_options() {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const std::string path = "/tmp/motionrack_recording_fuzz_" + std::to_string(::getpid());
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    require(file != nullptr && std::fwrite(data, 1, size, file) == size && std::fclose(file) == 0);
+    static const fuzz::ScratchFile file("recording");
+    const std::string& path = file.path();
+    file.write({reinterpret_cast<const char*>(data), size});
     const auto kind = trace::kind_of_file(path);
     if (kind && *kind == trace::FileKind::hdf5) read_whole(path);
     const auto diff = trace::diff_files(path, path);
     if (diff)
-        require(diff->same() && !trace::diff_text(*diff, "a", "b").empty() &&
-                !trace::diff_json(*diff, "a", "b").empty());
+        require(
+            diff->same() && !trace::diff_text(*diff, "a", "b").empty() && !trace::diff_json(*diff, "a", "b").empty(),
+            "a recording is the same as itself");
     else
-        require(!diff.error().message.empty());
+        require(!diff.error().message.empty(), "a refusal has a sentence");
     if (kind && *kind == trace::FileKind::csv) (void)trace::report_from_csv(path);
-    std::remove(path.c_str());
     return 0;
 }
