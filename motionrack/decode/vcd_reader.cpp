@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_signals = 100'000;
 constexpr int widest = 4096;
+constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long one is kept for each of its lines
 
 /// A bit of a variable, and the chosen line that it is.
 struct Tap {
@@ -159,10 +160,15 @@ Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
         width > widest)
         return {};
     std::string name;
-    for (const std::string& scope : scopes_) name += scope + '.';
+    for (std::size_t i = 0; i < scopes_.size() && name.size() <= max_name; ++i) name += scopes_[i] + '.';
     name += words[3];
     int high = width - 1, low = 0;
     const std::string range = words.size() > 4 ? words[4] : "";
+    if (name.size() + range.size() > max_name)
+        return refuse(
+            fmt::format("The name of a line has more than {} bytes, its scopes included. Nothing was decoded.",
+                        max_name),
+            text_.place());
     if (width == 1) {
         signals_.push_back(name + (range.find(':') == std::string::npos ? range : ""));
         places_.push_back({at->second, 0});

@@ -11,6 +11,7 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t most_word = 1 << 16, most_signals = 1'000'000, most_depth = 1000;
+constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long one is kept for each of its signals
 
 class VcdChanges final : public ChangeSource {
   public:
@@ -88,6 +89,8 @@ Result<void> VcdChanges::variable(const std::string& scope) {
     while (word() && word_ != "$end" && words.size() < 8) words.push_back(word_);
     if (words.size() < 4 || codes_.size() >= most_signals)
         return refuse("A variable is declared by its type, width, code and name.");
+    if (scope.size() + words[3].size() > max_name)
+        return refuse(fmt::format("The name of a signal has more than {} bytes, its scopes included.", max_name));
     const std::size_t number = names_.number(scope + words[3]);
     codes_[words[2]] = number;
     declared_.push_back(number);
@@ -105,6 +108,10 @@ Result<void> VcdChanges::read_head() {
             MOTIONRACK_CHECK(timescale());
         } else if (word_ == "$scope") {
             if (!word() || !word() || scopes.size() >= most_depth) return refuse("A scope has a type and a name.");
+            const std::size_t around = scopes.empty() ? 0 : scopes.back().size();
+            if (around + word_.size() >= max_name)
+                return refuse(
+                    fmt::format("The name of a scope has more than {} bytes, those around it included.", max_name));
             scopes.push_back((scopes.empty() ? "" : scopes.back()) + word_ + '.');
             MOTIONRACK_CHECK(skip_to_end());
         } else if (word_ == "$upscope") {

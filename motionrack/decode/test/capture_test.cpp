@@ -134,6 +134,18 @@ TEST(VcdCapture, RefusesWhatIsNoVcdWithItsPlace) {
     EXPECT_TRUE(has(refusal(vcd_head + "#99999999999999999999\n#1\n", "a.vcd"), "is no time"));
 }
 
+TEST(VcdCapture, RefusesNamesOfWhichManyWouldFillTheMemory) {
+    const std::string head = "$timescale 1 us $end\n", scope = "$scope module ", end = " $end\n";
+    const std::string name(1000, 'n'), line = "$var wire 1 ! a $end\n";
+    std::string deep = head;
+    for (int i = 0; i < 500; ++i) deep += scope + "s" + end;
+    for (const std::string& text :
+         {head + scope + name + end + line, deep + line, head + "$var wire 1 ! " + name + "n $end\n",
+          head + "$var wire 1 ! a [" + name + "] $end\n", head + "$var wire 4096 ! " + name + " [4095:0] $end\n"})
+        EXPECT_TRUE(has(refusal(text, "a.vcd"), "more than 1000 bytes, its scopes included")) << text.substr(0, 60);
+    EXPECT_TRUE(opened(head + "$var wire 1 ! " + name + " $end\n$enddefinitions $end\n", "a.vcd"));
+}
+
 // ---- CSV
 
 TEST(CsvCapture, ReadsWhatSigrokWrites) {

@@ -168,7 +168,9 @@ TEST(DiffOfWaves, IsToldWhereAVcdFileIsNone) {
     for (const std::string& bad :
          {std::string("$timescale 1 ns"), std::string("$timescale 3 ns $end"), head + "#5 #4\n", head + "1? \n",
           head + "hello \n", head + "#-1 \n", std::string("$var wire 1 $end"), std::string("$upscope $end"),
-          std::string("$enddefinitions $end"), head + "#99999999999999999999999 \n"}) {
+          std::string("$enddefinitions $end"), head + "#99999999999999999999999 \n",
+          "$timescale 1 ns $end $var wire 1 ! " + std::string(1001, 'a') + " $end $enddefinitions $end\n",
+          "$timescale 1 ns $end $scope module " + std::string(1000, 'a') + " $end $enddefinitions $end\n"}) {
         const auto diff = diff_of_texts(head + "#5 1! \n", bad, "vcd");
         ASSERT_FALSE(diff) << bad;
         EXPECT_EQ(diff.error().trouble, Trouble::bad_input);
