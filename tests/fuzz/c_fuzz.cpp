@@ -39,8 +39,8 @@ type = "rtc5"
 list_memory = 2000
 [belt.line]
 card = "s"
-speed_mm_s = 100
-counts_per_mm = 1000
+speed_mm_s = 1
+counts_per_mm = 100
 [scanner.head]
 card = "s"
 )";
@@ -118,6 +118,7 @@ class Caller {
   public:
     explicit Caller(Bytes& bytes) : bytes_(bytes) {
         require(mr_rack_open(rack_text, &rack_) == MR_OK && rack_ != nullptr, "the rack is opened", mr_last_error());
+        hash_ = mr_state_hash(rack_);
     }
     ~Caller() {
         flex2pos_close(flex_);
@@ -127,15 +128,16 @@ class Caller {
     Caller& operator=(const Caller&) = delete;
 
     void call() {
-        const std::uint64_t before = mr_state_hash(rack_), now = mr_now_ns(rack_);
+        const std::uint64_t before = hash_, now = mr_now_ns(rack_);
         looks_ = false;
         const int code = one();
         require(code == MR_OK || code == MR_BAD_CALL || code == MR_REFUSED || (code == MR_IO && is_file_),
                 "a call gives one of its codes", mr_last_error());
         require(mr_now_ns(rack_) >= now, "time does not go back");
         if (code != MR_OK) require(std::strlen(mr_last_error()) > 20, "an error has a sentence", mr_last_error());
+        hash_ = mr_state_hash(rack_);
         if (code == MR_OK && !looks_) return;
-        require(mr_state_hash(rack_) == before, "a call that fails, or looks, changes nothing", mr_last_error());
+        require(hash_ == before, "a call that fails, or looks, changes nothing", mr_last_error());
         require(mr_now_ns(rack_) == now, "a call that fails, or looks, takes no time", mr_last_error());
     }
 
@@ -312,6 +314,7 @@ class Caller {
 
     Bytes& bytes_;
     mr_rack* rack_ = nullptr;
+    std::uint64_t hash_ = 0;  ///< of its state
     flex2pos* flex_ = nullptr;
     std::array<std::string, 4> texts_;
     std::size_t next_ = 0;
@@ -325,6 +328,6 @@ class Caller {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Bytes bytes({data, size});
     Caller caller(bytes);
-    for (int i = 0; i < 300 && !bytes.empty(); ++i) caller.call();
+    for (int i = 0; i < 100 && !bytes.empty(); ++i) caller.call();
     return 0;
 }

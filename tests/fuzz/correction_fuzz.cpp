@@ -3,6 +3,7 @@
 //
 //   input: choice (1 byte), then patches: place of a word (3 bytes), its value (4 bytes); what is left over is appended
 //   choice 1: over the file of a lens   2: the file's sum is right   4: words of the planes only   8: cut there
+//   16: written again, which is slow: a file has a megabyte
 #include <fmt/format.h>
 
 #include <cmath>
@@ -116,7 +117,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(file->header[12] >= 0 && file->header[12] <= 90'000, "the calibration is in its range");
     check_plane(file->x);
     check_plane(file->y);
-    check_written(*file, bytes);
+    if (size > 0 && (data[0] & 16) != 0) check_written(*file, bytes);
     check_card(*file, {data, size});
     return 0;
 }

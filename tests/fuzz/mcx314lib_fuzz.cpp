@@ -25,16 +25,23 @@ type = "mcx314"
 card = "c1"
 channel = "x"
 start_mm = 5
-[axis.X.switches]
-home_mm = 1
-limit_minus_mm = -1
-limit_plus_mm = 301
+switches.home_mm = 1
+switches.limit_plus_mm = 301
 [axis.Y]
 card = "c1"
 channel = "y"
+start_mm = 5
+switches.home_mm = 1
 [axis.Z]
 card = "c1"
 channel = "z"
+start_mm = 5
+switches.home_mm = 1
+[axis.A]
+card = "c1"
+channel = "u"
+start_deg = 5
+switches.home_deg = 1
 [card.c2]
 type = "mcx314"
 )";
@@ -91,11 +98,11 @@ class Arguments {
         return or_null(&circle_);
     }
     const MCX314_CONTOUR* draw(std::type_identity<const MCX314_CONTOUR*>) {
-        contour_ = {speed(), speed(), below(2) == 0 ? 0 : speed(), speed()};
+        contour_ = {quick(), quick(), below(2) == 0 ? 0 : quick(), quick()};
         return or_null(&contour_);
     }
     const MCX314_PATTERN* draw(std::type_identity<const MCX314_PATTERN*>) {
-        pattern_ = {speed(), speed(), below(2) == 0 ? 0 : speed(), place()};
+        pattern_ = {quick(), quick(), below(2) == 0 ? 0 : quick(), place()};
         return or_null(&pattern_);
     }
     const MCX314_STEPS* draw(std::type_identity<const MCX314_STEPS*>) {
@@ -110,6 +117,8 @@ class Arguments {
         return below(30) == 0 ? nullptr : pointer;
     }
     int speed() { return below(16) == 0 ? draw(std::type_identity<int>{}) : 1 + static_cast<int>(below(4000)); }
+    /// Of what waits for its end.
+    int quick() { return 500 + static_cast<int>(below(8000)); }
     int place() { return below(32) == 0 ? draw(std::type_identity<int>{}) : static_cast<int>(below(2000)) - 1000; }
 
     Bytes& bytes_;
@@ -141,13 +150,14 @@ constexpr Function named(const char* name, Kind kind = Kind::source) {
     return {name, kind, [](Arguments& arguments) { return call_with_drawn(function, arguments); }};
 }
 
+/// A search waits for its end, and may take long: it is refused here, for one of its numbers.
 template <void (*home)(int, int, int, int)>
 constexpr Function homing(const char* name) {
-    // A slow search of a switch far away takes long.
-    return {name, Kind::waits, [](Arguments& arguments) -> std::int64_t {
-                const int word = static_cast<int>(arguments.below(0x10000)) - (arguments.below(32) == 0 ? 0x10000 : 0);
-                const int sv = 1 + static_cast<int>(arguments.below(500));
-                home(word, sv, arguments.below(8) == 0 ? 9000 : 2000 + static_cast<int>(arguments.below(6000)), 400);
+    return {name, Kind::source, [](Arguments& arguments) -> std::int64_t {
+                std::array<int, 4> numbers = {0x10, 100, 4000, 400};  // WR1, SV, V, A
+                static constexpr std::array<int, 4> wrong = {0x10000, 0, -1, 8001};
+                numbers[arguments.below(4)] = wrong[arguments.below(4)] | 0x10000;
+                home(numbers[0], numbers[1], numbers[2], numbers[3]);
                 return 0;
             }};
 }
@@ -159,10 +169,6 @@ std::int64_t wait(Arguments& arguments) {
 std::int64_t advance(Arguments& arguments) {
     return mcx314_advance_ms(static_cast<int>(arguments.below(60)) - 5);
 }
-std::int64_t select(Arguments& arguments) {
-    return mcx314_select(arguments.draw(std::type_identity<int>{}));
-}
-
 constexpr std::array functions = {
     named<SetPulseMode>("SetPulseMode"),
     named<SetMultiple>("SetMultiple"),
@@ -230,7 +236,6 @@ constexpr std::array functions = {
     named<mcx314_read_interrupt>("mcx314_read_interrupt", Kind::own),
     named<mcx314_peek>("mcx314_peek", Kind::own),
     named<mcx314_set_wire>("mcx314_set_wire", Kind::own),
-    Function{"mcx314_select", Kind::own, select},
     named<mcx314_jog>("mcx314_jog", Kind::waits),
     named<mcx314_jog_step>("mcx314_jog_step", Kind::waits),
     named<mcx314_jog_home>("mcx314_jog_home", Kind::waits),
@@ -268,8 +273,8 @@ class Caller {
         mcx314_on_error(nullptr, nullptr);
         chips_[0] = mcx314_open(rack_text, "c1");
         chips_[1] = mcx314_open(nullptr, "c2");
-        require(chips_[0] > 0 && chips_[1] > 0 && mcx314_select(chips_[0]) == 0, "two chips are opened",
-                mcx314_last_error());
+        require(chips_[0] > 0 && chips_[1] > 0, "two chips are opened", mcx314_last_error());
+        select(0);
     }
     ~Caller() {
         mcx314_on_error(nullptr, nullptr);
@@ -279,7 +284,7 @@ class Caller {
     Caller& operator=(const Caller&) = delete;
 
     void call() {
-        if (arguments_.below(16) == 0) mcx314_select(chips_[arguments_.below(2)]);
+        if (arguments_.below(16) == 0) select(arguments_.below(2));
         const Function& function = functions[arguments_.below(functions.size())];
         if (function.kind == Kind::waits && ++waits_ > max_waits) return;
         // What goes on by itself may write at any time.
@@ -299,6 +304,9 @@ class Caller {
     }
 
   private:
+    void select(std::size_t chip) {
+        require(mcx314_select(chips_[chip]) == 0, "a chip that is open can be selected", mcx314_last_error());
+    }
     void check(const Function& function, std::int64_t answer, const std::string& error) const {
         if (error.empty()) {
             require(told_.empty(), "a call that is taken tells no error", function.name);

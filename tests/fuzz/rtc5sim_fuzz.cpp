@@ -30,8 +30,8 @@ type = "rtc5"
 list_memory = 2000
 [belt.line]
 card = "a"
-speed_mm_s = 100
-counts_per_mm = 1000
+speed_mm_s = 1
+counts_per_mm = 100
 [scanner.head]
 card = "a"
 part_on = "line"
@@ -367,8 +367,10 @@ class Caller {
     void end() {
         check_output();
         rtc5sim_on_samples(nullptr, nullptr);
-        require(select_rtc(1) == 1, "card 1 is selected");
-        load_program_file(nullptr);
+        for (UINT card = rtc5_count_cards(); card >= 1; --card) {
+            require(select_rtc(card) == card, "a card is selected", rtc5sim_last_error());
+            load_program_file(nullptr);
+        }
         goto_xy(1234, -77);
         require(rtc5sim_run(100'000'000) == 1, "a card that was reset comes to rest", rtc5sim_last_error());
         std::int32_t x = 0, y = 0;
