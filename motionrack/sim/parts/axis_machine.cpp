@@ -10,6 +10,8 @@ namespace {
 constexpr int index_pin = 0;
 /// Of what the motor follows at once: smaller changes of the rate are steps of a ramp.
 constexpr double ramp_step = 0.125;
+/// A rate that is almost the rotor's would take longer to show than there is time.
+constexpr double max_strain_s = 1e6;
 constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
 constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
                                                                   "motor.lose_steps",
@@ -108,7 +110,14 @@ void AxisMachine::strain(double rate, Instant now) {
     }
     const double full_step = static_cast<double>(motor_.settings().microsteps);
     const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
-    s.deadline = now + from_seconds(std::max(0.0, full_step - std::fabs(away)) / std::fabs(rate - s.rate_hz));
+    const double room = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
+    if (room > 0 && apart == 0) {  // the pulses have the rotor's rate again, before it showed
+        s.deadline = never;
+        s.steady_hz = rate;
+        s.steady_at = now;
+    } else {
+        s.deadline = now + from_seconds(room > 0 ? std::min(room / apart, max_strain_s) : 0);
+    }
     motor_.note_rate(rate);
     put_off();
     tell_rate(told, now);

@@ -231,6 +231,28 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 20 + 40 + 128);
 }
 
+TEST(AxisMachine, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
+    AxisMachineSettings s = plain();
+    s.motor.start_stop_hz = 2000;
+    // Three times 15 of the 16 microsteps of a full step, at 3 kHz, and a fourth time all of them.
+    const Duration quick = microseconds(333);
+    std::vector<PulseLaw> laws;
+    for (const int ms : {0, 100, 200}) {
+        laws.push_back({milliseconds(ms), quick, +1});
+        laws.push_back({milliseconds(ms + 5), milliseconds(1), 0});
+    }
+    laws.push_back({milliseconds(300), quick, +1});
+    laws.push_back({milliseconds(320), milliseconds(1), 0});
+    MachineWorld w(s, laws);
+    w.kernel.start();
+    w.run(milliseconds(299));
+    EXPECT_TRUE(w.machine.in_step());
+    EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 45);
+    EXPECT_EQ(w.machine.lost_steps(), 0);
+    w.run(milliseconds(400));
+    EXPECT_NE(w.machine.lost_steps(), 0);
+}
+
 TEST(AxisMachine, AMotorFollowsARampToTheSpeedAtWhichItStops) {
     AxisMachineSettings s = plain();
     s.motor.start_stop_hz = 2000;
