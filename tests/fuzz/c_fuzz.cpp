@@ -155,7 +155,7 @@ class Caller {
     std::uint32_t offset() {
         switch (below(8)) {
             case 0:
-                return bytes_.word() << 16 | bytes_.word();
+                return bytes_.word() * 0x10001;
             case 1:
                 return 0x2300 + below(0x40);
             case 2:

@@ -21,4 +21,16 @@ std::int64_t call_with_drawn(Answer (*function)(Parameters...), Arguments& argum
     }
 }
 
+/// A function by its name.
+template <class Arguments>
+struct DrawnCall {
+    const char* name;
+    std::int64_t (*call)(Arguments&);
+};
+
+template <auto function, class Arguments>
+constexpr DrawnCall<Arguments> drawn(const char* name) {
+    return {name, [](Arguments& arguments) { return call_with_drawn(function, arguments); }};
+}
+
 }  // namespace motionrack::fuzz
