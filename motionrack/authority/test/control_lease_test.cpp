@@ -49,6 +49,14 @@ TEST_F(AControlLease, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
     EXPECT_FALSE(lease.holder()->left);
 }
 
+TEST_F(AControlLease, OfAClientThatOrdersAgainIsNotTakenOverWhileTheMachineMoves) {
+    ASSERT_TRUE(take("anna", "a"));
+    lease.left("a");
+    ASSERT_TRUE(lease.check("a"));
+    EXPECT_FALSE(lease.holder()->left);
+    EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("does not stand still"));
+}
+
 TEST_F(AControlLease, EndsWithTheStopOfAnotherButNotWithItsHolders) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_FALSE(lease.revoke("anna", "a"));

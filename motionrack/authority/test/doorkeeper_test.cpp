@@ -26,13 +26,12 @@ class ADoorkeeper : public testing::Test {
         open();
     }
     ~ADoorkeeper() override { fs::remove_all(folder); }
-    void open() {
-        auto made = try_open();
+    void open(DoorkeeperSettings settings = {}) {
+        auto made = try_open(std::move(settings));
         ASSERT_TRUE(made) << made.error().text();
         door = std::move(*made);
     }
-    Result<std::unique_ptr<Doorkeeper>> try_open() {
-        DoorkeeperSettings settings;
+    Result<std::unique_ptr<Doorkeeper>> try_open(DoorkeeperSettings settings = {}) {
         settings.users_file = file();
         settings.on_start_code = [this](const std::string& code) { start_codes.push_back(code); };
         return Doorkeeper::open(settings);
@@ -221,8 +220,83 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
     EXPECT_TRUE(pair(start_codes[0], "anna")) << "the code was not used up";
 }
 
+TEST_F(ADoorkeeper, UnpairsNobodyWhenTheFileCannotBeWritten) {
+    const auto anna = *pair(start_codes[0], "anna");
+    fs::remove_all(folder);
+    EXPECT_EQ(door->unpair("anna").error().trouble, Trouble::io);
+    EXPECT_EQ(door->forget(anna.identity.id).error().trouble, Trouble::io);
+    EXPECT_TRUE(door->who(anna.token, now.wall)) << "as the file has it";
+}
+
+TEST_F(ADoorkeeper, ForgetsOneTokenOfAUser) {
+    const auto first = *pair(start_codes[0], "anna"), second = *pair(start_codes[1], "anna");
+    EXPECT_FALSE(door->forget("0123"));
+    EXPECT_TRUE(door->forget(first.identity.id));
+    EXPECT_FALSE(door->who(first.token, now.wall));
+    EXPECT_TRUE(door->who(second.token, now.wall));
+    open();
+    EXPECT_FALSE(door->who(first.token, now.wall));
+    EXPECT_TRUE(door->who(second.token, now.wall));
+}
+
+TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
+    DoorkeeperSettings two;
+    two.most_tokens = 2;
+    open(two);
+    ASSERT_TRUE(pair(start_codes.back(), "anna"));
+    pass(1h);
+    ASSERT_TRUE(pair(start_codes.back(), "bert"));
+    EXPECT_THAT(pair(start_codes.back(), "carl").error().sentence,
+                HasSubstr("2 devices are paired, which is the most"));
+    pass(90 * 24h - 1h);
+    EXPECT_TRUE(pair(start_codes.back(), "carl")) << "anna's has expired";
+    ASSERT_EQ(door->users().size(), 2u);
+    EXPECT_EQ(door->users()[0].user, "bert");
+    DoorkeeperSettings one;
+    one.most_tokens = 1;
+    open(one);
+    pass(1h);
+    EXPECT_FALSE(pair(start_codes.back(), "dora")) << "bert's has expired, carl's is there";
+    EXPECT_EQ(door->users().size(), 2u) << "a refusal changes nothing";
+}
+
+TEST_F(ADoorkeeper, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
+    DoorkeeperSettings two;
+    two.most_invitations = 2;
+    open(two);
+    ASSERT_TRUE(door->invite(Role::observe, now));
+    pass(1min);
+    ASSERT_TRUE(door->invite(Role::observe, now));
+    EXPECT_THAT(door->invite(Role::observe, now).error().message, HasSubstr("2 codes are open, which is the most"));
+    pass(9min);
+    EXPECT_TRUE(door->invite(Role::observe, now)) << "the first is over";
+    EXPECT_FALSE(door->invite(Role::observe, now)) << "the second is not";
+}
+
+TEST_F(ADoorkeeper, TakesAFolderThatItsOwnGroupMayWriteOnly) {
+    ::chmod(folder.c_str(), 0770);
+    EXPECT_TRUE(try_open());
+    if (::geteuid() != 0) return;
+    ASSERT_EQ(::chown(folder.c_str(), static_cast<uid_t>(-1), 12345), 0);
+    EXPECT_FALSE(try_open());
+}
+
+TEST_F(ADoorkeeper, ReadsTimesOfExpiryUpToTheYear2255) {
+    const std::string begin =
+        R"({"users":[{"name":"a","role":"observe","token_sha256":")" + std::string(64, 'a') + R"(","expires":)";
+    for (const char* good : {"0", "9000000000"}) {
+        write(begin + good + "}]}");
+        EXPECT_TRUE(try_open()) << good;
+    }
+    write(begin + "9000000001}]}");
+    EXPECT_FALSE(try_open());
+}
+
 TEST_F(ADoorkeeper, TakesNamesThatPeopleCanTellApart) {
-    for (const char* good : {"anna", "Anna B. 2", "j\xc3\xb6rg", "a"}) EXPECT_EQ(name_problem(good), "") << good;
+    for (const char* good :
+         {"anna", "Anna B. 2", "j\xc3\xb6rg", "a", "09AZaz._-\x80", "1234567890123456789012345678901234567890"})
+        EXPECT_EQ(name_problem(good), "") << good;
+    for (const char bad : std::string_view("/:@[`{\x7f\x1f!")) EXPECT_NE(name_problem({&bad, 1}), "") << bad;
     for (const char* bad : {"", " a", "a ", "a\nb", "a\"b", "<b>", "12345678901234567890123456789012345678901"})
         EXPECT_NE(name_problem(bad), "") << bad;
     EXPECT_FALSE(pair(start_codes[0], "a\nb"));
@@ -242,6 +316,9 @@ TEST_F(ADoorkeeper, WithoutAStartCodeLetsOnlyThoseInWhoAreThere) {
 TEST(Secrets, AreNotTheSameTwice) {
     EXPECT_NE(random_token(), random_token());
     EXPECT_NE(random_code(), random_code());
+    EXPECT_EQ(random_code().size(), 9u);
+    EXPECT_EQ(random_code().find('-'), 4u);
+    EXPECT_EQ(plain_code(random_code()).size(), 8u);
     EXPECT_EQ(hash_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     EXPECT_TRUE(same_secret("abc", "abc"));
     EXPECT_FALSE(same_secret("abc", "abd"));
