@@ -1,0 +1,75 @@
+// What mutated sources call: one of all mistakes is on, by its number in MOTIONRACK_MUTANT. The numbers that are asked
+// for are appended to the file MOTIONRACK_REACHED.
+#pragma once
+// No warnings: what is compared is as the mutated source has it.
+#pragma GCC system_header
+#pragma GCC diagnostic ignored "-Wimplicit-fallthrough"
+#pragma GCC diagnostic ignored "-Wunused-value"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+
+namespace mutant {
+
+inline int chosen() {
+    const char* text = std::getenv("MOTIONRACK_MUTANT");
+    return text ? std::atoi(text) : -1;
+}
+
+/// Each number once a process, without a lock: a mistake may sit where nothing may wait.
+inline void reach(int number) {
+    constexpr int most = 1 << 16;
+    static std::atomic<bool> reached[most];
+    static const char* const path = std::getenv("MOTIONRACK_REACHED");
+    if (!path || number >= most || reached[number].exchange(true)) return;
+    char line[16];
+    char* const end = std::to_chars(line, line + sizeof line - 1, number).ptr;
+    *end = '\n';
+    const int file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    if (file < 0) return;
+    if (write(file, line, static_cast<std::size_t>(end + 1 - line)) < 0) std::abort();
+    close(file);
+}
+
+inline bool on(int number) {
+    static const int one = chosen();
+    reach(number);
+    return number == one;
+}
+
+template <class A, class B>
+constexpr auto less(int number, const A& a, const B& b) {
+    return on(number) ? a <= b : a < b;
+}
+
+template <class A, class B>
+constexpr auto less_equal(int number, const A& a, const B& b) {
+    return on(number) ? a < b : a <= b;
+}
+
+template <class A, class B>
+constexpr auto greater(int number, const A& a, const B& b) {
+    return on(number) ? a >= b : a > b;
+}
+
+template <class A, class B>
+constexpr auto greater_equal(int number, const A& a, const B& b) {
+    return on(number) ? a > b : a >= b;
+}
+
+template <class A, class B>
+auto plus(int number, const A& a, const B& b) {
+    return on(number) ? a - b : a + b;
+}
+
+template <class A, class B>
+auto minus(int number, const A& a, const B& b) {
+    return on(number) ? a + b : a - b;
+}
+
+}  // namespace mutant
