@@ -1,8 +1,11 @@
-// Thousands of machines, each from a seed. MOTIONRACK_SEED=N picks the first, MOTIONRACK_MACHINES=N how many.
+// Thousands of machines, each from a seed. MOTIONRACK_SEED=N picks the first, MOTIONRACK_MACHINES=N how many at most,
+// MOTIONRACK_SWARM_SECONDS=N for how long.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <motionrack/trace/test/scratch.hpp>
 #include <string>
 #include <tests/environment.hpp>
@@ -18,16 +21,21 @@ SeedEnd driven(std::uint64_t seed) {
     return drive_seed(seed, folder);
 }
 
-/// So that shards share the seeds.
-constexpr std::uint64_t parts = 20;
+/// So that shards share the seeds: each of four programs has five parts, one after the other.
+constexpr std::uint64_t parts = 20, parts_of_a_shard = 5;
 
 class Swarm : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Part, Swarm, testing::Range<std::uint64_t>(0, parts));
 
 TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
     const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_MACHINES", 2'000);
+    const std::chrono::duration<double> time{static_cast<double>(from_environment("MOTIONRACK_SWARM_SECONDS", 0)) /
+                                             parts_of_a_shard};
+    const auto begun = std::chrono::steady_clock::now();
     int taken = 0, faults = 0;
-    for (std::uint64_t i = GetParam(); i < count; i += parts) {
+    std::uint64_t i = GetParam();
+    for (; i < count; i += parts) {
+        if (time.count() > 0 && std::chrono::steady_clock::now() - begun > time) break;
         const SeedEnd end = driven(first + i);
         taken += end.taken;
         faults += end.faults;
@@ -37,7 +45,8 @@ TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
             to_seconds(end.finding->at), name_of(end.finding->rule), end.finding->text, end.what,
             fmt::join(end.story, "\n"), first + i);
     }
-    if (count < 10 * parts) return;
+    if (time.count() > 0) std::cout << "machines up to seed " << first + i << '\n';
+    if (i < 10 * parts) return;
     EXPECT_GT(taken, 0);
     EXPECT_GT(faults, 0);
 }
