@@ -1,7 +1,7 @@
-// What mutated sources call: one of all mistakes is on, by its number in MOTIONRACK_MUTANT. The numbers that are asked
-// for are appended to the file MOTIONRACK_REACHED.
+// Runtime of mutated sources. MOTIONRACK_MUTANT selects the number of the one active mistake; each number that the
+// program reaches is appended to the file MOTIONRACK_REACHED.
 #pragma once
-// No warnings: what is compared is as the mutated source has it.
+// Suppresses warnings: operands have the types of the mutated source.
 #pragma GCC system_header
 #pragma GCC diagnostic ignored "-Wimplicit-fallthrough"
 #pragma GCC diagnostic ignored "-Wunused-value"

@@ -251,7 +251,7 @@ def is_number(cursor: Cursor) -> bool:
 
 
 def is_statement_of(cursor: Cursor, parent: Cursor) -> bool:
-    """A statement by itself, whose value nobody takes."""
+    """Returns whether the statement stands alone, so that its value is unused."""
     if parent.kind == CursorKind.COMPOUND_STMT:
         return True
     parts = list(parent.get_children())

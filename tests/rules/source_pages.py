@@ -1,7 +1,7 @@
-"""docs/sources/NAME.md is made from NAME.toml, and all it names is there: source_pages.py ROOT [--write]
+"""Checks docs/sources/NAME.toml and the pages made from it: source_pages.py ROOT [--write]
 
-A statement of a source has the file of the tree that does it and the test that would fail without it; where it is not
-done as the source says, the reason.
+Each statement of a source names the file that implements it and the test that fails without it, or gives the reason
+why it differs from the source. The file and the test must exist.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from found import files_of, finish, text_of
 ROOT = Path(sys.argv[1])
 FOLDER = Path("docs/sources")
 FILES = set(files_of(ROOT))
-FEWEST = 350  # statements of all sources
+MIN_STATEMENTS = 350  # statements of all sources
+REMEDY = "python3 tests/rules/source_pages.py . --write"
 STATES = {
     "done": "the product does it, and the test fails if not",
     "chosen": "the source leaves it open, contradicts itself or has a misprint: decided here",
@@ -33,7 +34,7 @@ Statement = dict[str, Any]
 
 
 def cpp_tests() -> dict[str, Path]:
-    """GoogleTest's names, and where each is written."""
+    """Maps each GoogleTest name to its file."""
     out = {}
     for file in sorted(FILES):
         if file.suffix == ".cpp":
@@ -108,8 +109,8 @@ def overview(sources: dict[str, tuple[dict[str, Any], list[Statement]]]) -> str:
     """The table of docs/sources/README.md."""
     lines = ["| card | source | statements |", "|---|---|---|"]
     for name, (source, statements) in sources.items():
-        told = f"[{len(statements)}]({name}.md): {counts(statements)}"
-        lines.append(f"| {name} | {cell(source['title'])} | {told} |")
+        summary = f"[{len(statements)}]({name}.md): {counts(statements)}"
+        lines.append(f"| {name} | {cell(source['title'])} | {summary} |")
     return "\n".join(lines) + "\n"
 
 
@@ -125,10 +126,10 @@ def main() -> None:
         for problem in problems(name, number, one)
     ]
     count = sum(len(statements) for _, statements in sources.values())
-    if count < FEWEST:
-        wrong.append(f"{FOLDER}: {count} statements, of at least {FEWEST}")
+    if count < MIN_STATEMENTS:
+        wrong.append(f"{FOLDER}: {count} statements, of at least {MIN_STATEMENTS}")
     if wrong:
-        finish(wrong, f"mend {FOLDER}/NAME.toml, then: tests/rules/source_pages.py . --write", "")
+        finish(wrong, f"mend {FOLDER}/NAME.toml, then: {REMEDY}", "")
     pages = {FOLDER / f"{name}.md": page(name, *source) for name, source in sources.items()}
     index = FOLDER / "README.md"
     head, begin, rest = text_of(ROOT / index).partition("<!-- statements -->\n")
@@ -136,8 +137,8 @@ def main() -> None:
     if "--write" in sys.argv:
         for path, text in pages.items():
             (ROOT / path).write_text(text, encoding="utf-8")
-    stale = [f"{path} is not what its data say" for path, text in pages.items() if text_of(ROOT / path) != text]
-    finish(stale, "python3 tests/rules/source_pages.py . --write", f"{count} statements of {len(sources)} sources")
+    stale = [f"{path} is out of date" for path, text in pages.items() if text_of(ROOT / path) != text]
+    finish(stale, REMEDY, f"{count} statements of {len(sources)} sources")
 
 
 if __name__ == "__main__":
