@@ -70,7 +70,12 @@ void add_calibrate(CLI::App& app, Action& chosen) {
     group->require_subcommand(1);
     CLI::App* s = group->add_subcommand(
         "scale", "scale from two readings of the encoder or McBSP source and the distance between them");
-    s->add_option("--readings", o->readings, "of get_encoder or read_mcbsp, before and after")->expected(2)->required();
+    s->add_option(
+         "--readings", o->readings,
+         "of get_encoder or read_mcbsp, before and after; of a word of two axes the half of the one axis, with "
+         "its sign (X low, Y high 16 bits)")
+        ->expected(2)
+        ->required();
     s->add_option("--distance", o->scale.distance_mm, "mm between them, with its sign")->required();
     s->add_option("--bits-per-mm", o->scale.bits_per_mm, "K of the field")->capture_default_str();
     s->add_option("--reading-uncertainty", o->scale.reading_uncertainty, "counts")->capture_default_str();

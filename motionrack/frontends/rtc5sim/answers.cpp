@@ -217,7 +217,7 @@ void n_set_extstartpos(UINT CardNo, UINT Pos) {
 long n_read_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 3));
-        return card.engine.read_mcbsp(small(No));
+        return as(Trouble::stopped, card.engine.read_mcbsp(small(No)));
     });
 }
 

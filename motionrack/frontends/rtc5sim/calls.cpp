@@ -219,11 +219,6 @@ UINT selected() noexcept {
     return process().alone([](Bench& bench) { return bench.selected; });
 }
 
-Result<void> as(Trouble trouble, Result<void> result) {
-    if (!result) result.error().trouble = trouble;
-    return result;
-}
-
 Result<void> checked(rtc5::Op op, double parameter) {
     const auto made = rtc5::list_command(op, {parameter});
     if (made) return {};

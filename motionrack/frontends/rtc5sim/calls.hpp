@@ -176,6 +176,10 @@ using calls::check_pointer;
 int small(UINT value);
 
 /// The error of `result` as one of the board's kind `trouble`.
-Result<void> as(Trouble trouble, Result<void> result);
+template <class Value>
+Result<Value> as(Trouble trouble, Result<Value> result) {
+    if (!result) result.error().trouble = trouble;
+    return result;
+}
 
 }  // namespace motionrack::rtc5sim

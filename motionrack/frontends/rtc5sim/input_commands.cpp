@@ -3,6 +3,7 @@
 
 using namespace motionrack::rtc5sim;
 using motionrack::Result;
+using motionrack::Trouble;
 namespace rtc5 = motionrack::rtc5;
 
 namespace {
@@ -57,7 +58,8 @@ UINT n_get_startstop_info(UINT CardNo) {
 // ---- McBSP
 
 long n_get_mcbsp(UINT CardNo) {
-    return question(__func__, CardNo, 0L, [](Card& card) -> Result<long> { return card.engine.get_mcbsp(); });
+    return question(__func__, CardNo, 0L,
+                    [](Card& card) -> Result<long> { return as(Trouble::stopped, card.engine.get_mcbsp()); });
 }
 
 void n_set_mcbsp_in(UINT CardNo, UINT Mode, double Scale) {

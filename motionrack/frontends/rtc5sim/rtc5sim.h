@@ -56,7 +56,8 @@ typedef unsigned int UINT;
 typedef uintptr_t ULONG_PTR;
 
 /* Bits of get_last_error and get_error, as the manual has them: init_rtc5_dll found no card; there is no such card; a
- * parameter is wrong; a list is running, or the card moves; the list is full, or none is open. */
+ * parameter is wrong; a list is running, or the card moves; the list is full, or none is open, or there is nothing to
+ * read. */
 enum rtc5_error { RTC5_NO_CARD = 1, RTC5_ACCESS_DENIED = 2, RTC5_PARAM_ERROR = 16, RTC5_BUSY = 32, RTC5_REJECTED = 64 };
 
 /* ---- Cards ---- */
@@ -166,6 +167,23 @@ RTC5_API UINT get_startstop_info(void);
 /* Words of 32 bits come by rtc5sim_receive. get_mcbsp: the present one, put to location 0 too; read_mcbsp: memory
  * location 0 .. 3; read_multi_mcbsp: type 0 .. 7. set_mcbsp_in: Mode 1 X, 2 Y, 3 both. set_mcbsp_x, _y, _rot and
  * _matrix are online positioning, which apply_mcbsp brings to a head.
+ *
+ * Locations. 0 is kept filled from the first set_fly_x_pos, set_fly_y_pos, set_fly_rot_pos or set_mcbsp_in on, also
+ * after fly_return, a scale of 0 and load_program_file. set_mcbsp_in fills others as well: Mode 1 location 1 with the
+ * word, Mode 2 location 2, Mode 3 location 1 with X, 2 with Y and 3 with the word. set_multi_mcbsp_in puts word after
+ * word to 0, 1, 2, 3 in turn, online positioning to 1 or 2. read_mcbsp of a location to which nothing was put yet, and
+ * get_mcbsp before the first word, give 0 with the bit RTC5_REJECTED and a sentence: what must come first.
+ *
+ * Finding the scale. Run a list with set_fly_x_pos(0), which switches no correction on but fills location 0. With the
+ * part at rest: start = read_mcbsp(0); move the part and stop it; end = read_mcbsp(0); measure the distance in mm.
+ * i = (end - start) / distance in bits/mm, and the scale is K / i. If the sender gives one axis, the word is its
+ * position. If it gives two, X is the low half and Y the high half, each with its sign:
+ *
+ *     x = (int16_t)(word & 0xffff);
+ *     y = (int16_t)(word >> 16);
+ *
+ * and i is found for each, with the distance along X and along Y; set_mcbsp_in(3, 0) has them apart in locations 1 and
+ * 2. A difference of halves that is beyond +-32,767 has come round: move less.
  *
  * set_mcbsp_out sends two signals (see "Signals and recording") in turn, one word in 10 us; set_mcbsp_out_ptr up to
  * 8, whose numbers are at SignalPtr; Number 0 ends it. rtc5sim_sent has the words. The frame on the wire is not

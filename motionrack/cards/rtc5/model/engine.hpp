@@ -137,8 +137,8 @@ class Engine {
     /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();
     Result<void> apply_mcbsp(int head, int at_once);
-    /// The present word, put to location 0 too.
-    std::int32_t get_mcbsp();
+    /// The present word, put to location 0 too. Refused: none has come.
+    Result<std::int32_t> get_mcbsp();
     /// Signals that are sent from the next tick on, one a tick, in turn; none: sending ends. At most 8.
     Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals);
     /// Disabled, the laser goes off, and what would switch it on does not, until it is enabled.
@@ -174,7 +174,7 @@ class Engine {
     std::uint32_t list_status() const;
     std::int64_t list_position() const { return state_.lists.current; }
     std::int32_t encoder(int number) const { return state_.encoders[static_cast<std::size_t>(number)].count(); }
-    std::int32_t read_mcbsp(int location) const { return state_.mcbsp.memory[static_cast<std::size_t>(location & 3)]; }
+    Result<std::int32_t> read_mcbsp(int location) const { return state_.mcbsp.read(location); }
     std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
     /// Reads and clears as the rules say.
     std::uint32_t get_marking_info();

@@ -220,6 +220,7 @@ void Engine::mcbsp_in(int mode, double scale) {
     McBsp& m = state_.mcbsp;
     m.multi = 0;
     m.in_mode = mode;
+    if (mode != 0) m.to_zero = 1;
     end_online();
     state_.fly = Fly{FlyKind::mcbsp, mode & 1, mode >> 1 & 1};
     state_.fly.scale_x = state_.fly.scale_y = scale;

@@ -68,10 +68,10 @@ void Engine::take_words() {
 
 void Engine::take_word(std::uint32_t word) {
     McBsp& m = state_.mcbsp;
-    m.word = word;
+    m.word = word, m.received = 1;
     if (!m.multi) return;
     m.typed[word & 7] = static_cast<std::int32_t>(word) >> 3;
-    m.memory[static_cast<std::size_t>(m.round)] = static_cast<std::int32_t>(word);
+    m.put(m.round, static_cast<std::int32_t>(word));
     m.round = (m.round + 1) & 3;
 }
 
@@ -86,19 +86,14 @@ std::int32_t Engine::axis_value(std::uint32_t word, bool y) const {
 void Engine::store_word() {
     McBsp& m = state_.mcbsp;
     const auto word = static_cast<std::uint32_t>(m.word);
-    const bool online = m.online_x || m.online_y || m.online_rot;
-    if (online) {
-        m.memory[m.online_rot && word >> 31 ? 2 : 1] = static_cast<std::int32_t>(word);
-        return;
-    }
-    if (m.multi) return;
-    if (m.to_zero) m.memory[0] = static_cast<std::int32_t>(word);
-    if (m.in_mode == 1 || m.in_mode == 2)
-        m.memory[static_cast<std::size_t>(m.in_mode)] = static_cast<std::int32_t>(word);
+    if (m.multi || !m.received) return;
+    if (m.online()) return m.put(m.online_rot && word >> 31 ? 2 : 1, static_cast<std::int32_t>(word));
+    if (m.to_zero) m.put(0, static_cast<std::int32_t>(word));
+    if (m.in_mode == 1 || m.in_mode == 2) m.put(m.in_mode, static_cast<std::int32_t>(word));
     if (m.in_mode != 3) return;
-    m.memory[1] = static_cast<std::int16_t>(word & 0xFFFF);
-    m.memory[2] = static_cast<std::int16_t>(word >> 16);
-    m.memory[3] = static_cast<std::int32_t>(word);
+    m.put(1, static_cast<std::int16_t>(word & 0xFFFF));
+    m.put(2, static_cast<std::int16_t>(word >> 16));
+    m.put(3, static_cast<std::int32_t>(word));
 }
 
 bool Engine::load_words(std::size_t n) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
+#include <string_view>
 
 namespace motionrack::rtc5 {
 
@@ -78,18 +79,34 @@ struct Fly {
     bool on() const { return kind != FlyKind::off; }
 };
 
+/// Why there is nothing to read where the words that come go.
+inline constexpr std::string_view no_word_yet =
+    "no word has come over McBSP yet, so there is nothing to read; let the sender send one first";
+
 struct McBsp {
     std::int64_t word = 0, previous = 0;
     std::array<std::int32_t, 4> memory{};
     std::array<std::int32_t, 8> typed{};
     std::array<std::uint32_t, 4> pending{};
     std::int64_t pending_count = 0;
-    std::int64_t to_zero = 0;  ///< location 0 is kept filled
+    std::int64_t to_zero = 0;   ///< location 0 is kept filled
+    std::int64_t received = 0;  ///< a word has come
+    std::int64_t filled = 0;    ///< bits of the locations that something was put into
     std::int64_t in_mode = 0, multi = 0, round = 0;
     std::int64_t online_x = 0, online_y = 0, online_rot = 0;
     std::int64_t online_matrix = 0;
     std::int64_t power_port = 0, power_factor = 0, power_mode = 0;  ///< of set_multi_mcbsp_in
     double online_scale_x = 0, online_scale_y = 0, online_resolution = 0;
+
+    void put(std::int64_t location, std::int32_t value) {
+        memory[static_cast<std::size_t>(location)] = value;
+        filled |= std::int64_t{1} << location;
+    }
+    bool online() const { return online_x || online_y || online_rot; }
+    /// The words that come go there (too).
+    bool goes_to(int location) const;
+    /// What is in location 0 .. 3. Refused where nothing was put there yet: the sentence says what must come first.
+    Result<std::int32_t> read(int location) const;
 };
 
 struct Laser {

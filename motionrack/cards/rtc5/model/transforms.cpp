@@ -1,4 +1,6 @@
 // Transforms of the heads and before the correction, also those that come over McBSP.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -102,7 +104,7 @@ Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode)
     m.in_mode = 0;
     m.round = 0;
     m.typed = {};
-    m.memory = {};
+    m.memory = {}, m.filled = 15;
     state_.fly = Fly{FlyKind::multi, 1, 1};
     state_.fly.scale_x = state_.fly.scale_y = 1;
     return {};
@@ -114,10 +116,9 @@ Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double res
     McBsp& m = state_.mcbsp;
     m.online_x = scale_x != 0, m.online_y = scale_y != 0, m.online_rot = std::abs(resolution) >= least_resolution;
     m.online_scale_x = scale_x, m.online_scale_y = scale_y, m.online_resolution = resolution;
-    const bool online = m.online_x || m.online_y || m.online_rot;
     const FlyKind kind = state_.fly.kind;
     m.online_matrix = 0;
-    if (!online) return {};
+    if (!m.online()) return {};
     m.in_mode = m.multi = 0;
     if (kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi) state_.fly = {};
     return {};
@@ -150,9 +151,11 @@ void Engine::set_online(std::size_t which, double value) {
     static_cast<void>(set_mcbsp_online(all[0], all[1], all[2]));
 }
 
-std::int32_t Engine::get_mcbsp() {
+Result<std::int32_t> Engine::get_mcbsp() {
     McBsp& m = state_.mcbsp;
-    return m.memory[0] = static_cast<std::int32_t>(static_cast<std::uint32_t>(m.word));
+    if (!m.received) return fail(Trouble::refused, fmt::format("get_mcbsp: {}", no_word_yet));
+    m.put(0, static_cast<std::int32_t>(static_cast<std::uint32_t>(m.word)));
+    return m.memory[0];
 }
 
 void Engine::set_mcbsp_matrix() {

@@ -149,7 +149,7 @@ void control_something(Feed& feed, Engine* const (&cards)[2]) {
                 break;
             case 23:
                 static_cast<void>(c->get_value(word % 60));
-                c->get_mcbsp();
+                static_cast<void>(c->get_mcbsp());
                 break;
             case 24:
                 static_cast<void>(word % 2 ? c->set_mcbsp_x(a) : c->set_mcbsp_rot(b));

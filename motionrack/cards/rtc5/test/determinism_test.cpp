@@ -45,7 +45,7 @@ TEST(Rtc5Card, SamplesAndStatesHaveTheSameBitsOnEveryCompiler) {
         for (std::size_t i = 0; i < offsetof(State, memory_hash); ++i) mixer.mix(bytes[i]);
     }
     // The number of g++ 12 -O3 and clang 14 -O0; it changes when the rules or the random jobs do.
-    EXPECT_EQ(mixer.hash, 0xD2B23084994F2867ull);
+    EXPECT_EQ(mixer.hash, 0xCDDE303A03E3F080ull);
 }
 
 }  // namespace

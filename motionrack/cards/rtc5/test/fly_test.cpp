@@ -98,10 +98,10 @@ TEST(Rtc5Fly, TwoReadingsOfTheMcBspGiveTheScale) {
     rig.put(Op::set_fly_x_pos, {1});
     rig.card.receive(1000);
     rig.go();
-    const std::int32_t before = rig.card.read_mcbsp(0);
+    const std::int32_t before = rig.card.read_mcbsp(0).value();
     rig.card.receive(51'000);
     rig.run(1);
-    const double increment = (rig.card.read_mcbsp(0) - before) / 50.0;
+    const double increment = (rig.card.read_mcbsp(0).value() - before) / 50.0;
     EXPECT_DOUBLE_EQ(increment, 1000);
     EXPECT_DOUBLE_EQ(fly_k / increment, 5.184);
 }
@@ -110,7 +110,12 @@ TEST(Rtc5Fly, LocationZeroIsFilledAfterFlyReturnAndAfterAReset) {
     Rig rig;
     rig.card.receive(5);
     rig.run(1);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 0) << "before set_fly_x_pos";
+    const auto unread = rig.card.read_mcbsp(0);
+    ASSERT_FALSE(unread);
+    EXPECT_EQ(unread.error().message,
+              "read_mcbsp: nothing was ever put into location 0, so there is nothing to read; first give "
+              "set_fly_x_pos, set_fly_y_pos or set_fly_rot_pos in a list (with any scale), or set_mcbsp_in, "
+              "set_multi_mcbsp_in or get_mcbsp");
     rig.put(Op::set_fly_x_pos, {1});
     rig.put(Op::fly_return, {0, 0});
     rig.go();
@@ -124,14 +129,19 @@ TEST(Rtc5Fly, LocationZeroIsFilledAfterFlyReturnAndAfterAReset) {
     EXPECT_FALSE(rig.card.state().fly.on());
 }
 
-TEST(Rtc5Fly, SetMcbspInUsesLocations1To3AndMultiWritesRoundRobin) {
+TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
     Rig rig;
     ASSERT_TRUE(rig.card.set_mcbsp_in(3, 1));
+    for (int location = 0; location < 4; ++location)
+        EXPECT_EQ(rig.card.read_mcbsp(location).error().message,
+                  "read_mcbsp: no word has come over McBSP yet, so there is nothing to read; let the sender send one "
+                  "first");
     rig.card.receive(0xFFFE0003);
     rig.run(1);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 0);
+    EXPECT_EQ(rig.card.read_mcbsp(0), static_cast<std::int32_t>(0xFFFE0003)) << "there as well";
     EXPECT_EQ(rig.card.read_mcbsp(1), 3);
     EXPECT_EQ(rig.card.read_mcbsp(2), -2);
+    EXPECT_EQ(rig.card.read_mcbsp(3), static_cast<std::int32_t>(0xFFFE0003));
     ASSERT_TRUE(rig.card.set_multi_mcbsp_in(0, 8192, 1));
     rig.card.receive(1000u << 3 | 3);
     rig.card.receive(100u << 3 | 0);
@@ -156,7 +166,7 @@ TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 6);
     EXPECT_EQ(rig.last_y(), -6);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 0);
+    for (const int location : {0, 2, 3}) EXPECT_FALSE(rig.card.read_mcbsp(location)) << location;
     ASSERT_TRUE(rig.card.set_mcbsp_online(1, 0, 3600));
     rig.card.receive(1000);
     rig.card.receive(0x80000000u | 900);

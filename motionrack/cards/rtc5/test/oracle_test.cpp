@@ -320,7 +320,8 @@ class Pair {
         }
         for (std::size_t i = 0; i < 4; ++i) {
             EXPECT_EQ(s.stored[i], twin_.stored[i]) << i;
-            EXPECT_EQ(s.mcbsp.memory[i], twin_.locations[i]) << i;
+            EXPECT_EQ(s.mcbsp.memory[i], twin_.locations[i].value_or(0)) << i;
+            EXPECT_EQ(s.mcbsp.filled >> i & 1, twin_.locations[i].has_value()) << "location " << i;
         }
         for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(s.mcbsp.typed[i], twin_.typed[i]) << i;
         EXPECT_EQ(static_cast<std::uint32_t>(s.marking_info), twin_.marking);

@@ -157,9 +157,9 @@ TEST(Rtc5Mcbsp, SendsItsSignalsInTurn) {
 TEST(Rtc5Mcbsp, ThePresentWordIsReadAndKeptAtLocation0) {
     Rig rig;
     rig.card.receive(0xFFFE0003);
-    EXPECT_EQ(rig.card.get_mcbsp(), 0) << "it is not taken yet";
+    EXPECT_FALSE(rig.card.get_mcbsp()) << "it is not taken yet";
     rig.run(1);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 0);
+    EXPECT_FALSE(rig.card.read_mcbsp(0));
     EXPECT_EQ(rig.card.get_mcbsp(), static_cast<std::int32_t>(0xFFFE0003));
     EXPECT_EQ(rig.card.read_mcbsp(0), static_cast<std::int32_t>(0xFFFE0003));
     rig.card.receive(12345);

@@ -91,7 +91,7 @@ void Twin::inputs() {
         e.slow2 += (e.slow1 - e.slow2) * (1 - smooth);
     }
     word_before = word;
-    for (; !words.empty(); words.pop_front()) {
+    for (; !words.empty(); words.pop_front(), heard = true) {
         word = words.front();
         if (!multi) continue;
         typed[word & 7] = static_cast<std::int32_t>(word) >> 3;
@@ -99,12 +99,11 @@ void Twin::inputs() {
         round = (round + 1) % 4;
     }
     const auto whole = static_cast<std::int32_t>(word);
-    if (online[0] || online[1] || online[2]) {
+    if (heard && (online[0] || online[1] || online[2])) {
         locations[online[2] && whole < 0 ? 2 : 1] = whole;
-    } else if (!multi) {
+    } else if (heard && !multi) {
         if (to_zero) locations[0] = whole;
-        if (in_mode == 1) locations[1] = whole;
-        if (in_mode == 2) locations[2] = whole;
+        if (in_mode == 1 || in_mode == 2) locations[in_mode] = whole;
         if (in_mode == 3)
             locations[1] = static_cast<std::int16_t>(word), locations[2] = static_cast<std::int16_t>(word >> 16),
             locations[3] = whole;

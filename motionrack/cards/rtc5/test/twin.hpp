@@ -103,9 +103,9 @@ class Twin {
 
     std::uint32_t word = 0, word_before = 0;
     std::deque<std::uint32_t> words;
-    std::int32_t locations[4] = {}, typed[8] = {};
-    bool to_zero = false, multi = false;
-    int in_mode = 0, round = 0;
+    std::optional<std::int32_t> locations[4];  // empty: nothing was put there
+    std::int32_t typed[8] = {}, in_mode = 0, round = 0;
+    bool to_zero = false, multi = false, heard = false;
     bool online[3] = {}, online_matrix = false;
     double online_scale[3] = {};
 

@@ -264,7 +264,7 @@ void Twin::take(const Command& c) {
         case Op::set_multi_mcbsp_in_list:
             return set_multi();
         case Op::get_mcbsp_list:
-            locations[0] = static_cast<std::int32_t>(word);
+            if (heard) locations[0] = static_cast<std::int32_t>(word);
             return;
         case Op::set_mcbsp_x_list:
             return set_one_online(0, v[0]);

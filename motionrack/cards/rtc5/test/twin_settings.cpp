@@ -45,6 +45,7 @@ void Twin::transform_command(const Command& c) {
 void Twin::set_mcbsp_in(int mode, double scale) {
     multi = online[0] = online[1] = online[2] = online_matrix = false;
     in_mode = mode;
+    to_zero = to_zero || mode != 0;
     fly = {};
     if (mode == 0 || scale == 0) return;
     fly.kind = Kind::mcbsp;
@@ -92,7 +93,7 @@ void Twin::apply_online(int head, int at_once) {
         const std::int64_t range = std::int64_t{1} << n, low = ((v % range) + range) % range;
         return static_cast<double>(low >= range / 2 ? low - range : low);
     };
-    const std::int64_t w = locations[1];
+    const std::int64_t w = locations[1].value_or(0), rot = static_cast<std::uint32_t>(locations[2].value_or(0));
     if (online_matrix) {
         const std::int64_t cell = w & 3;
         transforms(head, at_once, [&](Matrix& t) { t.m[cell] = bits((w - cell) / 4, 30) / 16777216; });
@@ -101,8 +102,7 @@ void Twin::apply_online(int head, int at_once) {
     const int half = online[2] ? 15 : 16, full = online[2] ? 31 : 32;
     const bool two = online[0] && online[1];
     const double x = bits(w, two ? half : full), y = two ? bits(w >> half, half) : x;
-    const double turns =
-        online[2] ? static_cast<double>(static_cast<std::uint32_t>(locations[2]) % (1u << 31)) / online_scale[2] : 0;
+    const double turns = online[2] ? static_cast<double>(rot % (std::int64_t{1} << 31)) / online_scale[2] : 0;
     transforms(head, at_once, [&](Matrix& t) {
         if (online[0]) t.offset.x = x * online_scale[0];
         if (online[1]) t.offset.y = y * online_scale[1];

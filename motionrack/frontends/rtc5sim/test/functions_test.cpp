@@ -178,8 +178,11 @@ const Row control_rows[] = {
          ASSERT_TRUE(c.config_list(50, 60));
          ASSERT_TRUE(c.set_start_list(2));
      }},
-    {"get_mcbsp", [] { rtc5sim_question_us(0), get_mcbsp(), rtc5sim_question_us(10); },
-     [](Engine& c) { c.get_mcbsp(); }},
+    {"get_mcbsp", [] { get_mcbsp(); },
+     [](Engine& c) {
+         c.run_until(c.tick() + 1);
+         ASSERT_TRUE(c.get_mcbsp());
+     }},
     {"disable_laser", [] { disable_laser(); }, [](Engine& c) { c.disable_laser(); }},
     {"enable_laser", [] { disable_laser(), enable_laser(); }, [](Engine& c) { c.disable_laser(), c.enable_laser(); }},
     {"set_mcbsp_out", [] { set_mcbsp_out(7, 43); },
@@ -285,7 +288,7 @@ Did by_card(const Row* control, const Row* in_list) {
     did.answers = {card.status(),           card.list_position(),    card.get_marking_info(), card.get_startstop_info(),
                    card.state().io,         card.encoder(0),         card.encoder(1),         card.read_encoder(0)[0],
                    card.read_encoder(0)[1], card.read_encoder(1)[0], card.read_encoder(1)[1]};
-    for (int i = 0; i < 4; ++i) did.answers.push_back(card.read_mcbsp(i));
+    for (int i = 0; i < 4; ++i) did.answers.push_back(card.read_mcbsp(i).value_or(0));
     for (int i = 0; i < 8; ++i) did.answers.push_back(card.read_multi_mcbsp(i));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly_2d_offset.x));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly_2d_offset.y));
