@@ -255,9 +255,7 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
         MOTIONRACK_TRY(
             const rtc5::CorrectionFile file,
             rtc5::read_ct5({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, *job.optics.ct5));
-        if (!file.checksum_known)
-            out.notes.push_back(fmt::format(
-                "{} is of an older program, whose checksum is not known; it was not checked.", *job.optics.ct5));
+        if (!file.note.empty()) out.notes.push_back(file.note);
         if (job.lens) {
             if (file.bits_per_mm() > 0 && file.bits_per_mm() != out.bits_per_mm)
                 out.notes.push_back(

@@ -24,7 +24,11 @@ constexpr std::size_t header_words = 16, words = (ct5_bytes - 4) / 4;
 constexpr std::int32_t max_node = 1048575, max_gap = 65536;
 
 const Bytes& whole_file(bool of_lens) {
-    static const Bytes plain = written_ct5(one_to_one());
+    static const Bytes plain = [] {
+        CorrectionFile file = one_to_one();
+        file.header[1] = 5184;
+        return written_ct5(file);
+    }();
     static const Bytes lens = written_ct5(*correction_of({{255.059, -1.365, 1.493, -18.087}, 11.7, 5184}, 721));
     return of_lens ? lens : plain;
 }

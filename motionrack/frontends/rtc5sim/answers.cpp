@@ -42,16 +42,16 @@ Result<void> load_correction(Card& card, const char* name, UINT number, UINT dim
     answer = wrong_parameter;
     MOTIONRACK_CHECK(check_range("No", number, 1, rtc5::table_count));
     MOTIONRACK_CHECK(check_range("Dim", dim, 2, 3));
-    rtc5::CorrectionFile file = rtc5::one_to_one();
+    std::shared_ptr<const rtc5::Table> table;
     if (name != nullptr) {
         answer = not_read;
         MOTIONRACK_TRY(const std::string bytes, bytes_of(name, rtc5::ct5_bytes));
         answer = damaged;
         const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
-        MOTIONRACK_TRY(file, rtc5::read_ct5({begin, bytes.size()}, name));
+        MOTIONRACK_TRY(const rtc5::CorrectionFile file, rtc5::read_ct5({begin, bytes.size()}, name));
+        table = rtc5::table_of(file);
     }
-    MOTIONRACK_CHECK(card.engine.load_correction(rtc5::table_of(file), small(number)));
-    card.headers[number - 1] = file.header;
+    MOTIONRACK_CHECK(card.engine.load_correction(std::move(table), small(number)));
     answer = loaded;
     return {};
 }
@@ -70,10 +70,11 @@ Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& ans
     return {};
 }
 
-/// Word `para` of the head of table `number`; 0 is the 1:1 table.
+/// Word `para` of the head of table `number`; those of a 1:1 table are 0.
 Result<double> header_word(const Card& card, std::int64_t number, UINT para) {
     MOTIONRACK_CHECK(check_range("ParaNo", para, 0, 15));
-    return number == 0 ? 0.0 : card.headers[static_cast<std::size_t>(number - 1)][para];
+    const rtc5::Table* const table = card.engine.table(number);
+    return table == nullptr ? 0.0 : table->header[para];
 }
 
 /// Answers a question into two places.
@@ -118,7 +119,6 @@ void free_rtc5_dll() {
 UINT n_load_program_file(UINT CardNo, const char*) {
     return with_card(__func__, CardNo, UINT{no_such_card}, [](Card& card) -> Result<UINT> {
         card.engine.load_program_file();
-        card.headers = {};
         return UINT{loaded};
     });
 }

@@ -49,8 +49,7 @@ struct Card {
     rtc5::Card* wired = nullptr;  ///< nullptr: it has no wires
     rtc5::Engine& engine;
     Belt belt;
-    std::array<std::array<std::int32_t, 16>, rtc5::table_count> headers{};  ///< of the correction files loaded
-    UINT errors = 0, last_error = 0;                                        ///< the board's bits
+    UINT errors = 0, last_error = 0;  ///< the board's bits
 };
 
 /// The cards of the process. Time is one for all of them.

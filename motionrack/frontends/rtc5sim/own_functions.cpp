@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t us_per_tick = 10;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
-thread_local std::string info_text;
+thread_local std::string info_text, note_text;
 
 Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t most) {
     if (us >= 0 && us <= most && us % us_per_tick == 0) return us / us_per_tick;
@@ -159,6 +159,19 @@ void rtc5sim_on_samples(rtc5sim_samples_handler handler, void* user) {
         bench.samples_user = user;
         return true;
     });
+}
+
+const char* rtc5sim_table_note(UINT CardNo, UINT TableNo) {
+    note_text.clear();
+    done(__func__, CardNo, [&](Card& card) -> Result<void> {
+        if (TableNo < 1 || TableNo > rtc5::table_count)
+            return fail(Trouble::refused, fmt::format("there is no table {}; 1 to {}. Nothing was looked at.", TableNo,
+                                                      rtc5::table_count));
+        const rtc5::Table* const table = card.engine.table(TableNo);
+        if (table != nullptr) note_text = table->note;
+        return {};
+    });
+    return note_text.c_str();
 }
 
 const char* rtc5sim_marking_info_text(UINT bits) {

@@ -66,6 +66,10 @@ typedef void (*rtc5sim_samples_handler)(void* user, UINT CardNo, int64_t first_t
                                         const uint8_t* laser, size_t n);
 RTC5_API void rtc5sim_on_samples(rtc5sim_samples_handler handler, void* user);
 
+/* What is worth knowing of the file of table TableNo 1 .. 4: that its checksum is not known (it is of a program before
+ * version 4.0) and was not checked; "" if there is nothing. The text holds until the next call of the thread. */
+RTC5_API const char* rtc5sim_table_note(UINT CardNo, UINT TableNo);
+
 /* What the bits of get_marking_info mean, in words, a line each; holds until the next call of the thread. */
 RTC5_API const char* rtc5sim_marking_info_text(UINT bits);
 

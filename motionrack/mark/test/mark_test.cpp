@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/cards/rtc5/model/correction.hpp>
 #include <motionrack/mark/test/helpers.hpp>
 
 namespace motionrack::mark {
@@ -136,6 +137,28 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(prepare(job_of("[drawing]\nsvg = 's'\n"), one_file("<svg><circle r='1e7'/></svg>")).error().text(),
                 HasSubstr("100000 mm"));
     EXPECT_FALSE(prepare(job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n"), one_file("no table")));
+}
+
+TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsTold) {
+    const Job job = job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n");
+    rtc5::CorrectionFile table = rtc5::one_to_one();
+    const auto file = [&](std::int32_t k, std::int32_t program, std::initializer_list<std::size_t> turned) {
+        table.header[1] = k, table.header[10] = program;
+        std::vector<std::uint8_t> bytes = rtc5::written_ct5(table);
+        for (const std::size_t place : turned) bytes[place] ^= 8;
+        return one_file(std::string(bytes.begin(), bytes.end()));
+    };
+    const auto notes = [&](const Load& load) { return prepare(job, load)->notes; };
+    const auto why_not = [&](const Load& load) { return prepare(job, load).error().text(); };
+    EXPECT_THAT(notes(file(5184, 403, {})), testing::Not(testing::Contains(HasSubstr("checksum"))));
+    EXPECT_THAT(notes(file(5184, 310, {rtc5::ct5_bytes - 1, rtc5::ct5_bytes - 4})),
+                testing::Contains("x.ct5 is of an older program, whose checksum is not known; it was not checked."));
+    for (const std::size_t turned : {std::size_t{4}, std::size_t{41}, std::size_t{99'996}, rtc5::ct5_bytes - 1})
+        for (const std::int32_t program : {403, 310})
+            EXPECT_THAT(why_not(file(5184, program, {turned})), HasSubstr("is damaged. The file was not loaded"));
+    EXPECT_THAT(why_not(file(0, 403, {})), HasSubstr("0 bits/mm in its header"));
+    for (std::size_t i = 0; i < table.x.size(); ++i) table.x[i] = table.y[i];
+    EXPECT_THAT(why_not(file(5184, 403, {})), HasSubstr("its table cannot be inverted"));
 }
 
 TEST(MarkJob, StopsWhenAsked) {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/cards/rtc5/model/correction.hpp>
+#include <motionrack/cards/rtc5/model/ct5_checksum.hpp>
+#include <string_view>
+#include <utility>
 
 namespace motionrack::rtc5 {
 
@@ -23,22 +26,6 @@ void append(std::vector<std::uint8_t>& out, std::uint32_t word) {
     for (int i = 0; i < 4; ++i) out.push_back(static_cast<std::uint8_t>(word >> 8 * i));
 }
 
-/// CRC-32 as zlib has it, but without the inversion at its end.
-std::uint32_t sum_of(std::span<const std::uint8_t> bytes) {
-    static constexpr auto table = [] {
-        std::array<std::uint32_t, 256> out{};
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            std::uint32_t c = i;
-            for (int bit = 0; bit < 8; ++bit) c = c & 1 ? 0xEDB88320u ^ c >> 1 : c >> 1;
-            out[i] = c;
-        }
-        return out;
-    }();
-    std::uint32_t crc = 0xFFFFFFFFu;
-    for (const std::uint8_t byte : bytes) crc = table[(crc ^ byte) & 0xFF] ^ crc >> 8;
-    return crc;
-}
-
 std::vector<std::int32_t> plane(std::span<const std::uint8_t> bytes, std::size_t number) {
     std::vector<std::int32_t> out(grid_nodes);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = word_at(bytes, planes_at + number * plane_bytes + 4 * i);
@@ -56,16 +43,82 @@ int strange_node(const std::vector<std::int32_t>& nodes) {
     return -1;
 }
 
+tl::unexpected<Error> refusal(const std::string& name, std::string_view why) {
+    return fail(Trouble::bad_input, fmt::format("{}: {}. The file was not loaded", name, why));
+}
+
+bool is_one_to_one(const CorrectionFile& file) {
+    for (std::size_t i = 0; i < grid_nodes; ++i) {
+        const auto column = static_cast<std::int32_t>(i % grid_side), row = static_cast<std::int32_t>(i / grid_side);
+        if (file.x[i] != std::min(column * 4096, greatest_node) || file.y[i] != std::min(row * 4096, greatest_node))
+            return false;
+    }
+    return true;
+}
+
+/// K of 0 is that of the maker's 1:1 table, which is older than the known sum; in any other file it is wrong.
 Result<void> check_header(const CorrectionFile& file, const std::string& name) {
     if (file.header[1] < 0 || file.header[1] > 1'000'000)
-        return fail(Trouble::bad_input,
-                    fmt::format("{}: {} bits/mm in its header; 0 to 1000000 are possible. The file was not loaded",
-                                name, file.header[1]));
+        return refusal(name, fmt::format("{} bits/mm in its header; 1 to 1000000 are possible", file.header[1]));
+    if (file.header[1] == 0 && (file.checksum_known || !is_one_to_one(file)))
+        return refusal(name,
+                       "0 bits/mm in its header, so it does not say how large the field is; 1 to 1000000 are "
+                       "possible");
     if (file.header[12] < 0 || file.header[12] > 90'000)
-        return fail(Trouble::bad_input, fmt::format("{}: an angle calibration of {} 1/1000 degrees in its header; 0 to "
-                                                    "90000 are possible. The file was not loaded",
-                                                    name, file.header[12]));
+        return refusal(name, fmt::format("an angle calibration of {} 1/1000 degrees in its header; 0 to 90000 are "
+                                         "possible",
+                                         file.header[12]));
     return {};
+}
+
+/// Known, or not known (and then worth a note), or a refusal.
+Result<void> check_sum(CorrectionFile& file, std::span<const std::uint8_t> bytes, const std::string& name) {
+    const std::uint32_t sum = ct5_checksum(bytes.first(ct5_bytes - 4)),
+                        said = static_cast<std::uint32_t>(word_at(bytes, ct5_bytes - 4));
+    file.checksum_known = sum == said;
+    if (file.checksum_known) return {};
+    if (file.header[program_word] % 1000 >= first_summed)
+        return refusal(name,
+                       fmt::format("its checksum is {:08X}h, its contents give {:08X}h: it is damaged", said, sum));
+    if (const std::string damage = damage_of_summed_file(bytes); !damage.empty())
+        return refusal(name, damage + ": it is damaged");
+    file.note = fmt::format("{} is of an older program, whose checksum is not known; it was not checked.", name);
+    return {};
+}
+
+/// 1 or -1: in which sense the image of the cell goes round at all its corners; 0: it is flat or folds back.
+int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
+    const auto edge = [&](std::size_t from, std::size_t to) {
+        return std::pair(std::int64_t{file.x[to]} - file.x[from], std::int64_t{file.y[to]} - file.y[from]);
+    };
+    const std::size_t right = corner + 1, above = corner + grid_side, far = above + 1;
+    const std::pair low = edge(corner, right), high = edge(above, far);
+    int left_turns = 0, right_turns = 0;
+    for (const auto& along : {low, high})
+        for (const auto& across : {edge(corner, above), edge(right, far)}) {
+            const std::int64_t turn = along.first * across.second - along.second * across.first;
+            left_turns += turn > 0, right_turns += turn < 0;
+        }
+    return left_turns == 4 ? 1 : right_turns == 4 ? -1 : 0;
+}
+
+/// The corner of the first cell that goes round otherwise than those before it, -1 if there is none. What the table
+/// puts at the edge, because the mirrors do not reach it, is left out; but not all of it may be there.
+int folded_cell(const CorrectionFile& file) {
+    const auto at_edge = [&](std::size_t node) {
+        const auto is_end = [](std::int32_t v) { return v <= 0 || v >= greatest_node; };
+        return is_end(file.x[node]) || is_end(file.y[node]);
+    };
+    int sense = 0;
+    for (std::size_t i = 0; i + grid_side + 1 < grid_nodes; ++i) {
+        if (i % grid_side == grid_side - 1 || at_edge(i) || at_edge(i + 1) || at_edge(i + grid_side) ||
+            at_edge(i + grid_side + 1))
+            continue;
+        const int here = sense_of_cell(file, i);
+        if (here == 0 || (sense != 0 && here != sense)) return static_cast<int>(i);
+        sense = here;
+    }
+    return sense == 0 ? 0 : -1;
 }
 
 std::int32_t binary(double bits) {
@@ -96,26 +149,27 @@ CorrectionFile empty_file() {
 }  // namespace
 
 Result<CorrectionFile> read_ct5(std::span<const std::uint8_t> bytes, const std::string& name) {
-    const auto refuse = [&](const std::string& why) {
-        return fail(Trouble::bad_input, fmt::format("{}: {}. The file was not loaded", name, why));
-    };
     if (bytes.size() != ct5_bytes)
-        return refuse(fmt::format("it has {} bytes; a correction file of an RTC5 has {}", bytes.size(), ct5_bytes));
+        return refusal(name,
+                       fmt::format("it has {} bytes; a correction file of an RTC5 has {}", bytes.size(), ct5_bytes));
     CorrectionFile out;
     for (std::size_t i = 0; i < 16; ++i) out.header[i] = word_at(bytes, 4 * i);
-    MOTIONRACK_CHECK(check_header(out, name));
     out.x = plane(bytes, 0), out.y = plane(bytes, 1), out.inverse_x = plane(bytes, 2), out.inverse_y = plane(bytes, 3);
     for (const auto& [nodes, which] : {std::pair{&out.x, "X"}, std::pair{&out.y, "Y"}})
         if (const int node = strange_node(*nodes); node >= 0)
-            return refuse(fmt::format(
-                "its {} value at column {}, row {} is {}, out of 0 to {} or further than {} from its neighbour", which,
-                node % grid_side, node / grid_side, (*nodes)[static_cast<std::size_t>(node)], greatest_node,
-                greatest_gap));
-    const std::uint32_t sum = sum_of(bytes.first(ct5_bytes - 4)),
-                        said = static_cast<std::uint32_t>(word_at(bytes, ct5_bytes - 4));
-    out.checksum_known = sum == said;
-    if (!out.checksum_known && out.header[10] % 1000 >= 400)
-        return refuse(fmt::format("its checksum is {:08X}h, its contents give {:08X}h: it is damaged", said, sum));
+            return refusal(
+                name,
+                fmt::format(
+                    "its {} value at column {}, row {} is {}, out of 0 to {} or further than {} from its neighbour",
+                    which, node % grid_side, node / grid_side, (*nodes)[static_cast<std::size_t>(node)], greatest_node,
+                    greatest_gap));
+    MOTIONRACK_CHECK(check_sum(out, bytes, name));
+    MOTIONRACK_CHECK(check_header(out, name));
+    if (const int cell = folded_cell(out); cell >= 0)
+        return refusal(name,
+                       fmt::format("its table cannot be inverted: between columns {} and {}, rows {} and {} it "
+                                   "is flat or folds back",
+                                   cell % grid_side, cell % grid_side + 1, cell / grid_side, cell / grid_side + 1));
     return out;
 }
 
@@ -123,9 +177,11 @@ std::vector<std::uint8_t> written_ct5(const CorrectionFile& file) {
     std::vector<std::uint8_t> out;
     out.reserve(ct5_bytes);
     for (const std::int32_t word : file.header) append(out, static_cast<std::uint32_t>(word));
-    for (const auto* nodes : {&file.x, &file.y, &file.inverse_x, &file.inverse_y})
+    for (const auto* nodes : {&file.x, &file.y})
+        for (const std::int32_t node : *nodes) append(out, static_cast<std::uint32_t>(std::min(node, greatest_node)));
+    for (const auto* nodes : {&file.inverse_x, &file.inverse_y})
         for (const std::int32_t node : *nodes) append(out, static_cast<std::uint32_t>(node));
-    append(out, sum_of(out));
+    append(out, ct5_checksum(out));
     return out;
 }
 
@@ -156,8 +212,8 @@ CorrectionFile one_to_one() {
     CorrectionFile out = empty_file();
     out.header[10] = 403;
     for (std::size_t i = 0; i < grid_nodes; ++i) {
-        out.x[i] = std::min<std::int32_t>(static_cast<std::int32_t>(i % grid_side) * 4096, greatest_node);
-        out.y[i] = std::min<std::int32_t>(static_cast<std::int32_t>(i / grid_side) * 4096, greatest_node);
+        out.x[i] = static_cast<std::int32_t>(i % grid_side) * 4096;
+        out.y[i] = static_cast<std::int32_t>(i / grid_side) * 4096;
         out.inverse_x[i] = out.inverse_y[i] = static_cast<std::int32_t>(grid_zero);
     }
     return out;
@@ -167,7 +223,8 @@ std::shared_ptr<const Table> table_of(const CorrectionFile& file) {
     auto out = std::make_shared<Table>();
     for (std::size_t i = 0; i < grid_nodes; ++i)
         out->nodes[i] = {static_cast<float>(file.x[i] - 524288), static_cast<float>(file.y[i] - 524288)};
-    out->bits_per_mm = file.bits_per_mm();
+    out->header = file.header;
+    out->note = file.note;
     return out;
 }
 

@@ -183,6 +183,8 @@ class Engine {
     /// What set_multi_mcbsp_in puts to the port: the value of type 3 (mode 0), factor * value / 16384 (mode 1).
     std::int64_t multi_power() const;
     std::uint32_t get_startstop_info();
+    /// Correction table 1 .. 4; nullptr: 1:1.
+    const Table* table(std::int64_t number) const;
     /// The same without clearing.
     std::uint32_t startstop_info() const;
     /// A signal's value in the last tick.
@@ -309,7 +311,6 @@ class Engine {
     void run_head(std::size_t number, std::size_t n);
     void keep_output(std::size_t n);
     void evaluate();
-    const Table* table(std::int64_t number) const;
     std::optional<Extent> steady_extent(const Activity& a, std::int64_t n) const;
 
     // recording.cpp

@@ -163,7 +163,11 @@ void control_something(Feed& feed, Engine* const (&cards)[2]) {
 
 /// A correction file with a few bytes changed, and a text as a compensation table.
 void files(Feed& feed, Engine* const (&cards)[2], Verdict& verdict) {
-    static const std::vector<std::uint8_t> whole = written_ct5(one_to_one());
+    static const std::vector<std::uint8_t> whole = [] {
+        CorrectionFile file = one_to_one();
+        file.header[1] = 5184;
+        return written_ct5(file);
+    }();
     std::vector<std::uint8_t> bytes = whole;
     for (std::uint32_t i = feed.below(4); i > 0; --i)
         bytes[(std::size_t{feed.word()} << 5 | feed.below(32)) % bytes.size()] = static_cast<std::uint8_t>(feed.word());

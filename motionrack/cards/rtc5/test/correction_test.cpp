@@ -62,8 +62,20 @@ TEST(Rtc5Correction, AFileWrittenIsReadBackTheSame) {
     EXPECT_NEAR(spot.x / 5184, 61.364852, 1e-3);
 }
 
+/// A 1:1 table of 5184 bits/mm, as a file; `program`: origin * 1000 + version.
+CorrectionFile plain_file(std::int32_t program = 403) {
+    CorrectionFile out = one_to_one();
+    out.header[1] = 5184, out.header[10] = program;
+    return out;
+}
+
+std::string refusal_of(std::span<const std::uint8_t> bytes) {
+    const auto read = read_ct5(bytes, "x");
+    return read ? "" : read.error().message;
+}
+
 TEST(Rtc5Correction, DamagedShortAndForeignFilesAreRefusedWithTheReason) {
-    const auto good = written_ct5(one_to_one());
+    const auto good = written_ct5(plain_file());
     ASSERT_TRUE(read_ct5(good, "x"));
     auto bytes = good;
     bytes.pop_back();
@@ -78,6 +90,106 @@ TEST(Rtc5Correction, DamagedShortAndForeignFilesAreRefusedWithTheReason) {
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 2654435761u >> 13);
     EXPECT_FALSE(read_ct5(bytes, "noise"));
     EXPECT_FALSE(read_ct5({}, "empty"));
+}
+
+TEST(Rtc5Correction, ABitTurnedOverIsFoundWhereverItIsAndWhateverProgramTheFileIsOf) {
+    for (const std::int32_t program : {403, 1403, 399, 0}) {
+        const auto good = written_ct5(plain_file(program));
+        ASSERT_TRUE(read_ct5(good, "x")) << program;
+        EXPECT_TRUE(read_ct5(good, "x")->checksum_known) << program;
+        std::vector<std::size_t> bits;
+        for (std::size_t bit = 0; bit < 32; ++bit) bits.push_back(40 * 8 + bit);  // the program's version
+        for (const std::size_t byte : {std::size_t{0}, std::size_t{4}, std::size_t{64}, std::size_t{555'555},
+                                       ct5_bytes - 5, ct5_bytes - 4, ct5_bytes - 1})
+            bits.push_back(8 * byte + byte % 8);
+        for (const std::size_t bit : bits) {
+            auto bytes = good;
+            bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
+            EXPECT_NE(refusal_of(bytes), "") << "program " << program << ", bit " << bit;
+        }
+    }
+    auto bytes = written_ct5(plain_file());
+    bytes[40] = 0, bytes[41] = 0;  // more than a bit: it says that it is of program 0
+    EXPECT_EQ(refusal_of(bytes),
+              "x: its checksum would fit if its header named another program version: it is damaged. The file was not "
+              "loaded");
+    bytes = written_ct5(plain_file(0));
+    bytes[700'000] ^= 1;
+    EXPECT_EQ(refusal_of(bytes),
+              "x: its checksum would fit if bit 0 of byte 700000 were not turned over: it is damaged. The file was not "
+              "loaded");
+}
+
+TEST(Rtc5Correction, AnOlderFileIsReadWithANoteThatItsChecksumIsNotKnown) {
+    auto bytes = written_ct5(plain_file(310));
+    for (std::size_t i = ct5_bytes - 4; i < ct5_bytes; ++i) bytes[i] = static_cast<std::uint8_t>(i * 37);
+    const auto read = read_ct5(bytes, "old.ct5");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_FALSE(read->checksum_known);
+    EXPECT_EQ(read->note, "old.ct5 is of an older program, whose checksum is not known; it was not checked.");
+    EXPECT_EQ(table_of(*read)->note, read->note);
+    EXPECT_EQ(read_ct5(written_ct5(plain_file()), "new.ct5")->note, "");
+}
+
+TEST(Rtc5Correction, WithoutBitsPerMillimetreAFileIsRefusedButForTheMakersOwnOneToOneTable) {
+    CorrectionFile file = plain_file();
+    file.header[1] = 0;
+    EXPECT_EQ(refusal_of(written_ct5(file)),
+              "x: 0 bits/mm in its header, so it does not say how large the field is; 1 to 1000000 are possible. The "
+              "file was not loaded");
+    file.header[10] = 0;
+    auto bytes = written_ct5(file);
+    bytes.back() ^= 0x55;
+    ASSERT_EQ(refusal_of(bytes), "") << "as Cor_1to1.ct5 of the year 2010: its sum is not known";
+    bytes[64 + 4 * (257 * 3 + 7)] ^= 1;
+    EXPECT_NE(refusal_of(bytes), "");
+}
+
+TEST(Rtc5Correction, ATableThatCannotBeInvertedIsRefused) {
+    for (const bool folded : {false, true}) {
+        CorrectionFile file = plain_file();
+        for (std::size_t i = 0; i < grid_nodes; ++i)
+            if (const std::size_t column = i % grid_side; column > 128)
+                file.x[i] = folded ? file.x[i - 2 * (column - 128)] : file.x[i - (column - 128)];
+        EXPECT_EQ(
+            refusal_of(written_ct5(file)),
+            "x: its table cannot be inverted: between columns 128 and 129, rows 1 and 2 it is flat or folds back. "
+            "The file was not loaded")
+            << folded;
+    }
+    CorrectionFile flat = plain_file();
+    for (auto* nodes : {&flat.x, &flat.y}) std::fill(nodes->begin(), nodes->end(), 524'288);
+    EXPECT_NE(refusal_of(written_ct5(flat)).find("cannot be inverted"), std::string::npos);
+    for (auto* nodes : {&flat.x, &flat.y}) std::fill(nodes->begin(), nodes->end(), 0);
+    EXPECT_NE(refusal_of(written_ct5(flat)).find("cannot be inverted"), std::string::npos) << "all is at the edge";
+    CorrectionFile mirrored = plain_file();
+    for (std::int32_t& x : mirrored.x) x = std::min(1'048'575, 1'048'576 - x);
+    EXPECT_EQ(refusal_of(written_ct5(mirrored)), "");
+}
+
+TEST(Rtc5Correction, TablesMadeFromLensesCanBeInverted) {
+    constexpr sim::ScanLens d3_2982 = {{163.064, -1.259, -21.465, -26.664}, 11.7, 8656};
+    for (sim::ScanLens lens : {sim::ScanLens{}, d2_721, d3_2982})
+        for (const double field : {1.0, 0.8, 1.02}) {
+            lens.bits_per_mm = std::floor(lens.bits_per_mm / field);
+            const auto made = correction_of(lens);
+            ASSERT_TRUE(made) << made.error().message;
+            EXPECT_EQ(refusal_of(written_ct5(*made)), "") << lens.f_mm[0] << " mm, " << lens.bits_per_mm << " bits/mm";
+        }
+}
+
+TEST(Rtc5Correction, TheMadeOneToOneTableIsOneToOneInItsLastCellToo) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.load_correction(table_of(one_to_one()), 1));
+    ASSERT_TRUE(rig.card.select_cor_table(1, 0));
+    for (const double x :
+         {-524'288.0, -520'193.0, 0.0, 520'191.0, 520'192.0, 520'193.0, 522'240.0, 524'286.0, 524'287.0}) {
+        rig.begin();
+        rig.put(Op::micro_vector_abs, {x, -1 - x, -1, -1});
+        rig.go();
+        EXPECT_EQ(rig.last_x(), x);
+        EXPECT_EQ(rig.last_y(), -1 - x);
+    }
 }
 
 TEST(Rtc5Correction, WithoutATableOutputIsInput) {

@@ -221,6 +221,53 @@ TEST_F(Rtc5simFiles, ACorrectionFileIsUsedAndADamagedOneLeavesTheOldTable) {
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_table_para: ParaNo is 16, outside 0 to 15"));
 }
 
+TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsTold) {
+    const Session session;
+    rtc5::CorrectionFile table = rtc5::one_to_one();
+    table.header[1] = 5184;
+    const auto load = [&](std::int32_t program, std::size_t turned, std::size_t turned_too) {
+        table.header[10] = program;
+        auto bytes = rtc5::written_ct5(table);
+        for (const std::size_t place : {turned, turned_too})
+            if (place != 0) bytes[place] ^= 4;
+        return load_correction_file(put("some.ct5", std::string(bytes.begin(), bytes.end())).c_str(), 1, 2);
+    };
+    EXPECT_EQ(load(403, 0, 0), 0u) << rtc5sim_last_error();
+    EXPECT_STREQ(rtc5sim_table_note(1, 1), "");
+    EXPECT_EQ(load(310, rtc5::ct5_bytes - 3, rtc5::ct5_bytes - 1), 0u) << rtc5sim_last_error();
+    EXPECT_THAT(rtc5sim_table_note(1, 1),
+                HasSubstr("some.ct5 is of an older program, whose checksum is not known; it was not checked."));
+    EXPECT_EQ(get_last_error(), 0u);
+    for (const std::size_t turned : {std::size_t{5}, std::size_t{41}, std::size_t{64}, std::size_t{900'000}})
+        for (const std::int32_t program : {403, 310}) {
+            EXPECT_EQ(load(program, turned, 0), 1u) << turned;
+            EXPECT_THAT(rtc5sim_last_error(), HasSubstr("it is damaged. The file was not loaded")) << turned;
+            EXPECT_EQ(get_last_error(), UINT{RTC5_PARAM_ERROR});
+        }
+    table.header[1] = 0;
+    EXPECT_EQ(load(403, 0, 0), 1u);
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("0 bits/mm in its header"));
+    table.header[1] = 5184;
+    for (std::size_t i = 0; i < table.x.size(); ++i) table.x[i] = table.y[i];
+    EXPECT_EQ(load(403, 0, 0), 1u);
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("its table cannot be inverted"));
+    EXPECT_THAT(rtc5sim_table_note(1, 1), HasSubstr("older program")) << "the old table was kept";
+    EXPECT_EQ(load_correction_file(nullptr, 1, 2), 0u);
+    EXPECT_STREQ(rtc5sim_table_note(1, 1), "");
+    EXPECT_STREQ(rtc5sim_table_note(1, 5), "");
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("rtc5sim_table_note: there is no table 5; 1 to 4"));
+}
+
+TEST_F(Rtc5simFiles, ATableWithoutAFileIsOneToOneUpToTheEdge) {
+    const Session session;
+    EXPECT_EQ(load_correction_file(nullptr, 1, 2), 0u);
+    select_cor_table(1, 0);
+    for (const long x : {-524'288L, 520'193L, 522'001L, 524'286L, 524'287L}) {
+        goto_xy(x, 0), rtc5sim_run(10'000'000);
+        EXPECT_EQ(output_x(), x);
+    }
+}
+
 TEST_F(Rtc5simFiles, ACompensationTableIsUsed) {
     const Session session;
     const std::string file = put("fly.txt", "[Fly2DTable3]\n0 0 50 0\n1000 0 50 0\n0 1000 50 0\n1000 1000 50 0\n");
