@@ -438,155 +438,155 @@ def frame_picture(world: World, frame: int) -> str:
     """One frame of the rack as waves (SVG); a rack of its own is run for it."""
 
 class Rtc5:
-    """The RTC5's commands under their documented names, in bits, bits/ms and 10 us. List commands go to the list that set_start_list has opened."""
+    """The RTC5's commands under their documented names, in bits, bits/ms and 10 us: every one of rtc5sim.h. List commands go to the list that set_start_list has opened. What is out of range, or not possible now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words the RTC5 manual 1.10 d (German), page 198."""
     def __init__(self, world: World, card: str) -> None: ...
-    def set_end_of_list(self, *parameters: float) -> None:
+    def set_end_of_list(self) -> None:
         """List command: the list ends."""
-    def list_nop(self, *parameters: float) -> None:
+    def list_nop(self) -> None:
         """List command: one tick."""
-    def long_delay(self, *parameters: float) -> None:
+    def long_delay(self, Delay: float) -> None:
         """List command: holds the position. Delay 0 to 4294967295 times 10 us."""
-    def jump_abs(self, *parameters: float) -> None:
+    def jump_abs(self, X: float, Y: float) -> None:
         """List command: straight, laser off, at the jump speed. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def jump_rel(self, *parameters: float) -> None:
+    def jump_rel(self, X: float, Y: float) -> None:
         """List command: as jump_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def mark_abs(self, *parameters: float) -> None:
+    def mark_abs(self, X: float, Y: float) -> None:
         """List command: straight, laser on, at the mark speed. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def mark_rel(self, *parameters: float) -> None:
+    def mark_rel(self, X: float, Y: float) -> None:
         """List command: as mark_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def arc_abs(self, *parameters: float) -> None:
+    def arc_abs(self, X: float, Y: float, Angle: float) -> None:
         """List command: about the centre X, Y, laser on; positive is clockwise. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Angle -3600 to 3600 degrees."""
-    def arc_rel(self, *parameters: float) -> None:
+    def arc_rel(self, X: float, Y: float, Angle: float) -> None:
         """List command: as arc_abs, the centre from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Angle -3600 to 3600 degrees."""
-    def timed_jump_abs(self, *parameters: float) -> None:
+    def timed_jump_abs(self, X: float, Y: float, T: float) -> None:
         """List command: as jump_abs, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
-    def timed_jump_rel(self, *parameters: float) -> None:
+    def timed_jump_rel(self, X: float, Y: float, T: float) -> None:
         """List command: as jump_rel, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
-    def timed_mark_abs(self, *parameters: float) -> None:
+    def timed_mark_abs(self, X: float, Y: float, T: float) -> None:
         """List command: as mark_abs, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
-    def timed_mark_rel(self, *parameters: float) -> None:
+    def timed_mark_rel(self, X: float, Y: float, T: float) -> None:
         """List command: as mark_rel, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
-    def micro_vector_abs(self, *parameters: float) -> None:
+    def micro_vector_abs(self, X: float, Y: float, LasOn: float, LasOff: float) -> None:
         """List command: one tick; the laser is switched at these instants of it, if they are 0 to 19. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. LasOn -2147483648 to 2147483647 times 0.5 us. LasOff -2147483648 to 2147483647 times 0.5 us."""
-    def micro_vector_rel(self, *parameters: float) -> None:
+    def micro_vector_rel(self, X: float, Y: float, LasOn: float, LasOff: float) -> None:
         """List command: as micro_vector_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. LasOn -2147483648 to 2147483647 times 0.5 us. LasOff -2147483648 to 2147483647 times 0.5 us."""
-    def set_jump_speed(self, *parameters: float) -> None:
+    def set_jump_speed(self, Speed: float) -> None:
         """List command: of jumps from here on. Speed 1.6 to 800000 bits/ms."""
-    def set_mark_speed(self, *parameters: float) -> None:
+    def set_mark_speed(self, Speed: float) -> None:
         """List command: of marks and arcs from here on. Speed 1.6 to 800000 bits/ms."""
-    def set_scanner_delays(self, *parameters: float) -> None:
+    def set_scanner_delays(self, Jump: float, Mark: float, Polygon: float) -> None:
         """List command: waits after jumps, polylines and corners. Jump 0 to 4294967295 times 10 us. Mark 0 to 4294967295 times 10 us. Polygon 0 to 4294967295 times 10 us."""
-    def set_laser_delays(self, *parameters: float) -> None:
+    def set_laser_delays(self, LaserOnDelay: float, LaserOffDelay: float) -> None:
         """List command: from the path's begin and end to the laser's. LaserOnDelay -32768 to 65535 times 0.5 us. LaserOffDelay -32768 to 65535 times 0.5 us."""
-    def laser_on_list(self, *parameters: float) -> None:
+    def laser_on_list(self, Period: float) -> None:
         """List command: laser on for the time, position held. Period 0 to 4294967295 times 10 us."""
-    def laser_signal_on_list(self, *parameters: float) -> None:
+    def laser_signal_on_list(self) -> None:
         """List command: laser on."""
-    def laser_signal_off_list(self, *parameters: float) -> None:
+    def laser_signal_off_list(self) -> None:
         """List command: laser off."""
-    def write_io_port_list(self, *parameters: float) -> None:
+    def write_io_port_list(self, Value: float) -> None:
         """List command: sets the 16 digital outputs. Value 0 to 65535."""
-    def set_fly_x(self, *parameters: float) -> None:
+    def set_fly_x(self, ScaleX: float) -> None:
         """List command: X moves with Encoder0, which becomes 0; 0 is off. ScaleX -1000000000 to 1000000000."""
-    def set_fly_y(self, *parameters: float) -> None:
+    def set_fly_y(self, ScaleY: float) -> None:
         """List command: Y moves with Encoder1, which becomes 0; 0 is off. ScaleY -1000000000 to 1000000000."""
-    def set_fly_z(self, *parameters: float) -> None:
+    def set_fly_z(self, ScaleZ: float, EncoderNo: float) -> None:
         """List command: Z moves with the encoder, which becomes 0; 0 is off. ScaleZ -1000000000 to 1000000000. EncoderNo 0 to 255."""
-    def set_fly_rot(self, *parameters: float) -> None:
+    def set_fly_rot(self, Resolution: float) -> None:
         """List command: turns with Encoder0, which becomes 0; counts a turn, positive is counter-clockwise, under 100 is off. Resolution -1000000000 to 1000000000."""
-    def set_fly_2d(self, *parameters: float) -> None:
+    def set_fly_2d(self, ScaleX: float, ScaleY: float) -> None:
         """List command: X and Y move with both encoders and the compensation table. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
-    def set_fly_x_pos(self, *parameters: float) -> None:
+    def set_fly_x_pos(self, ScaleX: float) -> None:
         """List command: X moves with the McBSP word; 0 is off. ScaleX -1000000000 to 1000000000."""
-    def set_fly_y_pos(self, *parameters: float) -> None:
+    def set_fly_y_pos(self, ScaleY: float) -> None:
         """List command: Y moves with the McBSP word; 0 is off. ScaleY -1000000000 to 1000000000."""
-    def set_fly_rot_pos(self, *parameters: float) -> None:
+    def set_fly_rot_pos(self, Resolution: float) -> None:
         """List command: turns with the McBSP word; under 100 is off. Resolution -1000000000 to 1000000000."""
-    def activate_fly_xy(self, *parameters: float) -> None:
+    def activate_fly_xy(self, ScaleX: float, ScaleY: float) -> None:
         """List command: as set_fly_x and set_fly_y; the encoders keep their counts. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
-    def activate_fly_2d(self, *parameters: float) -> None:
+    def activate_fly_2d(self, ScaleX: float, ScaleY: float) -> None:
         """List command: as set_fly_2d; the encoders keep their counts. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
-    def fly_return(self, *parameters: float) -> None:
+    def fly_return(self, X: float, Y: float) -> None:
         """List command: every correction off, then a jump. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def fly_return_z(self, *parameters: float) -> None:
+    def fly_return_z(self, X: float, Y: float, Z: float) -> None:
         """List command: as fly_return; Z is there at once. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Z -8388608 to 8388607 bits."""
-    def set_rot_center_list(self, *parameters: float) -> None:
+    def set_rot_center_list(self, X: float, Y: float) -> None:
         """List command: what the rotary corrections turn about. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def store_encoder(self, *parameters: float) -> None:
+    def store_encoder(self, Pos: float) -> None:
         """List command: keeps both counts for read_encoder. Pos 0 to 255."""
-    def wait_for_encoder(self, *parameters: float) -> None:
+    def wait_for_encoder(self, Value: float, EncoderNo: float) -> None:
         """List command: as wait_for_encoder_mode with Mode 0. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
-    def wait_for_encoder_mode(self, *parameters: float) -> None:
+    def wait_for_encoder_mode(self, Value: float, EncoderNo: float, Mode: float) -> None:
         """List command: holds until the count is there. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255. Mode -2147483648 to 2147483647."""
-    def wait_for_encoder_in_range(self, *parameters: float) -> None:
+    def wait_for_encoder_in_range(self, EncXmin: float, EncXmax: float, EncYmin: float, EncYmax: float) -> None:
         """List command: holds until both counts are in range. EncXmin -2147483648 to 2147483647 counts. EncXmax -2147483648 to 2147483647 counts. EncYmin -2147483648 to 2147483647 counts. EncYmax -2147483648 to 2147483647 counts."""
-    def wait_for_mcbsp(self, *parameters: float) -> None:
+    def wait_for_mcbsp(self, Axis: float, Value: float, Mode: float) -> None:
         """List command: holds until the McBSP value is there. Axis 0 to 255. Value -2147483648 to 2147483647 counts. Mode -2147483648 to 2147483647."""
-    def set_fly_limits(self, *parameters: float) -> None:
+    def set_fly_limits(self, Xmin: float, Xmax: float, Ymin: float, Ymax: float) -> None:
         """List command: the area that bits 4 to 7 watch. Xmin -8388608 to 8388607 bits. Xmax -8388608 to 8388607 bits. Ymin -8388608 to 8388607 bits. Ymax -8388608 to 8388607 bits."""
-    def set_fly_limits_z(self, *parameters: float) -> None:
+    def set_fly_limits_z(self, Zmin: float, Zmax: float) -> None:
         """List command: what bits 24 and 25 watch. Zmin -8388608 to 8388607 bits. Zmax -8388608 to 8388607 bits."""
-    def if_fly_x_overflow(self, *parameters: float) -> None:
+    def if_fly_x_overflow(self, Mode: float) -> None:
         """List command: the next command only if bit 4 or 5 is set; clears them. Mode -2147483648 to 2147483647."""
-    def if_fly_y_overflow(self, *parameters: float) -> None:
+    def if_fly_y_overflow(self, Mode: float) -> None:
         """List command: the same of bits 6 and 7. Mode -2147483648 to 2147483647."""
-    def if_fly_z_overflow(self, *parameters: float) -> None:
+    def if_fly_z_overflow(self, Mode: float) -> None:
         """List command: the same of bits 24 and 25. Mode -2147483648 to 2147483647."""
-    def if_not_fly_x_overflow(self, *parameters: float) -> None:
+    def if_not_fly_x_overflow(self, Mode: float) -> None:
         """List command: the next command only if they are not set; clears them. Mode -2147483648 to 2147483647."""
-    def if_not_fly_y_overflow(self, *parameters: float) -> None:
+    def if_not_fly_y_overflow(self, Mode: float) -> None:
         """List command: the same of bits 6 and 7. Mode -2147483648 to 2147483647."""
-    def if_not_fly_z_overflow(self, *parameters: float) -> None:
+    def if_not_fly_z_overflow(self, Mode: float) -> None:
         """List command: the same of bits 24 and 25. Mode -2147483648 to 2147483647."""
-    def clear_fly_overflow(self, *parameters: float) -> None:
+    def clear_fly_overflow(self, Mode: float) -> None:
         """List command: clears bits 4, 5 (Mode bit 0), 6, 7 (bit 1), 24, 25 (bit 2); 0: all. Mode -2147483648 to 2147483647."""
-    def park_position(self, *parameters: float) -> None:
+    def park_position(self, Mode: float, X: float, Y: float) -> None:
         """List command: jumps away; with Mode 0 the correction pauses. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def park_return(self, *parameters: float) -> None:
+    def park_return(self, Mode: float, X: float, Y: float) -> None:
         """List command: jumps back: Mode 0 to where it left, else to X, Y. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
-    def set_ext_start_delay_list(self, *parameters: float) -> None:
+    def set_ext_start_delay_list(self, Delay: float, EncoderNo: float) -> None:
         """List command: track delay of external starts. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
-    def simulate_ext_start(self, *parameters: float) -> None:
+    def simulate_ext_start(self, Delay: float, EncoderNo: float) -> None:
         """List command: an external start with this track delay. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
-    def set_control_mode_list(self, *parameters: float) -> None:
+    def set_control_mode_list(self, Mode: float) -> None:
         """List command: bits 0, 9, 10: external start, reset at start, equidistant. Mode 0 to 65535."""
-    def set_encoder_speed(self, *parameters: float) -> None:
+    def set_encoder_speed(self, EncoderNo: float, Speed: float, Smooth: float) -> None:
         """List command: target and smoothing of the encoder's speed. EncoderNo 0 to 255. Speed -1000000000 to 1000000000. Smooth -1000000000 to 1000000000."""
-    def set_mcbsp_in_list(self, *parameters: float) -> None:
+    def set_mcbsp_in_list(self, Mode: float, Scale: float) -> None:
         """List command: X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Mode -2147483648 to 2147483647. Scale -1000000000 to 1000000000."""
-    def set_multi_mcbsp_in_list(self, *parameters: float) -> None:
+    def set_multi_mcbsp_in_list(self, Ctrl: float, P: float, Mode: float) -> None:
         """List command: McBSP words carry their type: x, y, z, laser power and parameters. Ctrl 0 to 255. P 0 to 4294967295 times 10 us. Mode -2147483648 to 2147483647."""
-    def get_mcbsp_list(self, *parameters: float) -> None:
+    def get_mcbsp_list(self) -> None:
         """List command: puts the present McBSP word to memory location 0."""
-    def set_mcbsp_x_list(self, *parameters: float) -> None:
+    def set_mcbsp_x_list(self, ScaleX: float) -> None:
         """List command: online positioning of X; 0 is off. ScaleX -1000000000 to 1000000000."""
-    def set_mcbsp_y_list(self, *parameters: float) -> None:
+    def set_mcbsp_y_list(self, ScaleY: float) -> None:
         """List command: online positioning of Y; 0 is off. ScaleY -1000000000 to 1000000000."""
-    def set_mcbsp_rot_list(self, *parameters: float) -> None:
+    def set_mcbsp_rot_list(self, Resolution: float) -> None:
         """List command: online positioning of the angle; under 100 is off. Resolution -1000000000 to 1000000000."""
-    def set_mcbsp_matrix_list(self, *parameters: float) -> None:
+    def set_mcbsp_matrix_list(self) -> None:
         """List command: online positioning of matrix coefficients."""
-    def apply_mcbsp_list(self, *parameters: float) -> None:
+    def apply_mcbsp_list(self, HeadNo: float, at_once: float) -> None:
         """List command: what came by online positioning, to a head. HeadNo 1 to 4. at_once 0 to 255."""
-    def set_matrix_list(self, *parameters: float) -> None:
+    def set_matrix_list(self, HeadNo: float, Ind1: float, Ind2: float, Mij: float, at_once: float) -> None:
         """List command: one coefficient of the matrix. HeadNo 1 to 4. Ind1 0 to 255. Ind2 0 to 255. Mij -50 to 50. at_once 0 to 255."""
-    def set_offset_list(self, *parameters: float) -> None:
+    def set_offset_list(self, HeadNo: float, XOffset: float, YOffset: float, at_once: float) -> None:
         """List command: offset behind the matrix. HeadNo 1 to 4. XOffset -8388608 to 8388607 bits. YOffset -8388608 to 8388607 bits. at_once 0 to 255."""
-    def set_angle_list(self, *parameters: float) -> None:
+    def set_angle_list(self, HeadNo: float, Angle: float, at_once: float) -> None:
         """List command: rotation, counter-clockwise. HeadNo 1 to 4. Angle -3600 to 3600 degrees. at_once 0 to 255."""
-    def set_scale_list(self, *parameters: float) -> None:
+    def set_scale_list(self, HeadNo: float, Scale: float, at_once: float) -> None:
         """List command: scaling, -16 to 16. HeadNo 1 to 4. Scale -50 to 50. at_once 0 to 255."""
-    def set_trigger(self, *parameters: float) -> None:
+    def set_trigger(self, Period: float, Signal1: float, Signal2: float) -> None:
         """List command: records two signals from this tick on, one sample a period; 0 ends it. Period 0 to 4294967295 times 10 us. Signal1 0 to 255. Signal2 0 to 255."""
-    def set_trigger4(self, *parameters: float) -> None:
+    def set_trigger4(self, Period: float, Signal1: float, Signal2: float, Signal3: float, Signal4: float) -> None:
         """List command: as set_trigger, four signals. Period 0 to 4294967295 times 10 us. Signal1 0 to 255. Signal2 0 to 255. Signal3 0 to 255. Signal4 0 to 255."""
-    def set_wobbel(self, *parameters: float) -> None:
+    def set_wobbel(self, Transversal: float, Longitudinal: float, Freq: float) -> None:
         """List command: marks are drawn by an ellipse across and along the motion; amplitudes of 0 or a frequency of 0 are off. Transversal 0 to 131071 bits. Longitudinal 0 to 131071 bits. Freq -6000 to 6000 Hz."""
-    def list_call(self, *parameters: float) -> None:
+    def list_call(self, Pos: float) -> None:
         """List command: goes on at Pos, until list_return. Pos 0 to 1048575."""
-    def sub_call(self, *parameters: float) -> None:
+    def sub_call(self, Index: float) -> None:
         """List command: the same with a subroutine of load_sub. Index 0 to 1023."""
-    def list_return(self, *parameters: float) -> None:
+    def list_return(self) -> None:
         """List command: goes on behind the call."""
     def set_start_list(self, ListNo: int, Pos: int = 0) -> None:
         """List commands go to list 1 or 2 from here on, from that position."""
@@ -662,3 +662,138 @@ class Rtc5:
         """Time that a question takes, s, before the card answers; 10 us at first."""
     @question_seconds.setter
     def question_seconds(self, value: float) -> None: ...
+    def select_cor_table(self, HeadA: int, HeadB: int) -> None:
+        """The tables of both heads; 0: head A 1:1, head B without output. HeadA 0 to 4. HeadB 0 to 4. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+    def get_table_para(self, TableNo: int, ParaNo: int) -> float:
+        """A word of the header of a correction table, 1 is K in bits/mm; 0 of a 1:1 table. TableNo 1 to 4. ParaNo 0 to 15. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+    def get_head_para(self, HeadNo: int, ParaNo: int) -> float:
+        """The same of the table that a head has. HeadNo 1 to 2. ParaNo 0 to 15. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+    def set_start_list_1(self) -> None:
+        """List commands go to list 1 from here on. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def set_start_list_2(self) -> None:
+        """List commands go to list 2 from here on. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def set_start_list_pos(self, ListNo: int, Pos: int) -> None:
+        """List commands go to that position of list 1 (odd numbers) or 2 (even ones); behind its end it is 0. ListNo 0 to 4294967295. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def get_input_pointer(self) -> int:
+        """The position that the next list command gets, over all lists. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def get_list_space(self) -> int:
+        """Positions that are free in the list that is being put into. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def execute_list_1(self) -> None:
+        """Starts list 1; refused while a list runs or the card moves. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def execute_list_2(self) -> None:
+        """Starts list 2; refused while a list runs or the card moves. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def execute_list_pos(self, ListNo: int, Pos: int) -> None:
+        """Starts a list at a position of it; refused while a list runs or the card moves. ListNo 0 to 4294967295. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def execute_at_pointer(self, Pos: int) -> None:
+        """Starts at a position over all lists; refused while a list runs or the card moves. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+    def set_delay_mode(self, VarPoly: int, DirectMove3D: int, EdgeLevel: int, MinJumpDelay: int, JumpLengthLimit: int) -> None:
+        """VarPoly other than 0: polygon delays by the angle, the laser off in those above EdgeLevel; jumps shorter than JumpLengthLimit have delays down to MinJumpDelay; DirectMove3D changes nothing. VarPoly 0 to 4294967295. DirectMove3D 0 to 4294967295. EdgeLevel 0 to 4294967295 times 10 us. MinJumpDelay 0 to 4294967295 times 10 us. JumpLengthLimit 0 to 16777215 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_hi(self, HeadNo: int, GalvoGainX: float, GalvoGainY: float, GalvoOffsetX: int, GalvoOffsetY: int) -> None:
+        """Gain and offset behind the table of head 1 (A), 2 (B), or both (3). HeadNo 1 to 3. GalvoGainX -16 to 16. GalvoGainY -16 to 16. GalvoOffsetX -524288 to 524287 bits. GalvoOffsetY -524288 to 524287 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def write_io_port(self, Value: int) -> None:
+        """Sets the 16 digital outputs. Value 0 to 65535. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def get_io_status(self) -> int:
+        """The 16 digital outputs. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+    def simulate_encoder(self, EncoderNo: int) -> None:
+        """0: none; 1, 2, 3: encoder 0, 1, both count 1000000 counts/s by themselves. EncoderNo 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
+    def read_encoder(self) -> tuple[int, int, int, int]:
+        """Counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+    def set_rot_center(self, X: int, Y: int) -> None:
+        """What the rotary corrections turn about. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_fly_tracking_error(self, TrackingErrorX: int, TrackingErrorY: int) -> None:
+        """How late the mirrors are; encoders are taken ahead by it. TrackingErrorX 0 to 65535 times 10 us. TrackingErrorY 0 to 65535 times 10 us. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 428."""
+    def init_fly_2d(self, OffsetX: int, OffsetY: int) -> None:
+        """Both encoders become 0, and these are added to their counts in 2D corrections. OffsetX -2147483648 to 2147483647 counts. OffsetY -2147483648 to 2147483647 counts. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 185."""
+    def get_fly_2d_offset(self) -> tuple[int, int]:
+        """(OffsetX, OffsetY) of init_fly_2d, counts. Takes the time of a question. Source: the RTC5 manual 1.9 e, page 185."""
+    def set_encoder_speed_ctrl(self, EncoderNo: int, Speed: float, Smooth: float) -> None:
+        """Target (taken as 100 to 16000 counts/ms) and smoothing of the speed of encoder 0, 1, or both (2, 3). EncoderNo 0 to 3. Speed -1000000000 to 1000000000 counts/ms. Smooth 0 to 1. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 419."""
+    def set_ext_start_delay(self, Delay: int, EncoderNo: int) -> None:
+        """The track delay of external starts. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 1. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 511."""
+    def set_extstartpos(self, Pos: int) -> None:
+        """Where the list of an external start begins, over all lists. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 511."""
+    def simulate_ext_start_ctrl(self) -> None:
+        """As if the start line rose. Source: the RTC5 manual 1.9 e, page 511."""
+    def simulate_ext_stop(self) -> None:
+        """As if the stop line rose. Source: the maker's header of the RTC5 of 2013."""
+    def mcbsp_init(self, XDelay: int, RDelay: int) -> None:
+        """Taken and changes nothing: the frame on the wire is not there. XDelay 0 to 2 bits. RDelay 0 to 2 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def mcbsp_init_spi(self, ClockLevel: int, ClockDelay: int) -> None:
+        """Taken and changes nothing: the frame on the wire is not there. ClockLevel 0 to 1. ClockDelay 0 to 1. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_mcbsp_freq(self, Freq: int) -> int:
+        """Gives Freq back and changes nothing: the frame on the wire is not there. Freq 1 to 50000000 Hz. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def get_mcbsp(self) -> int:
+        """The present word, signed, which goes to memory location 0 too; refused before the first word. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+    def read_mcbsp(self, No: int) -> int:
+        """Memory location No; refused where nothing was put there yet, with what must come first. Location 0 is filled from set_fly_x_pos (or _y_pos, _rot_pos, set_mcbsp_in) on. Of two axes X is the low half of the word and Y the high one, each of 16 bits with its sign. A scale is K / i, i = (end - start) / distance in bits/mm. No 0 to 3. Takes the time of a question. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
+    def read_multi_mcbsp(self, No: int) -> int:
+        """The last value of a type, after set_multi_mcbsp_in. No 0 to 7. Takes the time of a question. Refused out of range; nothing is changed. Source: the RTC6 manual 1.0.21, page 703."""
+    def set_mcbsp_in(self, Mode: int, Scale: float) -> None:
+        """X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode 2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3. Mode 0 to 3. Scale -1000000000 to 1000000000 bits/bit. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
+    def set_multi_mcbsp_in(self, Ctrl: int, P: int, Mode: int) -> None:
+        """McBSP words carry their type: x, y, z, laser power and parameters; they go to the locations 0 to 3 in turn. Ctrl 0 to 255. P 0 to 4294967295 /16384. Mode -2147483648 to 2147483647. Refused out of range; nothing is changed. Source: the RTC6 manual 1.0.21, page 703."""
+    def set_mcbsp_x(self, ScaleX: float) -> None:
+        """Online positioning of X; 0 is off. ScaleX -1000000000 to 1000000000 bits/bit. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 166."""
+    def set_mcbsp_y(self, ScaleY: float) -> None:
+        """Online positioning of Y; 0 is off. ScaleY -1000000000 to 1000000000 bits/bit. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 166."""
+    def set_mcbsp_rot(self, Resolution: float) -> None:
+        """Online positioning of the angle; under 100 is off. Resolution -1000000000 to 1000000000 bits a turn. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 166."""
+    def set_mcbsp_matrix(self) -> None:
+        """Online positioning of matrix coefficients. Source: the RTC5 manual 1.9 e, page 166."""
+    def apply_mcbsp(self, HeadNo: int, at_once: int) -> None:
+        """What came by online positioning, to a head; at_once 2: with the next jump. HeadNo 1 to 4. at_once 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 166."""
+    def set_mcbsp_out(self, Signal1: int, Signal2: int) -> None:
+        """Sends two signals of get_value in turn, one word in 10 us. Signal1 0 to 255. Signal2 0 to 255. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def measurement_status(self) -> tuple[int, int]:
+        """(Busy, Pos): whether set_trigger records; Pos + 1 samples are there, none: -1. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+    def stop_trigger(self) -> None:
+        """Ends a recording; its samples stay. Source: the maker's header of the RTC5 of 2013."""
+    def set_laser_mode(self, Mode: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. Mode 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_laser_control(self, Ctrl: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. Ctrl 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_standby(self, HalfPeriod: int, PulseLength: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_laser_pulses_ctrl(self, HalfPeriod: int, PulseLength: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_firstpulse_killer(self, Length: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. Length 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_qswitch_delay(self, Delay: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_laser_pulses(self, HalfPeriod: int, PulseLength: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_laser_timing(self, HalfPeriod: int, PulseLength1: int, PulseLength2: int, TimeBase: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength1 0 to 4294967295. PulseLength2 0 to 4294967295. TimeBase 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_firstpulse_killer_list(self, Length: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. Length 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def set_qswitch_delay_list(self, Delay: int) -> None:
+        """Taken and changes nothing: the laser is a gate here, on or off. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+    def init_rtc5_dll(self) -> int:
+        """Gives 0: nothing has to be loaded. Source: the maker's header of the RTC5 of 2013."""
+    def rtc5_count_cards(self) -> int:
+        """Cards of type rtc5 in the rack. Source: the maker's header of the RTC5 of 2013."""
+    def select_rtc(self, CardNo: int) -> int:
+        """The commands of this object go to the rack's card CardNo of type rtc5 from here on, 1 is the first in the rack file; gives CardNo. Refused where there is none. Source: the maker's header of the RTC5 of 2013."""
+    def free_rtc5_dll(self) -> None:
+        """Lets the card go: commands of this object are refused until select_rtc. Source: the maker's header of the RTC5 of 2013."""
+    def get_last_error(self) -> int:
+        """Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the exception. 2 there is no card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is full, none is open, or there is nothing to read. See error_text. Source: the maker's header of the RTC5 of 2013."""
+    def get_error(self) -> int:
+        """The error bits of all commands since reset_error. Source: the maker's header of the RTC5 of 2013."""
+    def reset_error(self, Code: int) -> None:
+        """Clears these bits of get_error. Code 0 to 4294967295. Source: the maker's header of the RTC5 of 2013."""
+    @staticmethod
+    def error_text(bits: int) -> list[str]:
+        """A sentence for each of the bits 0 to 6 of get_last_error."""
+    def load_program_file(self, Path: str | None = None) -> int:
+        """Sets the card back to power-up, but for McBSP location 0, which goes on; the name is not looked at. Gives 0. Source: the RTC5 manual 1.10 d (German), page 198."""
+    def load_correction_file(self, Name: str | None, No: int, Dim: int = 2) -> int:
+        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. BadInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), FileTrouble where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+    def table_note(self, TableNo: int) -> str:
+        """What is worth knowing of the file of table TableNo 1 to 4: that its checksum is not known; "": nothing."""
+    def load_fly_2d_table(self, Name: str | None, No: int) -> int:
+        """Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. Gives 0. No 0 to 4294967295. BadInput with the line where it is wrong, FileTrouble where it cannot be read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185."""
+    def set_mcbsp_out_ptr(self, SignalPtr: Sequence[int]) -> None:
+        """Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal that is not there. Source: the maker's header of the RTC5 of 2013."""
+    def get_waveform(self, Channel: int, Number: int) -> npt.NDArray[np.int32]:
+        """The first Number samples of Channel 1 to 4 of a recording (set_trigger). Refused where so many are not there. Source: the maker's header of the RTC5 of 2013."""

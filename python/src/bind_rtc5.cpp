@@ -4,43 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/cards/rtc5/model/engine.hpp>
-#include <motionrack/rack/rtc5_card.hpp>
-#include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rtc5.hpp>
 
 namespace motionrack::python {
 
 namespace {
 
 using rtc5::Engine;
-
-/// The commands of one card. A question takes `question_time` of the rack's time first, as the answer over the bus
-/// does.
-struct Rtc5 {
-    std::shared_ptr<World> world;
-    rtc5::Card* card;
-    Duration question_time = microseconds(10);
-
-    Engine& engine() const { return card->engine(); }
-};
-using Rtc5Class = py::class_<Rtc5>;
-
-/// `call` with the engine.
-template <class Call>
-auto order(const Rtc5& self, Call call) {
-    return alone(*self.world, [&] { return call(self.engine()); });
-}
-
-/// The same after the time of a question. `call` gives a Result.
-template <class Call>
-auto ask(const Rtc5& self, Call call) {
-    return alone(*self.world, [&]() -> decltype(call(self.engine())) {
-        self.engine();
-        MOTIONRACK_CHECK(self.world->advance(self.question_time));
-        return call(self.engine());
-    });
-}
 
 /// Refuses what the list command of the same meaning would refuse.
 Result<void> check_parameter(rtc5::Op op, double parameter) {
@@ -49,31 +19,47 @@ Result<void> check_parameter(rtc5::Op op, double parameter) {
 }
 
 std::string doc_of(const rtc5::ListCommandInfo& command) {
-    std::string out = fmt::format("List command: {}.", command.meaning);
+    std::vector<std::string> parameters;
+    std::string ranges;
     for (int i = 0; i < command.param_count(); ++i) {
         const rtc5::ParamInfo& param = command.params[static_cast<std::size_t>(i)];
         const rtc5::KindInfo kind = rtc5::kind_info(param.kind);
-        out += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, kind.least, kind.greatest,
-                           kind.unit.empty() ? "" : " ", kind.unit);
+        parameters.push_back(fmt::format("{}: float", param.name));
+        ranges += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, kind.least, kind.greatest,
+                              kind.unit.empty() ? "" : " ", kind.unit);
     }
-    return out;
+    return fmt::format("{}\n\nList command: {}.{}", signature(command.name, parameters, "None"), command.meaning,
+                       ranges);
 }
 
-void bind_lists(Rtc5Class& c) {
+/// The list commands of the card's map: one row, one method.
+void bind_list_commands(Rtc5Class& c) {
+    py::options options;
+    options.disable_function_signatures();
     for (const rtc5::ListCommandInfo& command : rtc5::map::list_commands) {
         if (command.op == rtc5::Op::none) continue;
+        std::vector<std::string_view> names;
+        for (int i = 0; i < command.param_count(); ++i)
+            names.push_back(command.params[static_cast<std::size_t>(i)].name);
         c.def(
             std::string(command.name).c_str(),
-            [op = command.op](Rtc5& self, const py::args& parameters) {
-                std::vector<double> values;
-                for (const py::handle each : parameters) values.push_back(each.cast<double>());
-                order(self, [&](Engine& engine) -> Result<void> {
-                    MOTIONRACK_TRY(const rtc5::Command made, rtc5::list_command(op, values));
-                    return engine.put(made);
-                });
+            [&command, names](Rtc5& self, const py::args& by_place, const py::kwargs& by_name) {
+                const std::vector<double> given = numbers_given(command.name, names, by_place, by_name);
+                rtc5::Refusal refusal = rtc5::Refusal::parameter;
+                order(
+                    self,
+                    [&](Engine& engine) -> Result<void> {
+                        MOTIONRACK_TRY(const rtc5::Command made, rtc5::list_command(command.op, given));
+                        refusal = rtc5::Refusal::rejected;
+                        return engine.put(made);
+                    },
+                    refusal);
             },
             doc_of(command).c_str());
     }
+}
+
+void bind_lists(Rtc5Class& c) {
     c.def(
         "set_start_list",
         [](Rtc5& self, std::uint32_t list, std::int64_t position) {
@@ -95,13 +81,15 @@ void bind_lists(Rtc5Class& c) {
     c.def(
         "config_list",
         [](Rtc5& self, std::int64_t list1, std::int64_t list2) {
-            order(self, [&](Engine& engine) { return engine.config_list(list1, list2); });
+            order(
+                self, [&](Engine& engine) { return engine.config_list(list1, list2); }, rtc5::Refusal::busy);
         },
         py::arg("list1"), py::arg("list2"), "Positions of list 1 and list 2; -1: the rest.");
     c.def(
         "execute_list",
         [](Rtc5& self, std::uint32_t list, std::int64_t position) {
-            order(self, [&](Engine& engine) { return engine.execute_list(list, position); });
+            order(
+                self, [&](Engine& engine) { return engine.execute_list(list, position); }, rtc5::Refusal::busy);
         },
         py::arg("ListNo"), py::arg("Pos") = 0, "Starts list 1 or 2.");
     const auto plain = [&](const char* name, void (Engine::*function)(), const char* doc) {
@@ -123,7 +111,10 @@ void bind_lists(Rtc5Class& c) {
 void bind_settings(Rtc5Class& c) {
     c.def(
         "goto_xy",
-        [](Rtc5& self, double x, double y) { order(self, [&](Engine& engine) { return engine.goto_xy(x, y); }); },
+        [](Rtc5& self, double x, double y) {
+            order(
+                self, [&](Engine& engine) { return engine.goto_xy(x, y); }, rtc5::Refusal::busy);
+        },
         py::arg("x"), py::arg("y"), "Jumps there, bits, while no list runs.");
     const auto speed = [&](const char* name, rtc5::Op op, void (Engine::*function)(double), const char* doc) {
         c.def(
@@ -273,17 +264,23 @@ void bind_answers(Rtc5Class& c) {
 
 void bind_rtc5(py::module_& m) {
     Rtc5Class c(m, "Rtc5",
-                "The RTC5's commands under their documented names, in bits, bits/ms and 10 us. List commands go to the "
-                "list that set_start_list has opened.");
+                "The RTC5's commands under their documented names, in bits, bits/ms and 10 us: every one of rtc5sim.h. "
+                "List commands go to the list that set_start_list has opened. What is out of range, or not possible "
+                "now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. "
+                "Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words "
+                "the RTC5 manual 1.10 d (German), page 198.");
     c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
               const Turn turn(*world, Turn::For::moving);
               card_of_type(*world, card, "rtc5");
               return Rtc5{world, rack::rtc5_card_of(world->running(), card)};
           }),
           py::arg("world"), py::arg("card"));
+    bind_list_commands(c);
     bind_lists(c);
     bind_settings(c);
     bind_answers(c);
+    bind_rtc5_controls(c);
+    bind_rtc5_files(c);
 }
 
 }  // namespace motionrack::python

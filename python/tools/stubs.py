@@ -43,7 +43,7 @@ def typed(text: str) -> str:
 def parameters(text: str) -> str:
     """What is given may be any sequence or array."""
     text = re.sub(r"npt\.NDArray\[[\w.]+\]", "npt.ArrayLike", typed(text))
-    text = text.replace("list[", "Sequence[").replace("*args", "*parameters: float")
+    text = text.replace("list[", "Sequence[")
     return re.sub(r"^self: \w+", "self", text)
 
 

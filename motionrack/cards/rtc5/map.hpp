@@ -7,6 +7,7 @@
 #include <motionrack/base/time.hpp>
 #include <motionrack/cards/rtc5/map/card.hpp>
 #include <motionrack/cards/rtc5/map/commands.hpp>
+#include <motionrack/cards/rtc5/map/errors.hpp>
 #include <motionrack/cards/rtc5/map/pins.hpp>
 #include <motionrack/cards/rtc5/map/signals.hpp>
 #include <motionrack/cards/rtc5/map/status.hpp>

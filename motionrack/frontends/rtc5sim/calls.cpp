@@ -200,19 +200,9 @@ void failed(std::string_view who, std::string_view sentence) noexcept {
     process().failed(last_sentence, who, sentence, !inside_handler);
 }
 
-UINT error_bits(Trouble trouble) {
-    switch (trouble) {
-        case Trouble::bad_input:
-        case Trouble::refused:
-        case Trouble::io:
-            return RTC5_PARAM_ERROR;
-        case Trouble::machine:
-            return RTC5_BUSY;
-        case Trouble::stopped:
-            return RTC5_REJECTED;
-    }
-    return RTC5_REJECTED;
-}
+static_assert(RTC5_NO_CARD == rtc5::error_bit("NO_CARD") && RTC5_ACCESS_DENIED == rtc5::error_bit("ACCESS_DENIED") &&
+              RTC5_PARAM_ERROR == rtc5::error_bit("PARAM_ERROR") && RTC5_BUSY == rtc5::error_bit("BUSY") &&
+              RTC5_REJECTED == rtc5::error_bit("REJECTED"));
 
 UINT selected() noexcept {
     if (inside_handler) return 1;  // refused there anyway

@@ -92,9 +92,6 @@ extern thread_local bool inside_handler;
 /// Keeps the sentence for this thread, with the function's name in front, and calls the handler. The lock must be free.
 void failed(std::string_view who, std::string_view sentence) noexcept;
 
-/// What get_last_error says about it.
-UINT error_bits(Trouble trouble);
-
 /// The card of functions without n_.
 UINT selected() noexcept;
 
@@ -119,7 +116,7 @@ Value with_card(std::string_view who, UINT number, Value otherwise, Call call, b
         MOTIONRACK_TRY(Card * card, bench.card(number));
         if (asks) MOTIONRACK_CHECK(bench.pass(bench.question_ticks));
         Result<Value> result = call(*card);
-        card->last_error = result ? 0 : error_bits(result.error().trouble);
+        card->last_error = result ? 0 : rtc5::error_bits_of(result.error().trouble);
         card->errors |= card->last_error;
         return result;
     });

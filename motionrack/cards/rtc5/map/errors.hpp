@@ -1,0 +1,41 @@
+// The bits of get_last_error and get_error, and which of them an error has.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+#include <motionrack/cards/rtc5/map/status.hpp>
+
+namespace motionrack::rtc5 {
+
+namespace map {
+
+inline constexpr BitInfo error_bits[] = {
+    {"NO_CARD", 0, "init_rtc5_dll found no card"},
+    {"ACCESS_DENIED", 1, "there is no such card"},
+    {"PARAM_ERROR", 4, "a parameter is wrong"},
+    {"BUSY", 5, "a list is running, or the card moves"},
+    {"REJECTED", 6, "the list is full, or none is open, or there is nothing to read"},
+};
+static_assert(declared<bits_flaw(error_bits)>());
+
+}  // namespace map
+
+consteval std::uint32_t error_bit(std::string_view name) {
+    return map::bit_named(map::error_bits, name);
+}
+
+/// Of a command that ended so.
+constexpr std::uint32_t error_bits_of(Trouble trouble) {
+    switch (trouble) {
+        case Trouble::bad_input:
+        case Trouble::refused:
+        case Trouble::io:
+            return error_bit("PARAM_ERROR");
+        case Trouble::machine:
+            return error_bit("BUSY");
+        case Trouble::stopped:
+            break;
+    }
+    return error_bit("REJECTED");
+}
+
+}  // namespace motionrack::rtc5
