@@ -75,6 +75,9 @@ MR_API void mr_rack_close(mr_rack* rack);
 /* The sentence of the last error in this thread, "" if there was none. Valid until the next error in this thread. */
 MR_API const char* mr_last_error(void);
 
+/* The version of the library: three numbers with dots between them. */
+MR_API const char* mr_version(void);
+
 /* ---- Time ---- */
 
 /* Lets the world run for ns nanoseconds: 0 .. 1,000,000,000,000,000 (11.5 days) a call, 14 years in all.
@@ -222,15 +225,31 @@ MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);
  * it), so compare worlds that were recorded alike. 0 for NULL. */
 MR_API uint64_t mr_state_hash(const mr_rack* rack);
 
+/* Tells what happened in the world that somebody should know: an access that came too early, an illegal transition, an
+ * end of travel. Oldest first, those with numbers above `since` (0: all); numbers begin with 1, and the last 4096 are
+ * kept. `at_100ps`: the instant at which it happened, in 100 ps; `card`: the name of the card, or of what else it
+ * happened to; `code`: of this kind of card; `sentence`: for a person. Both texts hold until `tell` returns, which may
+ * call functions of this file but mr_rack_close. MR_BAD_CALL, MR_INTERNAL. */
+MR_API int mr_conditions(mr_rack* rack, uint64_t since,
+                         void (*tell)(void* user, uint64_t number, int64_t at_100ps, const char* card, int code,
+                                      const char* sentence),
+                         void* user);
+
 /* ---- Recordings ---- */
 
-/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli; unit of time 100 ns) or *.csv
- * (time_s, signal, value: each change a line). `signals`: patterns with * and ?, separated by blanks or commas ("X.*
- * c1.xlmtp"); NULL or "": every wire, the pulses of each axis (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b)
- * and the card's counters (c1.xlp, c1.xep), these once a millisecond. Pins that a card drives on demand (c1.xpp) are
- * recorded if a pattern names them. One recording at a time; one that mr_trace_stop could not end is given up for the
- * new one. MR_BAD_CALL (null, no signal fits), MR_REFUSED (another ending, .h5 among them; one runs already), MR_IO. */
+/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli) or *.csv (time_s, signal, value:
+ * each change a line). Levels are 0 and 1; voltages are in V, counters and words of a bus numbers. `signals`: patterns
+ * with * and ?, separated by blanks or commas ("X.* c1.xlmtp"); NULL or "": every wire, the pulses of each axis
+ * (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b) and the card's counters (c1.xlp, c1.xep), these once a
+ * millisecond. Pins that a card drives on demand (c1.xpp) are recorded if a pattern names them. One recording at a
+ * time; one that mr_trace_stop could not end is given up for the new one. MR_BAD_CALL (null, no signal fits),
+ * MR_REFUSED (another ending, .h5 among them; one runs already), MR_IO. */
 MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
+
+/* The unit of time of VCD files that are begun from now on: 0.1, 1, 10, 100 or 1000 ns, or such a part of a second; 0,
+ * as at first: the coarsest that shows every edge of the chosen signals, 100 ns at most. sigrok-cli makes a sample of
+ * each unit: let it read a fine one with -I vcd:downsample=N. MR_BAD_CALL, MR_REFUSED (another unit). */
+MR_API int mr_trace_unit(mr_rack* rack, double ns);
 
 /* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole: the
  * recording goes on; make room and end it again, or begin another). */

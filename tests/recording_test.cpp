@@ -113,7 +113,7 @@ TEST_F(ARecordedRun, HasThePulsesOfTheWavesTickForTick) {
     const JobRequest request = request_for(program);
     WaveSettings waves;
     waves.path = at("a.vcd");
-    waves.timescale = Duration{1};
+    waves.unit = Duration{1};
     auto job = RecordedJob::create(request, {at("a.h5"), waves});
     ASSERT_TRUE(job);
     ASSERT_TRUE((*job)->run(nullptr, {}).ended);

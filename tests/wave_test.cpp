@@ -8,10 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/session.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
 #include <set>
 #include <sstream>
+#include <tests/strict_vcd.hpp>
+#include <tests/text_of.hpp>
 
 namespace motionrack::rack {
 namespace {
@@ -64,6 +67,82 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
     EXPECT_EQ(outcome.axes[0].counts_read, 400);
     EXPECT_EQ(last_number(path, "graycode:d0=X_enc_a:d1=X_enc_b", "graycode=count"), 401);
     std::filesystem::remove(path);
+}
+
+/// Edges that sigrok's counter sees on a line; -1: it does not read the file.
+int edges_by_sigrok(const std::string& path, const std::string& line) {
+    return last_number(path, "counter:data=" + line + ":data_edge=rising", "counter=edge_count");
+}
+
+/// A recording that has run for some time, of all that a rack has.
+struct RecordedRack {
+    const char* rack;
+    std::string signals;
+    std::uint64_t ns;
+    void (*drive)(Session&);
+};
+
+void turn_x(Session& session) {
+    const auto command = [&](unsigned axes, unsigned code, unsigned value) {
+        for (const auto& [at, word] : {std::pair{0x0Eu, value >> 16}, {0x0Cu, value & 0xFFFF}, {0u, axes << 8 | code}})
+            static_cast<void>(session.write("c1", 16, at, word));
+    };
+    for (const auto& [code, value] : {std::pair{0u, 800'000u}, {2u, 400u}, {4u, 10u}, {5u, 2'000u}, {6u, 700u}})
+        command(1, code, value);
+    command(1, 0x20, 0);
+}
+
+void position(Session& session) {
+    for (const auto& [port, value] : {std::pair{1u, 13u},
+                                      {3u, unsigned{'R'}},
+                                      {0u, 16'000u & 0xFF},
+                                      {0u, 16'000u >> 8},
+                                      {3u, unsigned{'N'}},
+                                      {0u, 100u},
+                                      {0u, 0u},
+                                      {0u, 0u},
+                                      {3u, unsigned{'G'}}}) {
+        static_cast<void>(session.write("c1", 8, port, value));
+        static_cast<void>(session.advance(150'000));
+    }
+}
+
+void stand(Session&) {}
+
+TEST(Waves, AreReadWholeByEveryReader) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("motionrack_all_" + std::to_string(::getpid()) + ".vcd")).string();
+    const RecordedRack recorded_racks[] = {
+        {"card.c1 = \"mcx314\"", "*", 200'000'000, turn_x},
+        {"card.c1 = \"databoard4002\"", "*", 200'000'000, position},
+        {"card.c1 = \"ioflex02\"", "*", 1'000'000, stand},
+        {"[card.h]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\n[card.d]\ntype = "
+         "\"grating_decoder\"\n",
+         "*", 500'000, stand},
+    };
+    for (const RecordedRack& one : recorded_racks) {
+        SCOPED_TRACE(one.rack);
+        const auto session = std::move(*Session::open(one.rack));
+        ASSERT_TRUE(session->start_trace(path, one.signals));
+        one.drive(*session);
+        ASSERT_TRUE(session->advance(one.ns));
+        ASSERT_TRUE(session->stop_trace());
+        const test::StrictVcd vcd(text_of(path));
+        EXPECT_EQ(vcd.wrong, "");
+        const std::int64_t unit_ns = vcd.unit == "100 ns" ? 100 : vcd.unit == "10 ns" ? 10 : 1;
+        EXPECT_EQ(vcd.end, static_cast<std::int64_t>(session->now_ns()) / unit_ns) << "the end is marked";
+        int compared = 0;
+        for (const auto& [code, variable] : vcd.variables) {
+            if (variable.is_real || variable.rises < 2) continue;
+            EXPECT_EQ(edges_by_sigrok(path, variable.name.substr(variable.name.find('.') + 1)), variable.rises)
+                << variable.name;
+            ++compared;
+        }
+        EXPECT_TRUE(compared > 0 || one.drive == stand) << "nothing moved";
+        EXPECT_EQ(std::system(("vcd2fst " + path + " " + path + ".fst >/dev/null 2>&1").c_str()), 0);
+        std::filesystem::remove(path);
+        std::filesystem::remove(path + ".fst");
+    }
 }
 
 /// Runs a move of X and Y with a recording of `signals` and gives the file's text.

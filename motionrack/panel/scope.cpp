@@ -31,15 +31,16 @@ std::string_view name_of(ScopeState state) {
 /// Takes the recorder's changes; they come between runs, in order.
 class Scope::Sink final : public rack::WaveSink {
   public:
-    explicit Sink(Scope& scope) : scope_(scope) {}
-    void change(std::size_t index, std::uint64_t value, Instant at) override {
+    Sink(Scope& scope, std::vector<rack::WaveSignal> signals) : scope_(scope), signals_(std::move(signals)) {}
+    void change(std::size_t index, std::int64_t value, Instant at) override {
         const std::size_t place = scope_.places_[index];
-        if (place != nowhere) scope_.see(at, place, static_cast<double>(value));
+        if (place != nowhere) scope_.see(at, place, signals_[index].shown(value));
     }
     Result<void> close(Instant) override { return {}; }
 
   private:
     Scope& scope_;
+    std::vector<rack::WaveSignal> signals_;
 };
 
 Scope::Scope(operate::Machine& machine, ChannelBook& channels) : machine_(machine), book_(channels) {}
@@ -103,7 +104,7 @@ Result<void> Scope::listen_to_wires(const std::vector<std::string>& wires) {
                                   ? nowhere
                                   : static_cast<std::size_t>(found - settings_.channels.begin()));
         }
-        return std::make_unique<Sink>(*this);
+        return std::make_unique<Sink>(*this, signals);
     };
     MOTIONRACK_TRY(recorder_, rack::WaveRecorder::create(machine_.rack(), settings));
     return {};

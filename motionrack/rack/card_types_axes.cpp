@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <motionrack/rack/card_type_rows.hpp>
 
 namespace motionrack::rack {
@@ -158,7 +159,7 @@ constexpr std::array<std::string_view, 1> databoard4002_references = {"ref"}, da
 constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature x4", "quadrature x2", "quadrature x1",
                                                                      "up/down"};
 
-constexpr std::array<Field, 9> databoard4002_settings = {
+constexpr std::array<Field, 11> databoard4002_settings = {
     field<&Databoard4002Settings::select>("select", 0, 31, "",
                                           "its number on the bus, written to port 1 before it answers"),
     with_choices(
@@ -170,6 +171,11 @@ constexpr std::array<Field, 9> databoard4002_settings = {
                                                 "encoder lines up to 50 kHz instead of 100 kHz"),
     field<&Databoard4002Settings::zeroing>("zeroing", 0, 0, "",
                                            "enabling the zero or reference event arms the zeroing of the counter"),
+    field<&Databoard4002Settings::quit_zeroes>("quit_zeroes", 0, 0, "",
+                                               "the command Q zeroes the position that P or N has set, as printed"),
+    field<&Databoard4002Settings::trim>("trim", 0, 2'000, "",
+                                        "the trim table that came with the card, rows of V and rate with commas "
+                                        "between, as in \"0.01 13799, 0.025 14051\"; empty: the printed one"),
     field<&Databoard4002Settings::version>("version", 0, 255, "",
                                            "version of the card's program, as the command V tells it"),
     field<&Databoard4002Settings::pass_ticks>("pass_ticks", 1, 4'000, "",
@@ -208,6 +214,8 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
                 fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
                             "`select` (0 .. 31).",
                             other.name, card.name, own.select)};
+    if (const auto trim = databoard4002::trim_from_text(own.trim); !trim)
+        return CardFlaw{"trim", fmt::format("Card {}: {}", card.name, trim.error().message)};
     const std::int64_t most = own.counting == Databoard4002Counting::quadrature_2   ? 1
                               : own.counting == Databoard4002Counting::quadrature_1 ? 3
                                                                                     : 0;

@@ -19,6 +19,13 @@
 
 namespace motionrack::rack {
 
+bool Card::shows(std::string_view scope, std::string_view wire) const {
+    if (scope == name()) return true;
+    const std::string full = fmt::format("{}.{}", scope, wire);
+    const std::span<const std::string> shared = shared_wires();
+    return std::find(shared.begin(), shared.end(), full) != shared.end();
+}
+
 namespace {
 
 class Mcx314Card final : public MotionCard {

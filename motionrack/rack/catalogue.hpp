@@ -70,6 +70,10 @@ class Card {
     /// Wires by their full names that it shares with other cards ("bus.clk"); from outside they can be driven like its
     /// own.
     virtual std::span<const std::string> shared_wires() const { return {}; }
+    /// How close edges of its lines may come: a power of ten, at most 100 ns. A recording's time has no coarser unit.
+    virtual Duration edge_unit() const { return nanoseconds(100); }
+    /// Whether a recording's "scope.name" is a wire of this card, or one that it shares.
+    bool shows(std::string_view scope, std::string_view wire) const;
     /// What no snapshot of the kernel holds becomes that of `other`, a card of the same kind in another rack.
     virtual void copy_from(const Card& other) { (void)other; }
     /// All cards of the rack are there. Once, before the kernel starts.

@@ -50,6 +50,8 @@ struct Databoard4002Settings {
     std::int64_t first_pair = 0;          ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
     bool single_ended = false;            ///< encoder lines up to 50 kHz instead of 100 kHz
     bool zeroing = true;                  ///< enabling the zero or reference event arms the zeroing
+    bool quit_zeroes = true;              ///< the command Q zeroes what P and N have set
+    std::string trim;                     ///< see databoard4002::trim_from_text
     std::int64_t version = 32;            ///< 0 .. 255: what the command V answers
     std::int64_t pass_ticks = 1;          ///< 1 .. 4,000 ticks of 2.5 us
     std::int64_t byte_time_ns = 100'000;  ///< 2,500 .. 100,000,000 ns

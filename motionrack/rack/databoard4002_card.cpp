@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <motionrack/cards/databoard4002/axes/position_axis.hpp>
+#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/databoard4002/model/bus.hpp>
 #include <motionrack/cards/databoard4002/model/card.hpp>
@@ -32,6 +33,8 @@ db::Settings settings_of(const Databoard4002Settings& s) {
     out.byte_time = nanoseconds(s.byte_time_ns);
     out.version = static_cast<std::uint8_t>(s.version);
     out.zeroing = s.zeroing;
+    out.quit_zeroes = s.quit_zeroes;
+    out.trim = *db::trim_from_text(s.trim);
     out.counting = straps[static_cast<std::size_t>(s.counting)].counting;
     out.folding = straps[static_cast<std::size_t>(s.counting)].folding;
     out.first_pair = static_cast<std::int32_t>(s.first_pair);
@@ -48,6 +51,7 @@ db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis&
     out.limits = config.limits()[static_cast<std::size_t>(axis.index())];
     out.counts_per_unit = axis.counts_per_unit() * counts_of_edge[static_cast<std::size_t>(counting)];
     if (axis.servo) {
+        out.scale.trim = *db::trim_from_text(config.card(axis.card)->databoard4002.trim);
         out.scale.analog = true;
         out.scale.counts_per_volt = axis.servo->speed_per_volt * out.counts_per_unit;
         out.lag_s = axis.servo->lag_ms * 1e-3 * (1 + axis.servo->load);

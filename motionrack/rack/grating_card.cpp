@@ -75,6 +75,14 @@ class GratingCard final : public Member {
 
     sim::DeviceId device() const override { return card_.id(); }
     const CardMap& map() const override { return gb::card_map(); }
+    /// All edges of a frame come a sum of these times after its start.
+    Duration edge_unit() const override {
+        const gb::Timing& t = card_.settings().timing;
+        Duration unit = nanoseconds(10);
+        for (const Duration time : {t.t1, t.t2, t.t3, t.clock, t.clock / 2, card_.settings().offset})
+            while (time % unit != Duration{0}) unit /= 10;
+        return unit;
+    }
     sim::RegisterDevice* registers() override { return &card_; }
     bool in_window(std::uint32_t offset) const override { return in_counts(offset, card_.settings().scales); }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }

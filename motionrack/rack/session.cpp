@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>
+#include <motionrack/trace/vcd.hpp>
 
 namespace motionrack::rack {
 
@@ -115,6 +117,27 @@ std::unique_ptr<Session> Session::copy() {
     return out;
 }
 
+std::vector<Session::Told> Session::conditions(std::uint64_t since) {
+    const sim::Kernel& kernel = rack_.kernel();
+    std::vector<Told> out;
+    std::uint64_t number = kernel.dropped_conditions();
+    for (const sim::Condition& one : kernel.conditions()) {
+        if (++number <= since) continue;
+        const std::string device = one.device == sim::no_device ? "rack" : kernel.device_name(one.device);
+        out.push_back({number, one.at, device, one.code, rack_.describe(one)});
+    }
+    return out;
+}
+
+Result<void> Session::set_trace_unit(double ns) {
+    constexpr double coarsest_ns = 1e9;
+    Duration unit{ns >= 0 && ns <= coarsest_ns ? std::llround(ns * 10) : -1};
+    if (std::fabs(ns * 10 - static_cast<double>(unit.count())) > 1e-6) unit = Duration{-1};
+    if (ns != 0) MOTIONRACK_CHECK(trace::check_unit(unit));
+    trace_unit_ = unit;
+    return {};
+}
+
 Result<void> Session::start_trace(const std::string& path, std::string_view signals) {
     if (recorder_ && !recorder_->failed())
         return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
@@ -122,6 +145,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
     settings.path = path;
     MOTIONRACK_TRY(settings.format, wave_format(path));
     settings.tap = tap_.get();
+    settings.unit = trace_unit_;
     constexpr std::string_view between = " ,\t\n";
     for (std::size_t at = 0; (at = signals.find_first_not_of(between, at)) != std::string_view::npos;) {
         const std::size_t end = std::min(signals.find_first_of(between, at), signals.size());

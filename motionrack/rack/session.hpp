@@ -16,6 +16,7 @@
 #include <motionrack/rack/wire_desk.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace motionrack::rack {
 
@@ -61,7 +62,20 @@ class Session {
     /// Equal worlds, equal hash: time, cards, wires, parts, conditions told, and the history of the wires.
     std::uint64_t state_hash() { return rack_.kernel().state_hash(); }
 
+    /// What happened, as a sentence.
+    struct Told {
+        std::uint64_t number = 0;  ///< from 1
+        Instant at{};
+        std::string device;  ///< a card's name, or of what else it happened to
+        int code = 0;        ///< of this kind of device
+        std::string sentence;
+    };
+    /// Those with numbers above `since`, oldest first; the kernel keeps the last ones.
+    std::vector<Told> conditions(std::uint64_t since);
+
     // ---- recordings
+    /// Of VCD files that are begun from now on; 0: see WaveSettings::unit. Errors: refused (no unit of VCD).
+    Result<void> set_trace_unit(double ns);
     /// Begins one; its name ends in .vcd or .csv. `signals`: patterns with * and ?, separated by blanks or commas;
     /// empty: all but the pins that cards drive on demand. One whose end failed is given up for it. Errors: refused
     /// (one runs already, the name's ending), bad_input (no signal fits), io.
@@ -81,6 +95,7 @@ class Session {
     std::unique_ptr<WireTap> tap_;
     WireDesk desk_;
     std::unique_ptr<WaveRecorder> recorder_;
+    Duration trace_unit_{0};
     Instant next_look_ = never;  // of the recorder at the registers
 };
 

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/wire_desk.hpp>
 
 namespace motionrack::rack {
 
@@ -86,8 +88,8 @@ class WaveRecorder::LineEar final : public sim::EdgeListener {
     std::size_t a_, b_;
 };
 
-std::uint64_t WaveRecorder::Counter::value() const {
-    return static_cast<std::uint64_t>(card->counter({{}, channel, encoder}));
+std::int64_t WaveRecorder::Counter::value() const {
+    return card->counter({{}, channel, encoder});
 }
 
 // ---- choosing
@@ -125,9 +127,9 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
     if (settings.sink) {
         out->sink_ = settings.sink(out->signals_);
     } else {
-        MOTIONRACK_TRY(
-            out->sink_,
-            make_wave_sink({settings.path, settings.format, settings.timescale, rack.kernel().now()}, out->signals_));
+        const Duration unit = settings.unit > Duration{0} ? settings.unit : out->coarsest_unit();
+        MOTIONRACK_TRY(out->sink_,
+                       make_wave_sink({settings.path, settings.format, unit, rack.kernel().now()}, out->signals_));
     }
     if (!rack.started()) {
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
@@ -142,9 +144,18 @@ bool WaveRecorder::wanted(const std::string& name) const {
            std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& p) { return matches(p, name); });
 }
 
-std::size_t WaveRecorder::add(const std::string& scope, const std::string& name, int bits, std::uint64_t initial) {
-    signals_.push_back({scope, name, bits, bits > 1, initial});
+std::size_t WaveRecorder::add(WaveSignal signal) {
+    signals_.push_back(std::move(signal));
     return signals_.size() - 1;
+}
+
+/// Lines of a bus that cards share have edges as close as its times let them come.
+Duration WaveRecorder::coarsest_unit() const {
+    Duration unit = nanoseconds(100);
+    for (const auto& card : rack_.cards())
+        for (const WaveSignal& signal : signals_)
+            if (card->shows(signal.scope, signal.name)) unit = std::min(unit, card->edge_unit());
+    return unit;
 }
 
 void WaveRecorder::choose_axes() {
@@ -154,25 +165,23 @@ void WaveRecorder::choose_axes() {
         const bool pulses = !axis.servo && (wanted(name + ".step") || wanted(name + ".dir"));
         const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
         if (pulses) {
-            const std::size_t step = add(name, "step", 1, 0), direction = add(name, "dir", 1, 1);
+            const std::size_t step = add({name, "step"}), direction = add({name, "dir", false, 1, 1});
             steps_.push_back(std::make_unique<StepEar>(*this, step, direction));
             heard_.emplace_back(axis.pulse_ears.get(), steps_.back().get());
         }
         if (lines) {
             const parts::Lines now = machine.encoder_lines(rack_.kernel().now());
-            const std::size_t a = add(name, "enc_a", 1, now.a != 0), b = add(name, "enc_b", 1, now.b != 0);
+            const std::size_t a = add({name, "enc_a", false, 1, now.a != 0}),
+                              b = add({name, "enc_b", false, 1, now.b != 0});
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
             heard_.emplace_back(axis.encoder_ears.get(), lines_.back().get());
         }
     }
 }
 
-std::uint64_t WaveRecorder::shown(sim::WireId wire, int level) const {
-    return rack_.kernel().wire_bits(wire) > 1 ? static_cast<std::uint32_t>(level) : level != 0;
-}
-
 void WaveRecorder::choose_wires() {
     const sim::Kernel& kernel = rack_.kernel();
+    const std::map<std::string, double> volts = volts_of_wires(rack_.config());
     wire_signals_.assign(kernel.wire_count(), -1);
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
         const auto wire = static_cast<sim::WireId>(i);
@@ -184,10 +193,11 @@ void WaveRecorder::choose_wires() {
         }
         const std::size_t dot = name.find('.');
         const bool plain = dot == std::string::npos;
-        wire_signals_[i] =
-            static_cast<std::int64_t>(add(plain ? "rack" : name.substr(0, dot), plain ? name : name.substr(dot + 1),
-                                          kernel.wire_bits(wire), shown(wire, kernel.level(wire))));
-        signals_.back().is_signed = false;
+        WaveSignal signal{plain ? "rack" : name.substr(0, dot), plain ? name : name.substr(dot + 1)};
+        if (const auto analog = volts.find(name); analog != volts.end()) signal.unit = analog->second;
+        signal.is_number = signal.unit != 1 || kernel.wire_bits(wire) > 1;
+        signal.initial = kernel.level(wire);
+        wire_signals_[i] = static_cast<std::int64_t>(add(std::move(signal)));
     }
 }
 
@@ -196,7 +206,7 @@ void WaveRecorder::choose_counters() {
         for (const CardCounter& each : card->counters()) {
             if (!wanted(card->name() + "." + each.name)) continue;
             Counter counter{card.get(), each.channel, each.encoder, 0};
-            counter.signal = add(card->name(), each.name, 32, counter.value() & 0xFFFF'FFFFu);
+            counter.signal = add({card->name(), each.name, true, 1, counter.value()});
             counters_.push_back(counter);
         }
 }
@@ -208,7 +218,7 @@ void WaveRecorder::begin() {
     rack_.kernel().schedule(id_, rack_.kernel().now());
 }
 
-void WaveRecorder::push(Instant at, std::size_t signal, std::uint64_t value) {
+void WaveRecorder::push(Instant at, std::size_t signal, std::int64_t value) {
     if (buffer_.size() == buffer_size) {
         ++lost_;
         return;
@@ -219,7 +229,7 @@ void WaveRecorder::push(Instant at, std::size_t signal, std::uint64_t value) {
 
 void WaveRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
     const std::int64_t signal = wire_signals_[sim::Kernel::index(wire)];
-    if (signal >= 0) push(now, static_cast<std::size_t>(signal), shown(wire, level));
+    if (signal >= 0) push(now, static_cast<std::size_t>(signal), level);
 }
 
 void WaveRecorder::act(Instant now) {
@@ -228,7 +238,7 @@ void WaveRecorder::act(Instant now) {
 }
 
 void WaveRecorder::look_at_cards(Instant now) {
-    for (const Counter& counter : counters_) push(now, counter.signal, counter.value() & 0xFFFF'FFFFu);
+    for (const Counter& counter : counters_) push(now, counter.signal, counter.value());
 }
 
 void WaveRecorder::drain() {

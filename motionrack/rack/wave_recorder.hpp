@@ -37,9 +37,11 @@ class WireTap final : public sim::Device {
 struct WaveSettings {
     std::string path;
     WaveFormat format = WaveFormat::vcd;
-    std::vector<std::string> signals;            ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp");
-                                                 ///< empty: all but the pins driven on demand
-    Duration timescale{1000};                    ///< VCD; 100 ns: fine for viewers and sigrok; 100 ps ticks are exact
+    std::vector<std::string> signals;  ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp");
+                                       ///< empty: all but the pins driven on demand
+    /// Unit of a VCD file's time; 0: the coarsest that shows every edge of the signals: 100 ns, or that of the bus
+    /// whose lines are among them (10 ns at most).
+    Duration unit{0};
     Duration register_period = milliseconds(1);  ///< how often LP and EP are looked at
     WireTap* tap = nullptr;                      ///< pins driven on demand are recorded through it
     /// Makes what takes the changes, instead of the file; may be empty.
@@ -49,7 +51,7 @@ struct WaveSettings {
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
     /// Before the rack is started it becomes a device that looks at the registers by itself after begin(); in a running
-    /// rack its owner calls look(). Errors: io; refused (timescale); bad_input if no signal fits the patterns. The rack
+    /// rack its owner calls look(). Errors: io; refused (the unit); bad_input if no signal fits the patterns. The rack
     /// is as it was then.
     static Result<std::unique_ptr<WaveRecorder>> create(Rack& rack, const WaveSettings& settings);
     ~WaveRecorder() override;
@@ -74,7 +76,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     struct Event {
         Instant at{};
         std::size_t signal = 0;
-        std::uint64_t value = 0;
+        std::int64_t value = 0;
     };
     /// Hears the pulses of one axis.
     class StepEar;
@@ -86,20 +88,19 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
         int channel = 0;
         bool encoder = false;
         std::size_t signal = 0;
-        std::uint64_t value() const;
+        std::int64_t value() const;
     };
 
     WaveRecorder(Rack& rack, const WaveSettings& settings);
     bool wanted(const std::string& name) const;
-    std::size_t add(const std::string& scope, const std::string& name, int bits, std::uint64_t initial);
-    /// What is recorded of a wire's level.
-    std::uint64_t shown(sim::WireId wire, int level) const;
+    std::size_t add(WaveSignal signal);
+    Duration coarsest_unit() const;
     void choose_axes();
     void choose_wires();
     void choose_counters();
     void listen();
     void stop_listening();
-    void push(Instant at, std::size_t signal, std::uint64_t value);
+    void push(Instant at, std::size_t signal, std::int64_t value);
     void look_at_cards(Instant now);
 
     static constexpr std::size_t buffer_size = 1 << 21;

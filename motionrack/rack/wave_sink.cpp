@@ -14,7 +14,7 @@ class VcdSink final : public WaveSink {
   public:
     /// Each scope is opened once, in the order in which it is met first.
     VcdSink(trace::VcdWriter writer, const std::vector<WaveSignal>& signals)
-        : writer_(std::move(writer)), ids_(signals.size()) {
+        : writer_(std::move(writer)), signals_(signals), ids_(signals.size()) {
         std::vector<std::string> scopes;
         for (const WaveSignal& signal : signals)
             if (std::find(scopes.begin(), scopes.end(), signal.scope) == scopes.end()) scopes.push_back(signal.scope);
@@ -26,16 +26,23 @@ class VcdSink final : public WaveSink {
         }
     }
 
-    void change(std::size_t index, std::uint64_t value, Instant at) override { writer_.change(ids_[index], value, at); }
+    void change(std::size_t index, std::int64_t value, Instant at) override {
+        const WaveSignal& signal = signals_[index];
+        if (signal.is_number)
+            writer_.change_real(ids_[index], signal.shown(value), at);
+        else
+            writer_.change(ids_[index], value != 0, at);
+    }
     Result<void> close(Instant end) override { return writer_.close(end); }
 
   private:
     trace::VcdWriter::Id declare(const WaveSignal& signal) {
-        return signal.bits == 1 ? writer_.add_wire(signal.name, signal.initial != 0)
-                                : writer_.add_vector(signal.name, signal.bits, signal.initial);
+        return signal.is_number ? writer_.add_real(signal.name, signal.shown(signal.initial))
+                                : writer_.add_wire(signal.name, signal.initial != 0);
     }
 
     trace::VcdWriter writer_;
+    std::vector<WaveSignal> signals_;
     std::vector<trace::VcdWriter::Id> ids_;
 };
 
@@ -44,14 +51,13 @@ class CsvSink final : public WaveSink {
     CsvSink(trace::CsvWriter writer, const std::vector<WaveSignal>& signals, Instant start)
         : writer_(std::move(writer)) {
         for (const WaveSignal& signal : signals) {
-            columns_.push_back({signal.scope + '.' + signal.name, signal.bits, signal.is_signed, signal.initial});
+            columns_.push_back({signal.scope + '.' + signal.name, signal, signal.initial});
             write(columns_.back(), start);
         }
     }
 
-    void change(std::size_t index, std::uint64_t value, Instant at) override {
+    void change(std::size_t index, std::int64_t value, Instant at) override {
         Column& column = columns_[index];
-        if (column.bits < 64) value &= (std::uint64_t{1} << column.bits) - 1;
         if (column.value == value) return;
         column.value = value;
         write(column, at);
@@ -61,21 +67,18 @@ class CsvSink final : public WaveSink {
   private:
     struct Column {
         std::string name;
-        int bits = 1;
-        bool is_signed = false;
-        std::uint64_t value = 0;
-
-        std::int64_t number() const {
-            const std::uint64_t sign = std::uint64_t{1} << (bits - 1);
-            return static_cast<std::int64_t>(is_signed ? (value ^ sign) - sign : value);
-        }
+        WaveSignal signal;
+        std::int64_t value = 0;
     };
 
     void write(const Column& column, Instant at) {
         // Whole ticks of 100 ps: exact, where a double of seconds would not be.
         writer_.add(fmt::format("{}.{:010}", at.count() / 10'000'000'000, at.count() % 10'000'000'000));
         writer_.add(column.name);
-        writer_.add(column.number());
+        if (column.signal.unit == 1)
+            writer_.add(column.value);
+        else
+            writer_.add(fmt::format("{}", column.signal.shown(column.value)));
         writer_.end_line();
     }
 
@@ -107,7 +110,7 @@ Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& setting
         return std::make_unique<CsvSink>(std::move(writer), signals, settings.start);
     }
     trace::VcdSettings vcd;
-    vcd.timescale = settings.vcd_timescale;
+    vcd.timescale = settings.vcd_unit;
     vcd.full_names = true;
     MOTIONRACK_TRY(trace::VcdWriter writer, trace::VcdWriter::create(settings.path, vcd));
     return std::make_unique<VcdSink>(std::move(writer), signals);

@@ -1,5 +1,8 @@
 // Where a recording goes: a VCD file (*.vcd) or a table of changes (*.csv).
 //
+// Levels are wires of a VCD file; what carries a number (a counter, a voltage in V, a word of a bus) is a real, as
+// every reader takes it: sigrok stops at vectors.
+//
 //   time_s,signal,value        CSV: the state of every signal at the start, then one line a change, in order of time
 //   0,X.step,0
 //   0.0012345,X.step,1
@@ -18,16 +21,19 @@ namespace motionrack::rack {
 struct WaveSignal {
     std::string scope;
     std::string name;
-    int bits = 1;               ///< 1 .. 64
-    bool is_signed = false;     ///< a counter below 0 is told as a negative number where the format has such
-    std::uint64_t initial = 0;  ///< value when the recording begins
+    bool is_number = false;    ///< else a level, 0 or 1
+    double unit = 1;           ///< of a number: what one count is; volts for a voltage
+    std::int64_t initial = 0;  ///< value when the recording begins, in counts
+
+    /// What the recording shows of a value: whole numbers stay exact.
+    double shown(std::int64_t value) const { return static_cast<double>(value) * unit; }
 };
 
 class WaveSink {
   public:
     virtual ~WaveSink() = default;
     /// Signal `index` of those declared has a new value; `at` not before an earlier one.
-    virtual void change(std::size_t index, std::uint64_t value, Instant at) = 0;
+    virtual void change(std::size_t index, std::int64_t value, Instant at) = 0;
     /// Ends the file at `end`. Errors: io, the first error met.
     virtual Result<void> close(Instant end) = 0;
 };
@@ -40,11 +46,11 @@ Result<WaveFormat> wave_format(const std::string& path);
 struct WaveSinkSettings {
     std::string path;
     WaveFormat format = WaveFormat::vcd;
-    Duration vcd_timescale{1000};  ///< see trace::VcdSettings
-    Instant start{};               ///< when the recording begins
+    Duration vcd_unit{1000};  ///< see trace::VcdSettings
+    Instant start{};          ///< when the recording begins
 };
 
-/// Errors: refused (the timescale), io. Nothing is written then.
+/// Errors: refused (the unit of time), io. Nothing is written then.
 Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings,
                                                  const std::vector<WaveSignal>& signals);
 

@@ -12,6 +12,17 @@ namespace {
 constexpr double most_volts = 15;  // of an analog input
 }
 
+std::map<std::string, double> volts_of_wires(const RackConfig& config) {
+    std::map<std::string, double> out;
+    for (const RackCard& card : config.cards)
+        for (const Pin& pin : pins_of(card))
+            if (pin.volts > 0) out[card.name + "." + pin.name] = pin.volts;
+    for (const RackAxis& axis : config.axes)
+        for (const AxisEnd& end : axis_ends())
+            if (end.volts > 0 && end.present(axis)) out[fmt::format("{}.{}", axis.letter, end.name)] = end.volts;
+    return out;
+}
+
 WireDesk::WireDesk(Rack& rack) : rack_(rack) {
     wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
     if (rack_.config().probe) wires_["probe"] = {Kind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};

@@ -80,4 +80,7 @@ class WireDesk {
     std::vector<EncoderInput> encoders_;
 };
 
+/// Of wires that carry a voltage, by their names: the volts of one unit of the level.
+std::map<std::string, double> volts_of_wires(const RackConfig& config);
+
 }  // namespace motionrack::rack

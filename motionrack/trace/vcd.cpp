@@ -76,15 +76,20 @@ std::uint64_t cut(std::uint64_t value, int bits) {
 
 }  // namespace
 
+Result<void> check_unit(Duration unit) {
+    if (!timescale_text(unit.count()).empty()) return {};
+    const std::string seen =
+        unit > Duration{0} ? fmt::format("a timescale of {} ps", unit.count() * 100) : "this timescale";
+    return fail(
+        Trouble::refused,
+        fmt::format("A VCD file cannot have {}: it must be 1, 10 or 100 of ps, ns, us or ms, from 100 ps to 1 s. "
+                    "Nothing was written; take 1 ns.",
+                    seen));
+}
+
 Result<VcdWriter> VcdWriter::create(const std::string& path, const VcdSettings& settings) {
+    MOTIONRACK_CHECK(check_unit(settings.timescale));
     const std::string timescale = timescale_text(settings.timescale.count());
-    if (timescale.empty()) {
-        return fail(
-            Trouble::refused,
-            fmt::format("A VCD file cannot have a timescale of {} ps: it must be 1, 10 or 100 of ps, ns, us or ms, "
-                        "from 100 ps to 1 s. Nothing was written; take 1 ns.",
-                        settings.timescale.count() * 100));
-    }
     Result<disk::NewFile> file = disk::NewFile::create(path, disk::NewFile::Part::keep);
     if (!file) {
         return fail(Trouble::io,

@@ -30,6 +30,9 @@ struct VcdSettings {
     std::string comment;  ///< goes into the head of the file
 };
 
+/// Errors: refused, for a unit of time that VCD files do not have.
+Result<void> check_unit(Duration unit);
+
 /// Writes one VCD file. Declare everything first; the first change ends the declarations. The file holds no date, so
 /// the same changes give the same bytes. Once the buffer is there changes do not allocate; they write to the disk
 /// whenever 256 KiB have come together. A write error (disk full) stops the writing and is told by close.

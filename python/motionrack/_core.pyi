@@ -263,8 +263,8 @@ class Mcx314:
 
 
 class SpeedScale:
-    """How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt."""
-    def __init__(self, counts_per_pulse: float | None = None, counts_per_volt: float | None = None) -> None: ...
+    """How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt. `trim`: the table that came with the card, rows of V and rate as in the rack file; empty: the printed one."""
+    def __init__(self, counts_per_pulse: float | None = None, counts_per_volt: float | None = None, trim: str = '') -> None: ...
     def speed(self, rate: int) -> float:
         """Counts/s at a rate, 0 to 16383."""
     def rate_for(self, counts_s: float) -> int:

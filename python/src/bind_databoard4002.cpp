@@ -4,6 +4,7 @@
 
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
+#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <python/src/bindings.hpp>
 #include <python/src/turn.hpp>
 
@@ -151,20 +152,24 @@ py::dict motion_of(const db::SlopeTable& table, Wide distance, int rate, const d
 }
 
 void bind_slopes(py::module_& m) {
-    py::class_<db::SpeedScale>(
-        m, "SpeedScale", "How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt.")
-        .def(py::init([](std::optional<double> counts_per_pulse, std::optional<double> counts_per_volt) {
+    py::class_<db::SpeedScale>(m, "SpeedScale",
+                               "How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a "
+                               "volt. `trim`: the table that "
+                               "came with the card, rows of V and rate as in the rack file; empty: the printed one.")
+        .def(py::init([](std::optional<double> counts_per_pulse, std::optional<double> counts_per_volt,
+                         const std::string& trim) {
                  if (counts_per_pulse.has_value() == counts_per_volt.has_value())
                      refuse("A speed scale is counts_per_pulse or counts_per_volt, one of the two.");
                  const double value = counts_per_pulse ? *counts_per_pulse : *counts_per_volt;
                  if (!(value > 0 && value < 1e12))
                      refuse(fmt::format("A speed scale is {}; it is more than 0. Nothing was made.", value));
                  db::SpeedScale out;
+                 out.trim = value_of(db::trim_from_text(trim));
                  out.analog = counts_per_volt.has_value();
                  (out.analog ? out.counts_per_volt : out.counts_per_pulse) = value;
                  return out;
              }),
-             py::arg("counts_per_pulse") = py::none(), py::arg("counts_per_volt") = py::none())
+             py::arg("counts_per_pulse") = py::none(), py::arg("counts_per_volt") = py::none(), py::arg("trim") = "")
         .def(
             "speed",
             [](const db::SpeedScale& scale, int rate) {

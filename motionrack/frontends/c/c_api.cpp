@@ -18,6 +18,7 @@ constexpr const char* no_card = "The card's name is a null pointer. Nothing was 
 constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
 constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";
+constexpr const char* no_call = "There is no function to tell it to: it is a null pointer. Nothing was told.";
 constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
 constexpr const char* no_place = "There is no place for the rack: it is a null pointer. Nothing was done.";
 
@@ -61,6 +62,10 @@ void mr_rack_close(mr_rack* rack) {
 
 const char* mr_last_error(void) {
     return last_error().c_str();
+}
+
+const char* mr_version(void) {
+    return MOTIONRACK_VERSION;
 }
 
 int mr_advance_ns(mr_rack* rack, uint64_t ns) {
@@ -133,6 +138,21 @@ int mr_snapshot(mr_rack* rack, mr_rack** copy) {
         *copy = new mr_rack{rack->session->copy()};
         return {};
     });
+}
+
+int mr_conditions(mr_rack* rack, uint64_t since,
+                  void (*tell)(void* user, uint64_t number, int64_t at_100ps, const char* card, int code,
+                               const char* sentence),
+                  void* user) {
+    return guarded({{rack, no_rack}, {reinterpret_cast<const void*>(tell), no_call}}, [&]() -> Result<void> {
+        for (const Session::Told& one : rack->session->conditions(since))
+            tell(user, one.number, one.at.count(), one.device.c_str(), one.code, one.sentence.c_str());
+        return {};
+    });
+}
+
+int mr_trace_unit(mr_rack* rack, double ns) {
+    return guarded({{rack, no_rack}}, [&] { return rack->session->set_trace_unit(ns); });
 }
 
 int mr_trace_start(mr_rack* rack, const char* path, const char* signals) {

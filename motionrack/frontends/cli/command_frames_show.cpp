@@ -181,7 +181,6 @@ int show_frames(const ShowOptions& options) {
         rack::WaveSettings settings;
         settings.path = options.vcd;
         settings.signals = {"bus.*", "*.state", "*.frame_done"};
-        settings.timescale = Duration{10};
         settings.tap = tap.get();
         auto made = rack::WaveRecorder::create(rack, settings);
         if (!made) return report(made.error());

@@ -24,7 +24,7 @@ struct RunOptions {
     ReadingOptions reading;
     ResultFiles files;
     std::vector<std::string> signals, faults, orders;
-    double timescale_ns = 100;
+    double unit_ns = 0;  ///< 0: as fine as the signals ask for
     bool json = false, quiet = false, stream = false;
 };
 
@@ -122,7 +122,7 @@ int run(const RunOptions& options) {
         rack::WaveSettings& waves = watchers.waves.emplace();
         waves.path = options.vcd;
         waves.signals = options.signals;
-        waves.timescale = from_seconds(options.timescale_ns * 1e-9);
+        waves.unit = from_seconds(options.unit_ns * 1e-9);
     }
     auto job = rack::RecordedJob::create(request, watchers);
     if (!job) return report(job.error());
@@ -148,9 +148,10 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_option("--signals", options->signals,
                         "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
-    command
-        ->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")
-        ->capture_default_str();
+    command->add_option("--timescale-ns", options->unit_ns,
+                        "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns (default: the coarsest that shows every "
+                        "edge of the signals); sigrok-cli makes a sample of each, so let it read fine ones with "
+                        "-I vcd:downsample=N");
     command->add_option("--csv", options->files.csv, "write the samples (position, speed, deviation every ms) as CSV");
     command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
     command

@@ -76,6 +76,32 @@ TEST(Databoard4002InARack, ItsWiresAreVoltsAndLevelsAndAnEndStopHoldsTheMove) {
     EXPECT_EQ(*host.session->peek("c1", "POSITION"), there);
 }
 
+TEST(Databoard4002InARack, HasTheTrimTableThatCameWithIt) {
+    Host host("[card.c1]\ntype = \"databoard4002\"\ntrim = \"0.5 15000, 10 16383\"\n");
+    host.out(1, 13);
+    host.command('R', {15'000 & 0xFF, 15'000 >> 8});
+    host.command('N', {0x00, 0x00, 0x10});
+    host.command('G');
+    ASSERT_TRUE(host.session->advance(1'000'000));
+    EXPECT_EQ(*host.session->wire("c1.vout"), 0.5);
+    const RackReading wrong = read_rack_text("[card.c1]\ntype = \"databoard4002\"\ntrim = \"0.5 15000, 0.4 16383\"\n");
+    ASSERT_FALSE(wrong.config);
+    EXPECT_THAT(wrong.errors.front().text(), testing::AllOf(HasSubstr("3:"), HasSubstr("Row 2 of the trim table")));
+}
+
+TEST(Databoard4002InARack, QuitKeepsTheTargetWhereItsFileSaysSo) {
+    for (const bool zeroes : {true, false}) {
+        Host host(std::string("[card.c1]\ntype = \"databoard4002\"\n") + (zeroes ? "" : "quit_zeroes = false\n"));
+        host.out(1, 13);
+        host.command('R', {16'000 & 0xFF, 16'000 >> 8});
+        host.command('P', {0xE8, 0x03, 0x00});
+        host.command('Q');
+        host.command('G');
+        ASSERT_TRUE(host.session->advance(10'000'000'000));
+        EXPECT_EQ(*host.session->part("c1.position_counts"), zeroes ? 0 : 1000);
+    }
+}
+
 TEST(Databoard4002InARack, DrivenEncoderLinesCutTheIdealMotorOff) {
     Host host("card.c1 = \"databoard4002\"");
     constexpr double quarter[4][2] = {{1, 0}, {1, 1}, {0, 1}, {0, 0}};

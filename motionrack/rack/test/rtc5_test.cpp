@@ -145,7 +145,8 @@ TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {
     std::ifstream file(path);
     std::stringstream text;
     text << file.rdbuf();
-    for (const char* part : {"c1.xout", "c1.yout", "c1.laser_on", "1048536"}) EXPECT_THAT(text.str(), HasSubstr(part));
+    for (const char* part : {"c1.xout", "c1.yout", "c1.laser_on", "c1.xout,40\r", "c1.yout,-40\r"})
+        EXPECT_THAT(text.str(), HasSubstr(part));
     std::filesystem::remove(path);
 }
 

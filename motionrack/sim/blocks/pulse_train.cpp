@@ -19,10 +19,10 @@ Instant PulseTrain::pulse_instant(std::int64_t n) const {
 void PulseTrain::bring_to(Instant now) {
     const std::int64_t n = pulses(now);
     if (n == 0) return;
+    state_.falls = fall(n);
     state_.count += n * state_.direction;
     state_.origin = pulse_instant(n);
     state_.first = state_.then;
-    state_.pulse_at_origin = 1;
 }
 
 void PulseTrain::tell_rate(double before, Instant now) {
@@ -39,7 +39,7 @@ void PulseTrain::run(std::int64_t divisor, int direction, Instant now) {
     if (!running() || direction != state_.direction) {
         state_.origin = now;
         state_.first = divisor;
-        state_.pulse_at_origin = 0;
+        state_.falls = std::min(state_.falls, now + half(divisor));
     }
     state_.direction = direction;
     state_.then = divisor;
@@ -90,21 +90,19 @@ void PulseTrain::act(Instant now) {
 
 // ---- the line and its edges
 
+Instant PulseTrain::fall(std::int64_t n) const {
+    return n == 0 ? state_.falls : pulse_instant(n) + half(state_.then);
+}
+
 int PulseTrain::level(Instant now) const {
-    if (!running()) return 0;
-    const std::int64_t n = pulses(now);
-    if (n == 0 && !state_.pulse_at_origin) return 0;
-    const Instant since = n == 0 ? state_.origin : pulse_instant(n);
-    return 2 * (now - since) < clock_ * (n == 0 ? state_.first : state_.then);
+    return now < fall(pulses(now));
 }
 
 Instant PulseTrain::next_edge(Instant now) const {
-    if (!running()) return never;
     const std::int64_t n = pulses(now);
-    if (level(now) == 0) return pulse_instant(n + 1);
-    const Instant since = n == 0 ? state_.origin : pulse_instant(n);
-    const std::int64_t ticks = (clock_ * (n == 0 ? state_.first : state_.then)).count();
-    return since + Duration{(ticks + 1) / 2};
+    const Instant falls = fall(n);
+    if (now < falls) return falls;
+    return running() ? pulse_instant(n + 1) : never;
 }
 
 void PulseTrain::listen_edges(EdgeListener* listener) {

@@ -2,7 +2,10 @@
 //
 //   start      reload          a new divisor holds from the end of the running period on
 //   |<-first->|<-then->|<-then->|
-//   __________|~~~~|___|~~~~|___      a pulse at each period's end, high for half of the period after it
+//   __________|~~~~|___|~~~~|___      a pulse at each period's end, high for half of such a period
+//
+// A pulse that has begun is as long where the divider stops in it; where it starts again at once, at most until half of
+// the first period is over.
 //
 // Nothing is done for a pulse. The owner (a device) asks next(), calls act() then, and hands over edges at its sync.
 #pragma once
@@ -22,7 +25,8 @@ struct PulseTrainState {
     std::int64_t first = 0;  ///< length of the period that starts at origin, clocks; 0: no pulses
     std::int64_t then = 0;   ///< length of those after it
     std::int32_t direction = 1;
-    std::int32_t pulse_at_origin = 0;
+    std::int32_t reserved = 0;
+    Instant falls{};  ///< until here the line is high after the last pulse before or at the origin
     Listeners::Watches watches{};
 };
 
@@ -67,6 +71,9 @@ class PulseTrain final : public Motion {
     /// Pulses since origin.
     std::int64_t pulses(Instant t) const;
     Instant pulse_instant(std::int64_t n) const;  // n >= 1
+    /// Until when the line is high after the n-th pulse; 0: the one before the origin.
+    Instant fall(std::int64_t n) const;
+    Duration half(std::int64_t divisor) const { return Duration{((clock_ * divisor).count() + 1) / 2}; }
     void bring_to(Instant now);
     void tell_rate(double before, Instant now);
 

@@ -65,6 +65,8 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
     bool running = false;
     std::vector<Instant> edges, crossings;
     std::int64_t at = 0;
+    std::size_t rises = 0;
+    bool high = false;
     for (int step = 0; step < 12; ++step) {
         const auto divisor = *rc::gen::weightedOneOf<std::int64_t>(
             {{1, rc::gen::just<std::int64_t>(0)}, {4, rc::gen::inRange<std::int64_t>(1, 9)}});
@@ -72,11 +74,10 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
         divider.set(divisor, turn);
         if (divisor == 0) {
             running = false;
-            high_left = 0;
         } else if (!running || turn != direction) {
             running = true;
             left = divisor * 6;
-            high_left = 0;
+            high_left = std::min(high_left, divisor * 3);
             direction = turn;
         }
         reload = divisor * 6;
@@ -96,9 +97,12 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
             kernel.run_until(Instant{at});
             RC_ASSERT(divider.train.count(Instant{at}) == count);
             RC_ASSERT(divider.train.level(Instant{at}) == (high_left > 0));
+            rises += high_left > 0 && !high;
+            high = high_left > 0;
         }
     }
     RC_ASSERT(ear.edge_at == edges);
+    RC_ASSERT(rises == edges.size());
     RC_ASSERT(ear.crossings == crossings);
     RC_ASSERT(edges.empty() || ear.last == count);
 }
@@ -117,6 +121,22 @@ TEST(PulseTrain, TellsItsRateAndTheNextEdgeOfItsLine) {
     EXPECT_EQ(divider.train.next_edge(Instant{90}), Instant{120});
     divider.set(0, 1);
     EXPECT_EQ(ear.rate, 0);
+}
+
+TEST(PulseTrain, ThatStopsInAPulseEndsIt) {
+    Kernel kernel;
+    Divider divider(kernel);
+    kernel.start();
+    divider.set(10, 1);
+    kernel.run_until(Instant{60});
+    divider.set(0, 1);
+    EXPECT_EQ(divider.train.level(Instant{60}), 1) << "the pulse of the last period's end";
+    EXPECT_EQ(divider.train.next_edge(Instant{60}), Instant{90});
+    EXPECT_EQ(divider.train.next_edge(Instant{90}), never);
+    kernel.run_until(Instant{70});
+    divider.set(1, -1);
+    EXPECT_EQ(divider.train.next_edge(Instant{70}), Instant{73}) << "low before the next pulse rises";
+    EXPECT_EQ(divider.train.next_edge(Instant{73}), Instant{76});
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ inline constexpr CommandInfo commands[] = {
     {"O", 'O', 0, 0, 0, "", "", "on regulation: slope mode on, Rate to its maximum"},
     {"P", 'P', 3, least_24, greatest_24, "counts", "",
      "position; out: the absolute target of the next G; in: the present position", true, 3},
-    {"Q", 'Q', 0, 0, 0, "", "", "quit: stops; Rate and target stay"},
+    {"Q", 'Q', 0, 0, 0, "", "", "quit: stops; the position register is zeroed, Rate stays"},
     {"R", 'R', 2, 0, greatest_rate, "16384 - 400 kHz / f", "",
      "rate; out: the speed, at once, 0 switches the relay off; in: the present speed, negative backwards", true, 2},
     {"S", 'S', table_bytes, 0, 0, "", "", "slope: 48 intervals of rate (2 bytes) and position (3 bytes)"},

@@ -92,6 +92,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
             return open_answer(code, Collecting::either, signed24(counter(now)), 3);
         case command("Q"):
             f.move.on = f.lock = 0;
+            if (settings_.quit_zeroes) f.target = f.number = 0;
             return;
         case command("R"):
             return open_answer(code, Collecting::either, output_rate(), 2);

@@ -134,6 +134,7 @@ bool Card::gate_open() const {
 }
 
 void Card::put_out(Instant now) {
+    show_fout(now);  // a pulse of this very instant has the sign as it was
     const Firmware& f = state_.firmware;
     const int rate = f.out_rate, direction = f.move.direction;
     const bool driven = rate > 0 && gate_open();

@@ -20,6 +20,7 @@ struct Settings {
     Duration byte_time = microseconds(100);    ///< the firmware's time for an access, 2.5 us .. 100 ms
     std::uint8_t version = 0x20;               ///< what V answers
     bool zeroing = true;                       ///< enabling the zero or reference event arms the counter's zeroing
+    bool quit_zeroes = true;                   ///< Q zeroes what P and N have set
     Counting counting = Counting::quadrature;  ///< strap field
     sim::Edges folding = sim::Edges::all;      ///< method 2: 4, 2 or 1 counts for a period of the encoder
     std::int32_t first_pair = 0;  ///< method 2: the strap pair 0 A-B, 1 C-D, 2 E-F, 3 G-H; with folding 2: 0 or 1

@@ -16,6 +16,7 @@ Settings settings_of(const Strapping& s) {
     out.byte_time = slice_time * s.byte_slices;
     out.version = static_cast<std::uint8_t>(s.version);
     out.zeroing = s.zeroing;
+    out.quit_zeroes = s.quit_zeroes;
     out.counting = s.up_down ? Counting::up_down : Counting::quadrature;
     out.folding = static_cast<sim::Edges>(s.folding);
     out.first_pair = s.first_pair;

@@ -1,8 +1,10 @@
 // The card's map: what is declared is what the card does, and the reference page is made from it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <motionrack/base/describe.hpp>
+#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <motionrack/cards/databoard4002/test/host.hpp>
 #include <set>
 #include <sstream>
@@ -130,6 +132,46 @@ TEST(Databoard4002Settings, OutOfRangeAreRefusedWithTheNumberSeen) {
     s = {};
     s.trim.rows[3].rate = 1;
     EXPECT_FALSE(check(s));
+}
+
+/// As printed, row for row; its two misprints are read as their neighbours ask for.
+TEST(Databoard4002Trim, IsThePrintedOneUntilAnotherIsGiven) {
+    const Trim printed = *trim_from_text(
+        "0.01 13799, 0.025 14051, 0.05 14339, 0.075 14565, 0.1 14745, 0.15 15014, 0.2 15207, "
+        "0.25 15351, 0.3 15463, 0.35 15547, 0.4 15628, 0.5 15750, 0.75 15921, 1 16021, "
+        "1.5 16130, 2 16189, 2.5 16225, 3 16250, 3.5 16269, 4 16282, 4.5 16293, 5 16302, "
+        "5.5 16310, 6 16316, 6.5 16321, 7 16325, 7.5 16330, 8 16333, 8.5 16335, 9 16338, "
+        "9.5 16341, 10 16345");
+    const Trim by_default = *trim_from_text(" ");
+    ASSERT_EQ(printed.size, by_default.size);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(printed.size); ++i) {
+        EXPECT_EQ(printed.rows[i].microvolts, by_default.rows[i].microvolts) << i;
+        EXPECT_EQ(printed.rows[i].rate, by_default.rows[i].rate) << i;
+    }
+    const Trim own = *trim_from_text("0.5 15000,10 16383");
+    EXPECT_EQ(own.size, 2);
+    EXPECT_EQ(microvolts_of(16'383, own), 10'000'000);
+    EXPECT_EQ(microvolts_of(15'000, own), 500'000);
+}
+
+TEST(Databoard4002Trim, IsRefusedWithTheRowThatIsWrong) {
+    const auto refused = [](const char* text) {
+        const Result<Trim> trim = trim_from_text(text);
+        return trim ? std::string() : trim.error().message;
+    };
+    EXPECT_THAT(refused("0.01 13799, 0.025"),
+                testing::HasSubstr("Row 2 of the trim table, \" 0.025\", is not two numbers"));
+    EXPECT_THAT(refused("1 2 3"), testing::HasSubstr("is not two numbers"));
+    EXPECT_THAT(refused("1 100,"), testing::HasSubstr("Row 2"));
+    EXPECT_THAT(refused("11 100"), testing::HasSubstr("outside 0 to 10 V"));
+    EXPECT_THAT(refused("0 100"), testing::HasSubstr("outside 0 to 10 V"));
+    EXPECT_THAT(refused("nan 100"), testing::HasSubstr("outside 0 to 10 V"));
+    EXPECT_THAT(refused("1 16384"), testing::HasSubstr("outside 1 to 16383"));
+    EXPECT_THAT(refused("1 100, 1 200"), testing::HasSubstr("does not rise"));
+    EXPECT_THAT(refused("1 100, 2 100"), testing::HasSubstr("does not rise"));
+    std::string many;
+    for (int i = 1; i <= 65; ++i) many += (i > 1 ? "," : "") + std::to_string(0.1 * i) + " " + std::to_string(100 + i);
+    EXPECT_THAT(refused(many.c_str()), testing::HasSubstr("Row 65"));
 }
 
 }  // namespace

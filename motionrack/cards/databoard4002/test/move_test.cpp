@@ -137,8 +137,8 @@ TEST(Databoard4002Moves, ATableOfZerosIsReportedAndDoesNotMove) {
     EXPECT_FALSE(host.card.moving());
 }
 
-TEST(Databoard4002Moves, QuitStopsAndKeepsRateAndTarget) {
-    Host host;
+/// A move to 10,000 that is ended by Q near 1,000.
+void quit_on_the_way(Host& host) {
     host.start();
     host.command('R', 16'344, 2);
     host.command('P', 10'000, 3);
@@ -146,10 +146,29 @@ TEST(Databoard4002Moves, QuitStopsAndKeepsRateAndTarget) {
     host.run(milliseconds(100));
     host.command('Q');
     host.run(milliseconds(100));
-    const std::int64_t there = host.card.position();
-    EXPECT_GT(there, 900);
-    EXPECT_LT(there, 1'100);
-    EXPECT_EQ(host.level("relay"), 1);
+    EXPECT_GT(host.card.position(), 900);
+    EXPECT_LT(host.card.position(), 1'100);
+    EXPECT_EQ(host.level("relay"), 1) << "Rate stays";
+}
+
+TEST(Databoard4002Moves, QuitStopsZeroesThePositionRegisterAndKeepsRate) {
+    Host host;
+    quit_on_the_way(host);
+    host.command('G');
+    host.run(whole_seconds(1));
+    EXPECT_EQ(host.card.position(), 0) << "the register is zeroed: G goes to 0";
+    host.command('N', 50, 3);
+    host.command('Q');
+    host.command('G');
+    host.run(milliseconds(100));
+    EXPECT_EQ(host.card.position(), 0) << "so is the distance";
+}
+
+TEST(Databoard4002Moves, QuitKeepsTheTargetWhereItIsSetSo) {
+    Settings settings;
+    settings.quit_zeroes = false;
+    Host host(settings);
+    quit_on_the_way(host);
     host.command('G');
     host.run(whole_seconds(1));
     EXPECT_EQ(host.card.position(), 10'000);

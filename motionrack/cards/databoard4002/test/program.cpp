@@ -19,6 +19,7 @@ class Maker {
         s.pass_ticks = pick({1, 1, 1, 2, 7, 40});
         s.byte_slices = pick({5, 20, 20, 200});
         s.zeroing = !one_in(5);
+        s.quit_zeroes = !one_in(3);
         s.up_down = one_in(4);
         s.folding = pick({4, 4, 2, 1});
         s.first_pair = static_cast<int>(below(static_cast<std::uint64_t>(4 / s.folding)));

@@ -21,6 +21,7 @@ struct Strapping {
     std::int64_t byte_slices = 200;
     int version = 0x20;
     bool zeroing = true;
+    bool quit_zeroes = true;
     bool up_down = false;
     int folding = 4;
     int first_pair = 0;

@@ -145,8 +145,7 @@ void Twin::command(int code) {
             may_write_ = true;
             break;
         case 'O':
-            sloped_ = true;
-            rate_ = 16'383;
+            sloped_ = true, rate_ = 16'383;
             break;
         case 'P':
             tell(s24(counter_), 3);
@@ -154,6 +153,7 @@ void Twin::command(int code) {
             break;
         case 'Q':
             moving_ = lock_ = false;
+            if (s_.quit_zeroes) target_ = number_ = 0;
             break;
         case 'R':
             tell(rate_out_ * direction_, 2);

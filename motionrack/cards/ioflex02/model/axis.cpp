@@ -113,6 +113,14 @@ void advance(AxisState& axis, std::int64_t sample) {
     axis.done = std::max(axis.done, sample);
 }
 
+std::int64_t illegal_from(const AxisState& axis, std::int64_t none) {
+    const auto changes = [&](Line line) {
+        const LineState& l = axis.lines[line];
+        return l.raw != l.taken || l.sampled != l.taken;
+    };
+    return axis.begun != 0 && changes(a_line) && changes(b_line) ? next_of(axis, none) : none;
+}
+
 void command_axis(AxisState& axis, tIOFlexCmd command) {
     calibrate(axis, static_cast<CalEvent>(command));
 }

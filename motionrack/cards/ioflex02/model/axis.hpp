@@ -52,6 +52,8 @@ void begin_axis(AxisState& axis, std::uint16_t mode, std::int64_t done);
 void wire_changed(AxisState& axis, int line, bool level, std::int64_t sample);
 /// Works off the samples up to `sample`.
 void advance(AxisState& axis, std::int64_t sample);
+/// The first sample at which A and B may be taken together, `none` where they cannot as the wires are.
+std::int64_t illegal_from(const AxisState& axis, std::int64_t none);
 /// A calibration command, after the samples up to now.
 void command_axis(AxisState& axis, tIOFlexCmd command);
 /// The word LINES.

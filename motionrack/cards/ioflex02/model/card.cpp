@@ -86,8 +86,19 @@ void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
     kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
 }
 
-void Card::act(Instant) {
+void Card::act(Instant now) {
     begin();
+    catch_up(now, false);
+    await_illegal();
+}
+
+/// The present instant's sample is over a moment after it: until then a wire may still change for it. Nothing is
+/// reported at a sync, so that it does not matter how time is cut.
+void Card::await_illegal() {
+    if (!has_project()) return;
+    std::int64_t next = never.count();
+    for (const AxisState& axis : state_.axes) next = std::min(next, illegal_from(axis, next));
+    if (next != never.count()) kernel_.schedule(id_, Instant{next * sample_time.count() + 1});
 }
 
 void Card::sync(Instant now) {
@@ -100,10 +111,12 @@ void Card::on_wire(int pin, int level, Instant now) {
     catch_up(now, false);
     const auto number = static_cast<std::size_t>(pin);
     AxisState& axis = state_.axes[number % axis_count];
-    if (has_project())
-        wire_changed(axis, static_cast<int>(number / axis_count), level != 0, sample_from(now));
-    else
+    if (!has_project()) {
         axis.lines[number / axis_count].raw = level != 0;
+        return;
+    }
+    wire_changed(axis, static_cast<int>(number / axis_count), level != 0, sample_from(now));
+    await_illegal();
 }
 
 bool Card::has_project() const {

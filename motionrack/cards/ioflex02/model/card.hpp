@@ -60,6 +60,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     AxisState axis_of(int axis) const { return seen().axes[static_cast<std::size_t>(axis)]; }
     void catch_up(Instant now, bool access);
     void tell_illegal();
+    void await_illegal();
     void report(CardCondition code, std::int64_t a = 0, std::int64_t b = 0);
     void put_out(std::uint16_t levels);
     bool has_project() const;

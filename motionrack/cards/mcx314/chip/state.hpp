@@ -105,6 +105,8 @@ struct Walk {
 /// When a pulse came: at `tick`, or in closed form at tick - acc / speed.
 struct PulseMoment {
     std::int64_t tick = 0, acc = 0, speed = 0;
+
+    std::int64_t when() const { return tick - acc / speed; }
 };
 
 /// One speed generator.
@@ -127,10 +129,9 @@ struct Generator : Speed {
     std::int64_t at = 0;            ///< the tick up to which it has worked; behind State::tick while nothing happens
 };
 
-/// The last pulse on an axis' wires, as phases: it came at tick - acc / speed.
+/// The last pulse on an axis' wires, wherever time was cut since then.
 struct PulseMark {
-    std::int64_t tick = 0;
-    std::int64_t acc = 0;
+    std::int64_t tick = 0;   ///< when it came
     std::int32_t speed = 0;  ///< 0: it is over
     std::int32_t range = 0;  ///< Rnow after it
     std::int32_t direction = 0;
@@ -138,7 +139,7 @@ struct PulseMark {
 
     std::int64_t width() const { return std::max<std::int64_t>(1, range / speed / 2); }
     /// The tick at which it ends.
-    std::int64_t end() const { return tick - acc / speed + width(); }
+    std::int64_t end() const { return tick + width(); }
     bool active(std::int64_t at) const { return speed > 0 && at < end(); }
 };
 

@@ -235,12 +235,8 @@ void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
     const Generator& gen = state_.axis[a].gen;
     for_each_axis(moved_by(a), [&](int i) {
         Axis& axis = state_.axis[i];
-        axis.mark = {at.tick,
-                     at.acc,
-                     stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
-                     static_cast<std::int32_t>(gen.range_now),
-                     axis.direction,
-                     0};
+        axis.mark = {at.when(), stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
+                     static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
     });
 }
 

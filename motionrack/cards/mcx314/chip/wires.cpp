@@ -47,9 +47,8 @@ PulseMark Chip::mark_at(int a, std::int64_t to) const {
     const std::int64_t pulses = pulses_of(gen, phase_in(generator, ticks));
     if (pulses == 0) return axis.mark;
     const PulseMoment last = last_pulse(generator, pulses, ticks);
-    PulseMark mark{
-        last.tick,      last.acc, static_cast<std::int32_t>(last.speed), static_cast<std::int32_t>(gen.range_now),
-        axis.direction, 0};
+    PulseMark mark{last.when(), static_cast<std::int32_t>(last.speed), static_cast<std::int32_t>(gen.range_now),
+                   axis.direction, 0};
     if (!on_path) return mark;
     const auto after = path_steps(pulses), before = path_steps(pulses - 1);
     int stepped = 0;

@@ -200,6 +200,92 @@ TEST(CWorld, RecordsSignalsAtAnyTime) {
     std::filesystem::remove(vcd);
 }
 
+TEST(CWorld, RecordsInTheUnitOfTimeThatShowsEveryEdgeOrTheOneThatIsAskedFor) {
+    const std::string vcd = temporary("u.vcd");
+    World world;
+    const auto unit_of = [&](const char* signals) {
+        EXPECT_EQ(mr_trace_start(world, vcd.c_str(), signals), MR_OK) << mr_last_error();
+        world.pass(1'000);
+        EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+        const std::string text = text_of_file(vcd);
+        const std::size_t at = text.find("$timescale ");
+        return text.substr(at + 11, text.find(" $end", at) - at - 11);
+    };
+    EXPECT_EQ(unit_of("X.step"), "100 ns");
+    ASSERT_EQ(mr_trace_unit(world, 0.1), MR_OK) << mr_last_error();
+    EXPECT_EQ(unit_of("X.step"), "100 ps");
+    ASSERT_EQ(mr_trace_unit(world, 1'000), MR_OK) << mr_last_error();
+    EXPECT_EQ(unit_of("X.step"), "1 us");
+    for (const double wrong : {-1.0, 125.0, 0.05, 0.12, 1e300, nan_value})
+        EXPECT_EQ(mr_trace_unit(world, wrong), MR_REFUSED) << wrong;
+    EXPECT_EQ(unit_of("X.step"), "1 us") << "a refusal changes nothing";
+    ASSERT_EQ(mr_trace_unit(world, 0), MR_OK) << mr_last_error();
+    EXPECT_EQ(unit_of("X.step"), "100 ns");
+    std::filesystem::remove(vcd);
+}
+
+TEST(CWorld, RecordsNumbersAsRealsAndVoltagesInVolts) {
+    const std::string vcd = temporary("v.vcd"), csv = temporary("v.csv");
+    for (const std::string& path : {vcd, csv}) {
+        World world("card.c1 = \"databoard4002\"");
+        ASSERT_EQ(mr_trace_start(world, path.c_str(), "c1.vout c1.relay"), MR_OK) << mr_last_error();
+        for (const auto& [port, value] : {std::pair{1u, 13u},
+                                          {3u, 'R'},
+                                          {0u, 16'021 & 0xFFu},
+                                          {0u, 16'021u >> 8},
+                                          {3u, 'N'},
+                                          {0u, 0u},
+                                          {0u, 100u},
+                                          {0u, 0u},
+                                          {3u, 'G'}}) {
+            EXPECT_EQ(mr_write8(world, "c1", port, static_cast<std::uint8_t>(value)), MR_OK) << mr_last_error();
+            world.pass(200'000);
+        }
+        EXPECT_EQ(world.wire("c1.vout"), 1);
+        ASSERT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+    }
+    const std::string waves = text_of_file(vcd);
+    EXPECT_THAT(waves, HasSubstr("$var real 64 "));
+    EXPECT_THAT(waves, HasSubstr("\nr1 "));
+    EXPECT_EQ(count_of(waves, "\nb"), 0) << "sigrok stops at vectors";
+    EXPECT_EQ(count_of(text_of_file(csv), ",c1.vout,1\r\n"), 1);
+    std::filesystem::remove(vcd);
+    std::filesystem::remove(csv);
+}
+
+TEST(CWorld, TellsWhatHappenedWithItsInstant) {
+    struct Told {
+        std::uint64_t number;
+        std::int64_t at;
+        std::string card, sentence;
+    };
+    std::vector<Told> told;
+    const auto keep = [](void* user, uint64_t number, int64_t at, const char* card, int, const char* sentence) {
+        static_cast<std::vector<Told>*>(user)->push_back({number, at, card, sentence});
+    };
+    World world("card.p1 = \"ioflex02\"");
+    world.pass(10'000);
+    ASSERT_EQ(mr_conditions(world, 0, keep, &told), MR_OK) << mr_last_error();
+    EXPECT_TRUE(told.empty());
+    world.set("p1.a2", 1);
+    world.set("p1.b2", 1);
+    world.pass(10'000);
+    ASSERT_EQ(mr_conditions(world, 0, keep, &told), MR_OK) << mr_last_error();
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0].number, 1u);
+    EXPECT_NEAR(static_cast<double>(told[0].at), 10'000 * 10, 2'000) << "in 100 ps";
+    EXPECT_EQ(told[0].card, "p1");
+    EXPECT_THAT(told[0].sentence, HasSubstr("2"));
+    ASSERT_EQ(mr_conditions(world, 1, keep, &told), MR_OK);
+    EXPECT_EQ(told.size(), 1u) << "those after number 1";
+    EXPECT_EQ(mr_conditions(world, 0, nullptr, nullptr), MR_BAD_CALL);
+    EXPECT_EQ(mr_conditions(nullptr, 0, keep, &told), MR_BAD_CALL);
+}
+
+TEST(CWorld, HasAVersion) {
+    EXPECT_THAT(mr_version(), testing::MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+"));
+}
+
 TEST(CWorld, RecordingWiresAndPulsesLeavesTheMotionAlone) {
     const std::string csv = temporary("c.csv");
     World watched, alone;
