@@ -17,6 +17,7 @@
 #define MOTIONRACK_FLEX2POS_H
 
 #include <motionrack/c.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -24,6 +25,10 @@ extern "C" {
 #endif
 
 typedef struct flex2pos flex2pos;
+
+/* Version of the unit in BCD, 2.51, and as text with its date. */
+enum { cVerNo = 0x0251 };
+static const char cVer[] = "02.51, 07.08.2003";
 
 /* ---- The object ---- */
 
@@ -34,12 +39,22 @@ MR_API int flex2pos_open(mr_rack* rack, flex2pos** flex);
 /* NULL is allowed. */
 MR_API void flex2pos_close(flex2pos* flex);
 
-/* Outcomes of Init; the source names them, the numbers are chosen. */
+/* Outcomes of Init and Configure; the source names them, the numbers are chosen. */
 enum { Flex_Ok = 0, Flex_ErrCfg = 1, Flex_ErrDevice = 2, Flex_ErrProject = 3 };
 
-/* Looks for the card at the base address, loads its array with the image that is built in, checks the project. Takes
- * seconds of the rack's time. Gives the outcome, which Result keeps. */
+/* Looks for the card at the base address, loads its array and checks the project: with the image that the rack file
+ * gives the card, else with the one that is built in. Takes seconds of the rack's time. Gives the outcome, which Result
+ * keeps. */
 MR_API int flex2pos_Init(flex2pos* flex, uint16_t Addr);
+
+/* Init in two steps, for an image of one's own. First the base address alone, which is what the source's object
+ * tIOFlex02 does; Result is Flex_ErrDevice until Configure. MR_BAD_CALL (null). */
+MR_API int flex2pos_set_base_address(flex2pos* flex, uint16_t Addr);
+
+/* Then the rest, with this image, as flex2pos_image_make and motionrack image make write it; with a null pointer that
+ * of Init. Gives the outcome, which Result keeps: Flex_ErrCfg for an image that is cut short, damaged or none,
+ * Flex_ErrProject for one of another project or version. */
+MR_API int flex2pos_Configure(flex2pos* flex, const uint8_t* image, size_t size);
 
 /* The last outcome, and its sentence (empty for Flex_Ok), which is good until the next call with this object. */
 MR_API int flex2pos_Result(const flex2pos* flex);
@@ -68,7 +83,7 @@ MR_API void flex2pos_ReadTimeClrPosition(flex2pos* flex, int32_t* Time, int32_t 
 MR_API void flex2pos_WriteOutL(flex2pos* flex, uint8_t Data);
 MR_API void flex2pos_WriteOutH(flex2pos* flex, uint8_t Data);
 
-/* Low and high 8 inputs. */
+/* Low and high 8 of the 16 inputs: from bit 0 on A, B, Z and Cal of axes 0 and 1, and of axes 2 and 3. */
 MR_API uint8_t flex2pos_ReadInL(flex2pos* flex);
 MR_API uint8_t flex2pos_ReadInH(flex2pos* flex);
 
@@ -84,8 +99,29 @@ enum { sNotCal = 0, sCal = 1 };
 /* A command for each axis, together. Nothing is written if one of them is none of these. */
 MR_API void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3);
 
+/* Ours: a command for one axis 0 to 3; the others keep what they wait for. WriteCmd cannot do that: cNop ends what an
+ * axis waits for, and any other command begins it anew. Nothing is written if there is no such axis or command. */
+MR_API void flex2pos_WriteCmdAxis(flex2pos* flex, int axis, int Cmd);
+
 /* The statuses of the four axes. */
 MR_API void flex2pos_ReadSts(flex2pos* flex, int Sts[4]);
+
+/* ---- Configuration images ---- */
+
+/* How the axes count, the payload of an image of the project "position": a word MODE for each, its low byte first. The
+ * payload may go on after these 8 bytes, to 131,072; what follows is not looked at. */
+enum { flex2pos_payload = 8 };
+
+/* Makes an image: project of 1 to 16 characters (null: "position"), ident as GetIdent gives it (25h is the one that
+ * Init takes), payload (null: 8 zeros). *size is how many bytes there is room for, and then how many the image has;
+ * where the room is too small, or image is null, it is not written. MR_BAD_CALL (null size; no room), MR_REFUSED (name
+ * or payload out of range). */
+MR_API int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* payload, size_t payload_size,
+                               uint8_t* image, size_t* size);
+
+/* What Configure would come to with this image, without a card: Flex_Ok, Flex_ErrCfg or Flex_ErrProject; mr_last_error
+ * then has the sentence. */
+MR_API int flex2pos_image_check(const uint8_t* image, size_t size);
 
 #ifdef __cplusplus
 }

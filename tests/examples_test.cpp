@@ -105,22 +105,6 @@ TEST(Examples, TheStagePrintsAndDrawsWhatItsPageShows) {
     std::filesystem::remove(picture);
 }
 
-TEST(Examples, ThePascalUnitRunsItsSourcesExampleAndCalibratesFourAxes) {
-    const auto program = [](const char* name) {
-        return std::string("LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/") +
-               name + "/" + name + "'";
-    };
-    const Ran good = run(examples, program("init"));
-    EXPECT_EQ(good.code, 0);
-    EXPECT_EQ(good.out, "Result 0\n");
-    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=racks/single.toml " + program("init")).out,
-              "Chyba inicializace desky: 2Result 2\n")
-        << "a rack without the card";
-    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=no_such.toml " + program("init")).out,
-              "Chyba inicializace desky: 2Result 2\n");
-    EXPECT_EQ(run(examples, program("calibrate")).out, text_of(examples / "12_pascal" / "expected.txt"));
-}
-
 TEST(Examples, TheBuiltInExampleIsThePart) {
     const Ran built_in = run(examples, std::string(MOTIONRACK_PROGRAM) + " run --no-report");
     EXPECT_EQ(built_in.code, 0);
@@ -128,9 +112,28 @@ TEST(Examples, TheBuiltInExampleIsThePart) {
 }
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
-    for (const char* command :
-         {"run", "home", "check", "new", "describe", "trace", "canon", "plan", "sweep", "sweep-worker", "bench",
-          "completion", "manual", "registers", "mark", "calibrate scale", "calibrate rotary", "calibrate lag"}) {
+    for (const char* command : {"run",
+                                "home",
+                                "check",
+                                "new",
+                                "describe",
+                                "trace",
+                                "canon",
+                                "plan",
+                                "sweep",
+                                "sweep-worker",
+                                "bench",
+                                "completion",
+                                "manual",
+                                "registers",
+                                "mark",
+                                "calibrate scale",
+                                "calibrate rotary",
+                                "calibrate lag",
+                                "image",
+                                "image make",
+                                "image show",
+                                "image check"}) {
         const Ran help = run(examples, std::string(MOTIONRACK_PROGRAM) + " " + command + " --help");
         EXPECT_EQ(help.code, 0) << command;
         EXPECT_NE(help.out.find("Example: "), std::string::npos) << command;

@@ -16,6 +16,7 @@ struct PinInfo {
     PinDirection direction = PinDirection::input;
     bool active_low = false;
     std::string_view meaning;
+    std::string_view same_as = {};  ///< another pin of the card: this is a second name of its wire
 };
 
 constexpr Flaw pins_flaw(std::span<const PinInfo> pins) {

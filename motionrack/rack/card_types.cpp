@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/cards/grating_bus/map.hpp>
+#include <motionrack/cards/ioflex02/image.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/card_type_rows.hpp>
@@ -20,8 +21,10 @@ template <std::size_t n>
 constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
     std::array<PinType, n> out{};
     for (std::size_t i = 0; i < n; ++i)
-        out[i] = {pins[i].name, pins[i].direction == motionrack::PinDirection::input ? input : output, pins[i].meaning,
-                  pins[i].name.substr(0, 4) == "vout" ? 1e-6 : 0};
+        out[i] = {pins[i].name,    pins[i].direction == motionrack::PinDirection::input ? input : output,
+                  pins[i].meaning, pins[i].name.substr(0, 4) == "vout" ? 1e-6 : 0,
+                  PinKind::plain,  1,
+                  pins[i].same_as};
     return out;
 }
 
@@ -29,14 +32,18 @@ constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
 
 constexpr auto ioflex02_pins = own_pins<std::size(ioflex02::map::pins)>(ioflex02::map::pins);
 
-constexpr std::array<Field, 5> ioflex02_settings = {
+constexpr std::array<Field, 6> ioflex02_settings = {
     field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "",
                                            "where it answers on the host's bus: a multiple of 256"),
     field<&Ioflex02Settings::serial>("serial", 0, 65'535, "", "its serial number"),
     field<&Ioflex02Settings::configuration_ms>(
         "configuration_ms", 0, 60'000, "ms", "time from the last byte of a configuration image to the running project"),
-    field<&Ioflex02Settings::loaded>("loaded", 0, 0, "",
-                                     "the project \"position\" runs from the start; else the host loads it"),
+    field<&Ioflex02Settings::loaded>("loaded", 0, 0, "", "its project runs from the start; else the host loads it"),
+    absent_means(field<&Ioflex02Settings::image>(
+                     "image", 0, 2 * ioflex02::most_image_file, "",
+                     "its configuration image in hexadecimal digits, as `motionrack image show --hex` prints it: what "
+                     "runs from the start, and what Init of the function libraries loads"),
+                 "the one that is built in"),
     field<&Ioflex02Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
                                             "time that one access of the host takes"),
 };
@@ -49,12 +56,21 @@ void* ioflex02_of(RackCard& card) {
     return &card.ioflex02;
 }
 
+/// What its image says of itself, if it is one.
+Result<ioflex02::ImageInfo> ioflex02_image(const Ioflex02Settings& settings) {
+    MOTIONRACK_TRY(const auto file, ioflex02::bytes_of_hex(settings.image));
+    MOTIONRACK_TRY(const auto raw, ioflex02::unpacked(file));
+    return ioflex02::inspect(raw);
+}
+
 std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const RackCard> before) {
     for (const RackCard& other : before)
         if (other.type == card.type && other.ioflex02.serial == card.ioflex02.serial)
             return CardFlaw{"serial",
                             fmt::format("Cards {} and {} have both the serial number {}; every card has its own.",
                                         other.name, card.name, card.ioflex02.serial)};
+    if (!card.ioflex02.image.empty())
+        if (const auto raw = ioflex02_image(card.ioflex02); !raw) return CardFlaw{"image", raw.error().message};
     if (card.ioflex02.base_address % 256 == 0) return std::nullopt;
     return CardFlaw{"base_address",
                     fmt::format("base_address of card {} is {}; it is a multiple of 256, such as {}.", card.name,
@@ -190,10 +206,16 @@ std::vector<Pin> pins_of(const CardType& type) {
     std::vector<Pin> out;
     for (int channel = 0; channel < type.channel_count(); ++channel)
         for (const PinType& pin : type.channel_pins)
-            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts,
-                           pin.kind, pin.bits, pin.doc});
+            out.push_back({std::string(type.channel_name(channel)).append(pin.name),
+                           pin.direction,
+                           channel,
+                           pin.volts,
+                           pin.kind,
+                           pin.bits,
+                           pin.doc,
+                           {}});
     for (const PinType& pin : type.chip_pins)
-        out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits, pin.doc});
+        out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits, pin.doc, pin.same_as});
     return out;
 }
 

@@ -27,7 +27,8 @@ struct PinType {
     std::string_view doc;
     double volts = 0;  ///< of an analog pin: V for one unit of its wire's level; 0: a digital pin
     PinKind kind = PinKind::plain;
-    int bits = 1;  ///< of a wire that carries a whole number
+    int bits = 1;                   ///< of a wire that carries a whole number
+    std::string_view same_as = {};  ///< the pin whose wire this is under a second name
 };
 
 /// A wire that is there unless the rack file says otherwise: pin `pin` of the axis' channel, end `end` of the axis
@@ -112,6 +113,7 @@ struct Pin {
     PinKind kind;
     int bits;
     std::string_view doc;
+    std::string_view same_as;  ///< of the chip's own pins: see PinType
 };
 std::vector<Pin> pins_of(const CardType& type);
 /// Those that this card has; none if its type is unknown.

@@ -102,7 +102,8 @@ class WireResolver {
             return;
         }
         for (Pin& pin : pins_of(card)) {
-            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name},
+            const std::string wire = pin.same_as.empty() ? pin.name : std::string(pin.same_as);
+            known_[card.name + "." + pin.name] = {{EndOwner::card, index, wire},
                                                   pin.direction,
                                                   pin.volts > 0  ? voltage
                                                   : pin.bits > 1 ? number
@@ -169,16 +170,23 @@ class WireResolver {
         return nullptr;
     }
 
-    void read_wire(const std::string& name, const TomlNode& node) {
+    /// The first name of a pin that has two.
+    std::string first_name(const std::string& name, const KnownEnd* end) const {
+        return end != nullptr && end->end.owner == EndOwner::card ? config_.end_name(end->end) : name;
+    }
+
+    void read_wire(const std::string& given, const TomlNode& node) {
         if (node.type != TomlType::text) {
             error(node.value_place,
                   fmt::format("The wire {} is {}; write what drives it in quotes, such as \"X.home\", or \"open\".",
-                              in_quotes(name), type_name(node.type)));
+                              in_quotes(given), type_name(node.type)));
             return;
         }
-        const KnownEnd* left = find_end(name, node.key_place);
+        const KnownEnd* left = find_end(given, node.key_place);
+        const std::string name = first_name(given, left);
         if (left != nullptr && !named_.emplace(name, &node).second) {
-            error(node.key_place, fmt::format("{} is wired twice; an input has one wire.", name));
+            const std::string same = given != name ? fmt::format(", which {} is too,", given) : "";
+            error(node.key_place, fmt::format("{}{} is wired twice; an input has one wire.", name, same));
             return;
         }
         if (node.text == "open") {

@@ -1,5 +1,6 @@
 // The IOFLEX02 in a rack: all of a rack share one bus, on which each answers from its base address. It moves nothing;
 // its lines are wires.
+#include <motionrack/cards/ioflex02/image.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
 #include <motionrack/cards/ioflex02/model/card.hpp>
@@ -17,6 +18,7 @@ io::Settings settings_of(const Ioflex02Settings& s) {
     out.serial = static_cast<std::uint16_t>(s.serial);
     out.configuration_time = from_seconds(s.configuration_ms * 1e-3);
     out.loaded = s.loaded;
+    if (!s.image.empty()) out.image = *io::unpacked(*io::bytes_of_hex(s.image));
     return out;
 }
 
@@ -99,6 +101,13 @@ std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config,
     for (const auto& other : before)
         if (const auto* same = dynamic_cast<const Ioflex02Card*>(other.get())) bus = same->bus();
     return std::make_unique<Ioflex02Card>(kernel, config, log, std::move(bus));
+}
+
+std::vector<std::uint8_t> ioflex02_image_at(const RackConfig& config, std::uint32_t base_address) {
+    for (const RackCard& card : config.cards)
+        if (card.type == io::card_map().name && card.ioflex02.base_address == base_address)
+            return *io::bytes_of_hex(card.ioflex02.image);
+    return {};
 }
 
 io::Card* ioflex02_card_of(Rack& rack, std::string_view name) {

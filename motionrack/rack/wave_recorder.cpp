@@ -144,6 +144,14 @@ bool WaveRecorder::wanted(const std::string& name) const {
            std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& p) { return matches(p, name); });
 }
 
+const std::string* WaveRecorder::wanted_name(sim::WireId wire) const {
+    for (std::size_t i = 0;; ++i) {
+        const std::string& name = rack_.kernel().wire_name(wire, i);
+        if (name.empty()) return nullptr;
+        if (wanted(name)) return &name;
+    }
+}
+
 std::size_t WaveRecorder::add(WaveSignal signal) {
     signals_.push_back(std::move(signal));
     return signals_.size() - 1;
@@ -185,8 +193,9 @@ void WaveRecorder::choose_wires() {
     wire_signals_.assign(kernel.wire_count(), -1);
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
         const auto wire = static_cast<sim::WireId>(i);
-        const std::string& name = kernel.wire_name(wire);
-        if (!wanted(name)) continue;
+        const std::string* chosen = wanted_name(wire);
+        if (chosen == nullptr) continue;
+        const std::string& name = *chosen;
         if (kernel.lazy(wire)) {
             if (tap_ == nullptr || patterns_.empty()) continue;
             followed_.push_back(wire);

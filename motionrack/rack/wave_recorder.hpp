@@ -93,6 +93,8 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
 
     WaveRecorder(Rack& rack, const WaveSettings& settings);
     bool wanted(const std::string& name) const;
+    /// The first of its names that is wanted, or nullptr.
+    const std::string* wanted_name(sim::WireId wire) const;
     std::size_t add(WaveSignal signal);
     Duration coarsest_unit() const;
     void choose_axes();

@@ -18,9 +18,13 @@ DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
     return static_cast<DeviceId>(devices_.size() - 1);
 }
 
-WireId Kernel::add_wire(std::string name, int level, int bits) {
+WireId Kernel::add_wire(std::string name, int level, int bits, WireId same) {
     MOTIONRACK_ASSERT(!started_ && find_wire(name) == WireId::none);
-    wires_.push_back({std::move(name), {}, {}, -1, static_cast<std::int16_t>(bits)});
+    if (same != WireId::none) {
+        wires_[index(same)].also.push_back(std::move(name));
+        return same;
+    }
+    wires_.push_back({std::move(name), {}, {}, -1, static_cast<std::int16_t>(bits), {}});
     wire_state_.push_back({level, level, 0, 0});
     return static_cast<WireId>(wires_.size() - 1);
 }
@@ -179,9 +183,19 @@ void Kernel::release(WireId wire) {
     change(wire, lazy(wire) && !w.wants ? level(wire) : w.driven);
 }
 
+const std::string& Kernel::wire_name(WireId wire, std::size_t further) const {
+    static const std::string no_name;
+    const Wire& w = wires_[index(wire)];
+    if (further == 0) return w.name;
+    return further <= w.also.size() ? w.also[further - 1] : no_name;
+}
+
 WireId Kernel::find_wire(std::string_view name) const {
-    for (std::size_t i = 0; i < wires_.size(); ++i)
-        if (wires_[i].name == name) return static_cast<WireId>(i);
+    for (std::size_t i = 0; i < wires_.size(); ++i) {
+        const Wire& wire = wires_[i];
+        if (wire.name == name || std::find(wire.also.begin(), wire.also.end(), name) != wire.also.end())
+            return static_cast<WireId>(i);
+    }
     return WireId::none;
 }
 

@@ -54,8 +54,8 @@ class Kernel {
     // ---- building, before start()
     DeviceId add(Device& device, Phase phase, std::string name);
     /// A wire with its level at rest. Names are unique ("motion.xlmtp"). `bits`: how many a recording shows of the
-    /// level; 1: whether it is 0.
-    WireId add_wire(std::string name, int level, int bits = 1);
+    /// level; 1: whether it is 0. `same`: no new wire, but a further name of this one.
+    WireId add_wire(std::string name, int level, int bits = 1, WireId same = WireId::none);
     /// `device` is told (on_wire with `pin`) of every change, while it wants it (see want).
     void listen(WireId wire, DeviceId device, int pin);
     /// The wire's level is asked of `device` (level_at with `pin`) while nobody wants its changes.
@@ -93,7 +93,8 @@ class Kernel {
     void settle();
 
     WireId find_wire(std::string_view name) const;  ///< WireId::none if there is none
-    const std::string& wire_name(WireId wire) const { return wires_[index(wire)].name; }
+    /// Its first name, or a further one; empty if it has not so many.
+    const std::string& wire_name(WireId wire, std::size_t further = 0) const;
     int wire_bits(WireId wire) const { return wires_[index(wire)].bits; }
     std::size_t wire_count() const { return wires_.size(); }
     const std::string& device_name(DeviceId device) const { return devices_[index(device)].name; }
@@ -143,6 +144,7 @@ class Kernel {
         DeviceId lazy_owner{};
         std::int16_t lazy_pin = -1;
         std::int16_t bits = 1;
+        std::vector<std::string> also;
     };
     struct WireState {
         std::int32_t level = 0;

@@ -359,13 +359,14 @@ class SpeedMeter:
 class Ioflex02:
     """The IOFLEX02's unit uFlex2Pos under its source's names, and one layer up. Before Init has succeeded every read gives 0."""
     def __init__(self, world: World, card: str) -> None: ...
+    cVerNo: int
     cVer: str
     cNop: int
     cRes: int
     cResNm: int
     cResNmSig: int
     def Init(self, Addr: int) -> int:
-        """Sets the base address, looks whether one card answers there, and loads the array; takes seconds of the rack's time. 0 if all is well, else see why."""
+        """Sets the base address, looks whether one card answers there, and loads the array with the image that the rack file gives the card, or else the one that is built in; takes seconds of the rack's time. 0 if all is well, else see why."""
     @property
     def Result(self) -> int:
         """0 ok, 1 configuration failed, 2 no card or two, 3 another project."""
@@ -390,6 +391,8 @@ class Ioflex02:
         """Time (1.2 us, cleared) and the four positions (counts) of one instant."""
     def WriteCmd(self, Cmd0: int, Cmd1: int, Cmd2: int, Cmd3: int) -> None:
         """A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig."""
+    def WriteCmdAxis(self, axis: int, Cmd: int) -> None:
+        """A command for one axis 0 to 3; the others keep what they wait for, which WriteCmd would end or begin anew."""
     def ReadSts(self) -> tuple[bool, bool, bool, bool]:
         """Whether each axis is calibrated (sCal)."""
     def WriteOutL(self, Data: int) -> None:
@@ -397,9 +400,9 @@ class Ioflex02:
     def WriteOutH(self, Data: int) -> None:
         """High 8 outputs of X5."""
     def ReadInL(self) -> int:
-        """Low 8 inputs."""
+        """Low 8 of the 16 inputs: from bit 0 on A, B, Z, Cal of axes 0 and 1."""
     def ReadInH(self) -> int:
-        """High 8 inputs."""
+        """High 8 of the 16 inputs: A, B, Z, Cal of axes 2 and 3."""
     def read(self) -> tuple[int, list[dict[str, Any]]]:
         """Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down."""
     def set_mode(self, axis: int, reversed: bool = False, edges: int = 4, index_low: bool = False, filter: int = 0) -> None:
@@ -410,6 +413,14 @@ class Ioflex02:
         """Clears the counters of errors."""
     def reset(self) -> None:
         """Positions and the card's time begin at 0."""
+    def Configure(self, image: bytes, Addr: int | None = None) -> int:
+        """Loads the array with an image of one's own (bytes, as make_image or motionrack image make give them), at a base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or version."""
+    @staticmethod
+    def make_image(project: str = 'position', ident: int = 37, modes: Sequence[int] = [0, 0, 0, 0], bits: bytes = b'') -> bytes:
+        """A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes that the array keeps and does not look at."""
+    @staticmethod
+    def image_info(image: bytes) -> dict[str, Any]:
+        """What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it (fits). BadInput for one that the card would refuse."""
 
 
 class GratingCard:

@@ -4,6 +4,7 @@
 
 #include <motionrack/cards/ioflex02/driver/flex2pos.hpp>
 #include <motionrack/cards/ioflex02/driver/speed.hpp>
+#include <motionrack/rack/ioflex02_card.hpp>
 #include <python/src/bindings.hpp>
 #include <python/src/turn.hpp>
 
@@ -28,18 +29,27 @@ io::tIOFlexCmd command_of(int number) {
     return static_cast<io::tIOFlexCmd>(number);
 }
 
+std::vector<std::uint8_t> bytes_of(const py::bytes& bytes) {
+    const std::string_view view = bytes;
+    return {view.begin(), view.end()};
+}
+
 void bind_source(FlexClass& c) {
     c.def(
         "Init",
         [](Flex& self, int address) {
             if (address < 0 || address > 0xFFFF)
                 refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", address));
-            return alone(*self.world,
-                         [&] { return self.driver->Init(static_cast<std::uint16_t>(address)), self.driver->Result; });
+            return alone(*self.world, [&] {
+                self.driver->use_image(
+                    rack::ioflex02_image_at(self.world->config(), static_cast<std::uint32_t>(address)));
+                return self.driver->Init(static_cast<std::uint16_t>(address)), self.driver->Result;
+            });
         },
         py::arg("Addr"),
-        "Sets the base address, looks whether one card answers there, and loads the array; takes seconds of the rack's "
-        "time. 0 if all is well, else see why.");
+        "Sets the base address, looks whether one card answers there, and loads the array with the image that the rack "
+        "file gives the card, or else the one that is built in; takes seconds of the rack's time. 0 if all is well, "
+        "else see why.");
     c.def_property_readonly(
         "Result", [](const Flex& self) { return self.driver->Result; },
         "0 ok, 1 configuration failed, 2 no card or two, 3 another project.");
@@ -64,6 +74,9 @@ void bind_source(FlexClass& c) {
             return std::tuple(time, at[0], at[1], at[2], at[3]);
         },
         "Time (1.2 us, cleared) and the four positions (counts) of one instant.");
+}
+
+void bind_calibration(FlexClass& c) {
     c.def(
         "WriteCmd",
         [](Flex& self, int a, int b, int d, int e) {
@@ -73,6 +86,14 @@ void bind_source(FlexClass& c) {
         py::arg("Cmd0"), py::arg("Cmd1"), py::arg("Cmd2"), py::arg("Cmd3"),
         "A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig.");
     c.def(
+        "WriteCmdAxis",
+        [](Flex& self, int axis, int command) {
+            const io::tIOFlexCmd cmd = command_of(command);
+            alone(*self.world, [&] { self.driver->WriteCmdAxis(axis_in_range(axis), cmd); });
+        },
+        py::arg("axis"), py::arg("Cmd"),
+        "A command for one axis 0 to 3; the others keep what they wait for, which WriteCmd would end or begin anew.");
+    c.def(
         "ReadSts",
         [](Flex& self) {
             const auto all = alone(*self.world, [&] { return self.driver->statuses(); });
@@ -80,10 +101,14 @@ void bind_source(FlexClass& c) {
             return std::tuple(calibrated(0), calibrated(1), calibrated(2), calibrated(3));
         },
         "Whether each axis is calibrated (sCal).");
+}
+
+void bind_inputs_and_outputs(FlexClass& c) {
     c.def("WriteOutL", call<Flex2Pos>(&Flex2Pos::WriteOutL), py::arg("Data"), "Low 8 outputs of X5.");
     c.def("WriteOutH", call<Flex2Pos>(&Flex2Pos::WriteOutH), py::arg("Data"), "High 8 outputs of X5.");
-    c.def("ReadInL", call<Flex2Pos>(&Flex2Pos::ReadInL), "Low 8 inputs.");
-    c.def("ReadInH", call<Flex2Pos>(&Flex2Pos::ReadInH), "High 8 inputs.");
+    c.def("ReadInL", call<Flex2Pos>(&Flex2Pos::ReadInL),
+          "Low 8 of the 16 inputs: from bit 0 on A, B, Z, Cal of axes 0 and 1.");
+    c.def("ReadInH", call<Flex2Pos>(&Flex2Pos::ReadInH), "High 8 of the 16 inputs: A, B, Z, Cal of axes 2 and 3.");
 }
 
 void bind_layer(FlexClass& c) {
@@ -127,6 +152,63 @@ void bind_layer(FlexClass& c) {
     c.def("reset", call<Flex2Pos>(&Flex2Pos::reset), "Positions and the card's time begin at 0.");
 }
 
+// ---- images
+
+py::bytes make_image(const std::string& project, int ident, const std::array<int, 4>& modes, const py::bytes& bits) {
+    if (ident < 0 || ident > 255) refuse(fmt::format("The version is {}; it is 0 to 255. No image was made.", ident));
+    io::ImageContent content;
+    content.project = project;
+    content.ident = static_cast<std::uint8_t>(ident);
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        if (modes[i] < 0 || modes[i] > 0xFF)
+            refuse(fmt::format("The mode of axis {} is {}; it is 0 to 255. No image was made.", i, modes[i]));
+        content.payload[2 * i] = static_cast<std::uint8_t>(modes[i]);
+    }
+    const std::vector<std::uint8_t> more = bytes_of(bits);
+    content.payload.insert(content.payload.end(), more.begin(), more.end());
+    const std::vector<std::uint8_t> image = io::compressed(value_of(io::raw_image(content)));
+    return {reinterpret_cast<const char*>(image.data()), image.size()};
+}
+
+py::dict image_info(const py::bytes& image) {
+    const io::ImageInfo info = value_of(io::inspect(value_of(io::unpacked(bytes_of(image)))));
+    py::dict out;
+    out["project"] = py::bytes(info.project).attr("decode")("latin-1");
+    out["ident"] = info.ident;
+    out["payload"] = info.payload;
+    out["modes"] = info.position() ? py::cast(info.modes) : py::none();
+    out["fits"] = io::check_project(info).has_value();
+    return out;
+}
+
+void bind_images(FlexClass& c) {
+    c.def(
+        "Configure",
+        [](Flex& self, const py::bytes& image, std::optional<int> address) {
+            const std::vector<std::uint8_t> file = bytes_of(image);
+            const int base = address.value_or(self.driver->base_address());
+            if (base < 0 || base > 0xFFFF)
+                refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", base));
+            return alone(*self.world, [&] {
+                if (address) self.driver->Flex02::Init(static_cast<std::uint16_t>(base));
+                self.driver->Configure(file);
+                return self.driver->Result;
+            });
+        },
+        py::arg("image"), py::arg("Addr") = py::none(),
+        "Loads the array with an image of one's own (bytes, as make_image or motionrack image make give them), at a "
+        "base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or "
+        "version.");
+    c.def_static("make_image", &make_image, py::arg("project") = std::string(io::position_project),
+                 py::arg("ident") = static_cast<int>(io::position_ident), py::arg("modes") = std::array<int, 4>{},
+                 py::arg("bits") = py::bytes(""),
+                 "A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes "
+                 "that the array keeps and does not look at.");
+    c.def_static("image_info", &image_info, py::arg("image"),
+                 "What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it "
+                 "(fits). BadInput for one that the card would refuse.");
+}
+
 std::optional<std::pair<double, double>> estimate(const io::SpeedEstimate& it) {
     if (!it.known) return {};
     return std::pair(it.counts_s, it.error);
@@ -163,13 +245,17 @@ void bind_ioflex02(py::module_& m) {
               return Flex{world, std::make_unique<Flex2Pos>(port, port)};
           }),
           py::arg("world"), py::arg("card"));
+    c.attr("cVerNo") = io::cVerNo;
     c.attr("cVer") = io::cVer;
     c.attr("cNop") = static_cast<int>(io::cNop);
     c.attr("cRes") = static_cast<int>(io::cRes);
     c.attr("cResNm") = static_cast<int>(io::cResNm);
     c.attr("cResNmSig") = static_cast<int>(io::cResNmSig);
     bind_source(c);
+    bind_calibration(c);
+    bind_inputs_and_outputs(c);
     bind_layer(c);
+    bind_images(c);
 }
 
 }  // namespace motionrack::python

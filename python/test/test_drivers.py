@@ -159,6 +159,63 @@ class Ioflex(unittest.TestCase):
         flex.WriteCmd(flex.cResNm, 0, 0, 0)
         with self.assertRaises(Timeout):
             flex.wait_calibrated(0, timeout=0.1)
+        flex.WriteCmdAxis(2, flex.cResNmSig)
+        self.assertEqual(flex.ReadSts(), (False, True, False, True))
+        with self.assertRaises(Refused):
+            flex.WriteCmdAxis(4, 0)
+        with self.assertRaises(Refused):
+            flex.WriteCmdAxis(0, 4)
+        self.assertEqual((flex.cVerNo, flex.cVer), (0x0251, "02.51, 07.08.2003"))
+
+    def test_the_sixteen_inputs_are_the_lines_of_the_four_axes(self) -> None:
+        rack = Rack.from_text('card.p1 = "ioflex02"')
+        flex: motionrack.Ioflex02 = rack.cards["p1"].driver
+        self.assertEqual(flex.Init(0x2300), 0, flex.why)
+        lines = [f"p1.{line}{axis}" for axis in range(4) for line in ("a", "b", "z", "cal")]
+        for number, line in enumerate(lines):
+            rack.wires[line] = 1
+            self.assertEqual(flex.ReadInL() | flex.ReadInH() << 8, 1 << number, line)
+            self.assertEqual(rack.wires[f"p1.in{number}"], 1, line)
+            rack.wires[f"p1.in{number}"] = 0
+
+    def test_an_image_of_ones_own_is_made_looked_at_and_loaded(self) -> None:
+        make = motionrack.Ioflex02.make_image
+        image = make(modes=[1, 0, 0, 0], bits=b"more")
+        info = motionrack.Ioflex02.image_info(image)
+        self.assertEqual((info["project"], info["ident"], info["payload"]), ("position", 0x25, 12))
+        self.assertEqual((info["modes"], info["fits"]), ([1, 0, 0, 0], True))
+        rack = Rack.from_text('[card.p1]\ntype = "ioflex02"\nloaded = false\n')
+        flex: motionrack.Ioflex02 = rack.cards["p1"].driver
+        self.assertEqual(flex.Configure(image, 0x2300), 0, flex.why)
+        rack.advance(us=2)
+        rack.wires["p1.a0"] = 1
+        rack.advance(us=2)
+        self.assertEqual(flex.ReadPosition0(), -1)
+        self.assertEqual(flex.Configure(image[:-1]), 1)
+        self.assertEqual(flex.Configure(make(ident=0x24)), 3)
+        other = make(project="stepper")
+        self.assertEqual(flex.Configure(other), 3)
+        self.assertIn("another project", flex.why)
+        self.assertFalse(motionrack.Ioflex02.image_info(other)["fits"])
+        with self.assertRaises(Refused):
+            make(project="a name that is too long")
+        with self.assertRaises(Refused):
+            make(ident=256)
+        with self.assertRaises(motionrack.BadInput):
+            motionrack.Ioflex02.image_info(b"hello")
+
+    def test_the_image_of_a_rack_file_runs_from_the_start_and_is_what_init_loads(self) -> None:
+        text = '[card.p1]\ntype = "ioflex02"\nimage = "{}"\n'
+        rack = Rack.from_text(text.format(motionrack.Ioflex02.make_image(modes=[0, 1, 0, 0]).hex()))
+        rack.advance(us=2)
+        rack.wires["p1.a1"] = 1
+        rack.advance(us=2)
+        self.assertEqual(rack.peek("p1.1.POSITION"), -1)
+        old = Rack.from_text(text.format(motionrack.Ioflex02.make_image(ident=0x24).hex()))
+        self.assertEqual(old.cards["p1"].driver.Init(0x2300), 3)
+        with self.assertRaises(motionrack.BadInput) as raised:
+            Rack.from_text(text.format("78zz"))
+        self.assertIn("hexadecimal", str(raised.exception))
 
 
 class Grating(unittest.TestCase):

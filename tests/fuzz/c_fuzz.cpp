@@ -270,6 +270,20 @@ class Caller {
         records_ = records_ || code == MR_OK;
         return code;
     }
+    /// Made, perhaps damaged, checked and loaded.
+    void use_image(flex2pos* flex) {
+        std::array<std::uint8_t, 100> image{};
+        std::size_t size = below(4) == 0 ? below(40) : image.size();
+        const char* project = below(4) == 0 ? "stepper" : nullptr;
+        const int code = flex2pos_image_make(project, static_cast<std::uint8_t>(below(3) == 0 ? bytes_.word() : 0x25),
+                                             nullptr, 0, or_null(image.data()), or_null(&size));
+        if (code != MR_OK) size = below(image.size());
+        if (below(3) == 0) image[below(image.size())] ^= static_cast<std::uint8_t>(bytes_.word());
+        const std::uint8_t* const given = or_null(image.data());
+        const int expected = flex2pos_image_check(given, size), outcome = flex2pos_Configure(flex, given, size);
+        require(given == nullptr || outcome == expected || outcome == Flex_ErrDevice,
+                "a check of an image says what Configure comes to");
+    }
     int use_flex2pos(mr_rack* on) {
         if (flex_ == nullptr) {
             looks_ = true;
@@ -279,7 +293,7 @@ class Caller {
         const auto number = [&] { return static_cast<int>(below(8)) - 2; };
         std::int32_t time = 0, at[4] = {};
         int states[4] = {};
-        switch (below(8)) {
+        switch (below(11)) {
             case 0:
                 flex2pos_Init(flex, static_cast<std::uint16_t>(below(4) == 0 ? bytes_.word() : 0x2300));
                 break;
@@ -304,6 +318,17 @@ class Caller {
                 break;
             case 6:
                 flex2pos_ReadInH(flex);
+                break;
+            case 8: {
+                const int axis = number();
+                flex2pos_WriteCmdAxis(flex, axis, number());
+                break;
+            }
+            case 9:
+                use_image(flex);
+                break;
+            case 10:
+                flex2pos_set_base_address(flex, static_cast<std::uint16_t>(below(4) == 0 ? bytes_.word() : 0x2300));
                 break;
             default:
                 flex2pos_GetIdent(flex);

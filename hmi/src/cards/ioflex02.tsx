@@ -26,7 +26,7 @@ function Axis({ card, answer, axis }: { card: CardInfo; answer: CardAnswer | nul
         card: card.name,
         bits: 16,
         address: card.bus.base + command.offset,
-        value: code << (2 * axis),
+        value: (code << (2 * axis)) | (0xf00 & ~(0x100 << axis)), // KEEP: the other axes take no command
       });
   };
   return (

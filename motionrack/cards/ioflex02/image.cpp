@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <charconv>
 #include <motionrack/cards/ioflex02/image.hpp>
 
 namespace motionrack::ioflex02 {
@@ -31,6 +32,11 @@ bool ImageHeader::named(std::string_view project) const {
     for (std::size_t i = 0; i < most_name; ++i)
         if (bytes[name_at + i] != (i < project.size() ? static_cast<std::uint8_t>(project[i]) : 0)) return false;
     return true;
+}
+
+std::string ImageHeader::name() const {
+    const auto first = bytes.begin() + name_at;
+    return {first, std::find(first, first + most_name, std::uint8_t{0})};
 }
 
 std::uint8_t ImageHeader::ident() const {
@@ -104,6 +110,67 @@ Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
                         "make or copy it anew.",
                         file.size(), used));
     out.resize(size);
+    return out;
+}
+
+Result<ImageInfo> inspect(std::span<const std::uint8_t> raw) {
+    const auto refused = [](const std::string& why) {
+        return fail(Trouble::bad_input, why + ". The card would refuse the image; make it anew.");
+    };
+    ImageHeader header;
+    if (raw.size() < image_magic.size() || !std::equal(image_magic.begin(), image_magic.end(), raw.begin()))
+        return refused("It is no image of this card: it does not begin with \"IOFLEX02\"");
+    if (raw.size() < image_header)
+        return refused(fmt::format("Its header is cut short: {} of {} bytes are there", raw.size(), image_header));
+    std::copy_n(raw.begin(), image_header, header.bytes.begin());
+    if (header.length() < least_payload || header.length() > most_payload)
+        return refused(fmt::format("The length in its header is {} bytes, but a payload has {} to {}", header.length(),
+                                   least_payload, most_payload));
+    const std::span<const std::uint8_t> payload = raw.subspan(image_header);
+    if (payload.size() != header.length())
+        return refused(
+            fmt::format("Its payload has {} bytes, but the header says {}", payload.size(), header.length()));
+    const std::uint32_t crc = crc32_of(crc32_of(0, raw.data(), crc_at), payload.data(), payload.size());
+    if (crc != header.crc())
+        return refused(fmt::format("Its CRC-32 is {:08X}h, but the header says {:08X}h", crc, header.crc()));
+    ImageInfo out{header.name(), header.ident(), header.length(), crc, {}};
+    for (std::size_t i = 0; i < axis_count && out.position(); ++i)
+        out.modes[i] = static_cast<std::uint16_t>(payload[2 * i] | payload[2 * i + 1] << 8) & mode::all;
+    return out;
+}
+
+Result<void> check_project(const ImageInfo& info) {
+    if (!info.position())
+        return fail(Trouble::bad_input,
+                    fmt::format("The image is of the project \"{}\" (ident {:02X}h), but the unit works with \"{}\". "
+                                "Init would give Flex_ErrProject.",
+                                info.project, info.ident, position_project));
+    if (info.ident != position_ident)
+        return fail(Trouble::bad_input,
+                    fmt::format("The image has version {:02X}h of the project, but the unit needs {:02X}h. Init would "
+                                "give Flex_ErrProject.",
+                                info.ident, position_ident));
+    return {};
+}
+
+std::string hex_text(std::span<const std::uint8_t> bytes) {
+    return fmt::format("{:02x}", fmt::join(bytes, ""));
+}
+
+Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text) {
+    std::vector<std::uint8_t> out;
+    out.reserve(text.size() / 2);
+    for (std::size_t i = 0; i < text.size(); i += 2) {
+        std::uint8_t byte = 0;
+        const std::string_view two = text.substr(i, 2);
+        const auto [end, error] = std::from_chars(two.data(), two.data() + two.size(), byte, 16);
+        if (error != std::errc{} || end != two.data() + 2)
+            return fail(Trouble::bad_input,
+                        fmt::format("Digits {} and {} of the image are no hexadecimal number of two digits. The image "
+                                    "was not used; copy it anew.",
+                                    i + 1, i + 2));
+        out.push_back(byte);
+    }
     return out;
 }
 

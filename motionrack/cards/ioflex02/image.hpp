@@ -44,6 +44,27 @@ std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw);
 /// image.
 Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file);
 
+/// What an image says of itself.
+struct ImageInfo {
+    std::string project;  ///< without the zeros that fill it up
+    std::uint8_t ident = 0;
+    std::uint32_t payload = 0;  ///< bytes
+    std::uint32_t crc = 0;
+    std::array<std::uint16_t, axis_count> modes{};  ///< words MODE of the axes, where the project is "position"
+    bool position() const { return project == position_project; }
+};
+/// Of an image that is not compressed. Errors: bad_input, with what the card would refuse it for.
+Result<ImageInfo> inspect(std::span<const std::uint8_t> raw);
+
+/// Whether it is one that Flex2Pos works with. Errors: bad_input (another project or version: Flex_ErrProject).
+Result<void> check_project(const ImageInfo& info);
+
+/// Bytes as a rack file has them: two hexadecimal digits each.
+std::string hex_text(std::span<const std::uint8_t> bytes);
+/// The reverse. Errors: bad_input.
+Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text);
+inline constexpr std::size_t most_image_file = 132'000;  ///< bytes of a compressed image, with room to spare
+
 /// The image that is built into the library: project "position", its axes counting as `modes` say (words MODE).
 /// Compressed.
 std::vector<std::uint8_t> position_image(const std::array<std::uint16_t, axis_count>& modes = {});
@@ -56,6 +77,7 @@ struct ImageHeader {
     std::array<std::uint8_t, image_header> bytes{};
     bool ours() const;
     bool named(std::string_view project) const;
+    std::string name() const;
     std::uint8_t ident() const;
     std::uint32_t length() const;
     std::uint32_t crc() const;

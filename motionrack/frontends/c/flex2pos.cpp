@@ -6,6 +6,8 @@
 #include <array>
 #include <motionrack/cards/ioflex02/driver/flex2pos.hpp>
 #include <motionrack/frontends/c/calls.hpp>
+#include <motionrack/rack/ioflex02_card.hpp>
+#include <vector>
 
 namespace io = motionrack::ioflex02;
 using namespace motionrack::c;
@@ -15,8 +17,13 @@ static_assert(int{Flex_Ok} == int{io::Flex_Ok} && int{Flex_ErrCfg} == int{io::Fl
 static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io::cRes) &&
               cResNm == static_cast<int>(io::cResNm) && cResNmSig == static_cast<int>(io::cResNmSig));
 
+static_assert(cVerNo == int{io::cVerNo} && sizeof cVer == sizeof io::cVer);
+static_assert(flex2pos_payload == io::least_payload);
+
 struct flex2pos {
-    explicit flex2pos(motionrack::sim::VirtualPort& port) : library(port, port) {}
+    flex2pos(const motionrack::rack::RackConfig& config_of, motionrack::sim::VirtualPort& port)
+        : config(config_of), library(port, port) {}
+    const motionrack::rack::RackConfig& config;  ///< of the rack, which lives longer
     io::Flex2Pos library;
 };
 
@@ -50,7 +57,7 @@ int flex2pos_open(mr_rack* rack, flex2pos** flex) {
         [&]() -> motionrack::Result<void> {
             for (const auto& card : rack->session->rack().cards()) {
                 if (card->map().name != io::card_map().name) continue;
-                *flex = new flex2pos(*card->port());
+                *flex = new flex2pos(rack->session->rack().config(), *card->port());
                 return {};
             }
             return motionrack::fail(motionrack::Trouble::bad_input,
@@ -64,7 +71,27 @@ void flex2pos_close(flex2pos* flex) {
 
 int flex2pos_Init(flex2pos* flex, uint16_t Addr) {
     if (flex == nullptr) return failed(MR_BAD_CALL, no_object), Flex_ErrDevice;
-    with(flex, [&](io::Flex2Pos& library) { library.Init(Addr); });
+    with(flex, [&](io::Flex2Pos& library) {
+        library.use_image(motionrack::rack::ioflex02_image_at(flex->config, Addr));
+        library.Init(Addr);
+    });
+    return flex->library.Result;
+}
+
+int flex2pos_set_base_address(flex2pos* flex, uint16_t Addr) {
+    return guarded({{flex, no_object}}, [&]() -> motionrack::Result<void> {
+        flex->library.Flex02::Init(Addr);
+        return {};
+    });
+}
+
+int flex2pos_Configure(flex2pos* flex, const uint8_t* image, size_t size) {
+    if (flex == nullptr) return failed(MR_BAD_CALL, no_object), Flex_ErrDevice;
+    with(flex, [&](io::Flex2Pos& library) {
+        if (image != nullptr) return library.Configure({image, size});
+        const auto own = motionrack::rack::ioflex02_image_at(flex->config, library.base_address());
+        library.Configure(own.empty() ? io::position_image() : own);
+    });
     return flex->library.Result;
 }
 
@@ -143,6 +170,18 @@ void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3) {
     });
 }
 
+void flex2pos_WriteCmdAxis(flex2pos* flex, int axis, int Cmd) {
+    with(flex, [&](io::Flex2Pos& library) {
+        if (axis < 0 || axis >= io::axis_count || Cmd < cNop || Cmd > cResNmSig) {
+            failed(
+                MR_BAD_CALL,
+                fmt::format("There is no axis {} or no command {}; both are 0 to 3. Nothing was written.", axis, Cmd));
+            return;
+        }
+        library.WriteCmdAxis(axis, static_cast<io::tIOFlexCmd>(Cmd));
+    });
+}
+
 void flex2pos_ReadSts(flex2pos* flex, int Sts[4]) {
     if (Sts == nullptr) return;
     std::fill_n(Sts, 4, 0);
@@ -150,6 +189,43 @@ void flex2pos_ReadSts(flex2pos* flex, int Sts[4]) {
         const auto statuses = library.statuses();
         for (std::size_t i = 0; i < statuses.size(); ++i) Sts[i] = statuses[i] == io::sCal ? sCal : sNotCal;
     });
+}
+
+int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* payload, size_t payload_size, uint8_t* image,
+                        size_t* size) {
+    return guarded({{size, "There is no place for the image's size: it is a null pointer. Nothing was made."}},
+                   [&]() -> motionrack::Result<void> {
+                       io::ImageContent content;
+                       content.ident = ident;
+                       if (project != nullptr) content.project = project;
+                       if (payload != nullptr) content.payload.assign(payload, payload + payload_size);
+                       MOTIONRACK_TRY(const auto raw, io::raw_image(content));
+                       const std::vector<std::uint8_t> made = io::compressed(raw);
+                       const size_t room = image != nullptr ? *size : 0;
+                       *size = made.size();
+                       if (room < made.size())
+                           return motionrack::fail(
+                               motionrack::Trouble::bad_input,
+                               fmt::format("The image has {} bytes, but there is room for {}. It was not "
+                                           "written; call again with the size that was given.",
+                                           made.size(), room));
+                       std::copy(made.begin(), made.end(), image);
+                       return {};
+                   });
+}
+
+int flex2pos_image_check(const uint8_t* image, size_t size) {
+    int outcome = Flex_ErrCfg;
+    const int code = guarded({{image, "There is no image: it is a null pointer. Nothing was done."}},
+                             [&]() -> motionrack::Result<void> {
+                                 MOTIONRACK_TRY(const auto raw, io::unpacked({image, size}));
+                                 MOTIONRACK_TRY(const auto info, io::inspect(raw));
+                                 outcome = Flex_ErrProject;
+                                 MOTIONRACK_CHECK(io::check_project(info));
+                                 outcome = Flex_Ok;
+                                 return {};
+                             });
+    return code == MR_OK ? static_cast<int>(Flex_Ok) : outcome;
 }
 
 }  // extern "C"

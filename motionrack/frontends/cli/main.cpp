@@ -91,6 +91,7 @@ int run_command(int argc, char** argv) {
     add_frames(app, chosen);
     add_mark(app, chosen);
     add_calibrate(app, chosen);
+    add_image(app, chosen);
     add_serve(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
+#include <sstream>
 
 namespace motionrack::rack {
 namespace {
@@ -147,6 +150,46 @@ TEST(Ioflex02InARack, ItsLinesCanHaveFaultsThatOtherCardsDoNotSee) {
                 HasSubstr("nothing that could have the fault"));
 }
 
+TEST(Ioflex02InARack, ItsSixteenInputsHaveTwoNamesEach) {
+    Ioflex02Bench bench;
+    bench.set("p1.in8", 1);  // A of axis 2
+    bench.set("p1.b2", 1);
+    EXPECT_EQ(bench.position(2), 2);
+    EXPECT_EQ(bench.read("IN"), 0x300u);
+    EXPECT_EQ(*bench.session->wire("p1.a2"), 1);
+    EXPECT_EQ(*bench.session->wire("p1.in9"), 1);
+    bench.set("p1.a2", 0);
+    EXPECT_EQ(*bench.session->wire("p1.in8"), 0);
+    std::string by_number = measured;
+    for (const auto& [name, number] : {std::pair{"flex.a2", "flex.in8"}, {"flex.b2", "flex.in9"}})
+        by_number.replace(by_number.find(name), std::string(name).size(), number);
+    Rack rack(good(by_number));
+    JobSettings settings;
+    settings.program = "G21 G90\nG1 X20 F3000\n";
+    Job job(rack, settings);
+    rack.start();
+    ASSERT_TRUE(job.run().ended);
+    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000);
+}
+
+TEST(Ioflex02InARack, AnInputIsRecordedByTheNameThatWasAskedFor) {
+    Ioflex02Bench bench;
+    const auto file = std::filesystem::temp_directory_path() / "motionrack_ioflex02_names.vcd";
+    const auto recorded = [&](const char* signals) {
+        EXPECT_TRUE(bench.session->start_trace(file.string(), signals));
+        bench.set("p1.cal0", 1);
+        EXPECT_TRUE(bench.session->stop_trace());
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        std::filesystem::remove(file);
+        return text.str();
+    };
+    EXPECT_THAT(recorded("p1.in3"), HasSubstr(" in3 $end"));
+    const std::string all = recorded("p1.*");
+    EXPECT_THAT(all, HasSubstr(" cal0 $end"));
+    EXPECT_THAT(all, testing::Not(HasSubstr(" in3 $end"))) << "one wire, one signal";
+}
+
 TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
     const struct {
         const char* text;
@@ -157,6 +200,10 @@ TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
          "both the serial number 1"},
         {"[card.p1]\ntype = \"ioflex02\"\n[axis.X]\ncard = \"p1\"\n", "moves no axis"},
         {"[card.p1]\ntype = \"ioflex02\"\n[wires]\n\"p1.a4\" = \"estop\"\n", "p1.a4"},
+        {"[card.p1]\ntype = \"ioflex02\"\n[wires]\n\"p1.a0\" = \"estop\"\n\"p1.in0\" = \"estop\"\n",
+         "p1.a0, which p1.in0 is too, is wired twice"},
+        {"[card.p1]\ntype = \"ioflex02\"\nimage = \"78zz\"\n", "Digits 3 and 4"},
+        {"[card.p1]\ntype = \"ioflex02\"\nimage = \"78da\"\n", "cannot be unpacked"},
     };
     for (const auto& each : wrong) {
         const RackReading reading = read_rack_text(each.text);

@@ -45,10 +45,7 @@ bool Flex02::set(FlexResult result, std::string why) {
 
 void Flex02::Init(std::uint16_t Addr) {
     base_ = Addr;
-    if (settings_.image.empty())
-        Configure(position_image());
-    else
-        Configure(settings_.image);
+    set(Flex_ErrDevice, "The array was not configured since the base address was set. Call Configure.");
 }
 
 void Flex02::Configure(std::span<const std::uint8_t> image) {

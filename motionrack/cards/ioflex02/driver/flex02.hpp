@@ -1,6 +1,7 @@
 // The card's configuration object, the source's tIOFlex02: loads the array with an image, drives the outputs, reads the
 // inputs. It knows the card only by a register port, so it cannot tell a virtual card from a real one.
 //
+//   Init: base address      Configure:
 //   signature? ─► one card? ─► unpack ─► CONFIGURE, DATA .. DATA, END ─► RUNNING? ─► Result
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace motionrack::ioflex02 {
@@ -37,17 +39,20 @@ class Flex02 {
     Flex02(const Flex02&) = delete;
     Flex02& operator=(const Flex02&) = delete;
 
-    /// What the last Init or Configure came to, a FlexResult; before it Flex_ErrDevice. While it is not Flex_Ok nothing
-    /// is written, and every read gives 0.
+    /// What the last Configure came to, a FlexResult; before it Flex_ErrDevice. While it is not Flex_Ok nothing is
+    /// written, and every read gives 0.
     int Result = Flex_ErrDevice;
     /// The sentence to Result; empty if it is Flex_Ok.
     const std::string& why() const { return why_; }
     bool ok() const { return Result == Flex_Ok; }
 
-    /// Sets the base address, looks whether one card answers there, and loads the array. Takes seconds.
+    /// Sets the base address and nothing else, as the source's constructor does; Configure comes next.
     virtual void Init(std::uint16_t Addr);
-    /// Loads the array with a compressed image and checks its project; the base address stays. Sets Result.
-    void Configure(std::span<const std::uint8_t> image);
+    /// Looks whether one card answers at the base address, loads its array with a compressed image and checks its
+    /// project. Takes seconds. Sets Result.
+    virtual void Configure(std::span<const std::uint8_t> image);
+    /// The image that Flex2Pos::Init loads from now on; empty: the one that is built in.
+    void use_image(std::vector<std::uint8_t> image) { settings_.image = std::move(image); }
     std::uint16_t base_address() const { return base_; }
 
     /// Version of the project in the array.
@@ -55,13 +60,14 @@ class Flex02 {
     /// Low and high 8 outputs of X5. X7 is not driven by the project "position".
     void WriteOutL(std::uint8_t Data);
     void WriteOutH(std::uint8_t Data);
-    /// Low and high 8 inputs.
+    /// Low and high 8 of the 16 inputs: A, B, Z, Cal of axes 0 and 1 from bit 0 on, and of axes 2 and 3.
     std::uint8_t ReadInL();
     std::uint8_t ReadInH();
 
   protected:
     std::uint16_t get(std::uint32_t at);
     void put(std::uint32_t at, std::uint16_t value);
+    const std::vector<std::uint8_t>& own_image() const { return settings_.image; }
     /// Both halves of a 24-bit value, without sign.
     std::uint32_t get24(std::uint32_t low);
     Instant now() const { return interrupt_.now(); }

@@ -26,6 +26,11 @@ int edges_of(std::uint16_t mode_word) {
 
 void Flex2Pos::Init(std::uint16_t Addr) {
     Flex02::Init(Addr);
+    Configure(own_image().empty() ? position_image() : own_image());
+}
+
+void Flex2Pos::Configure(std::span<const std::uint8_t> image) {
+    Flex02::Configure(image);
     forget();
 }
 
@@ -147,6 +152,13 @@ void Flex2Pos::WriteCmd(tIOFlexCmd Cmd0, tIOFlexCmd Cmd1, tIOFlexCmd Cmd2, tIOFl
     word = field("CMD", "CMD2").set(word, Cmd2);
     word = field("CMD", "CMD3").set(word, Cmd3);
     put(offset("CMD"), word);
+}
+
+void Flex2Pos::WriteCmdAxis(int axis, tIOFlexCmd Cmd) {
+    MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
+    const Field keep = field("CMD", "KEEP");
+    const unsigned others = keep.mask & ~(0x100u << axis);
+    put(offset("CMD"), static_cast<std::uint16_t>(others | unsigned{Cmd} << (2 * axis)));
 }
 
 void Flex2Pos::ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIOFlexSts& Sts3) {

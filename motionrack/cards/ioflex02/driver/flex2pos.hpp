@@ -60,7 +60,10 @@ struct AxisMode {
 class Flex2Pos final : public Flex02 {
   public:
     using Flex02::Flex02;
+    /// Sets the base address and configures the array: with the image of the settings or of use_image, else with the
+    /// one that is built in.
     void Init(std::uint16_t Addr) override;
+    void Configure(std::span<const std::uint8_t> image) override;
 
     // ---- the source's functions; Longint is 32 bits with sign
     /// Time in ticks of 1.2 us, 0 .. 16,777,215.
@@ -77,6 +80,9 @@ class Flex2Pos final : public Flex02 {
                              std::int32_t& Pos3);
     /// One calibration command for each axis, together; what was pending is replaced.
     void WriteCmd(tIOFlexCmd Cmd0, tIOFlexCmd Cmd1, tIOFlexCmd Cmd2, tIOFlexCmd Cmd3);
+    /// Ours: one axis 0 to 3 takes the command, the others keep what they wait for; one access. WriteCmd cannot: cNop
+    /// ends what an axis waits for, and any other command begins it anew.
+    void WriteCmdAxis(int axis, tIOFlexCmd Cmd);
     void ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIOFlexSts& Sts3);
 
     // ---- one layer up; axes are 0 .. 3

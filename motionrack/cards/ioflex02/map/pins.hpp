@@ -1,4 +1,11 @@
 // The IOFLEX02's pins, in the order in which the model has its wires.
+//
+// The card has 16 inputs and the project "position" uses all of them: A, B, Z and Cal of four axes. in0 to in15 are the
+// same wires by their bit of IN, that is of ReadInL and ReadInH.
+//
+//   bit of IN   15  14  13  12   11  10   9   8    7   6   5   4    3   2   1   0
+//               Cal4 Z   B   A   Cal3 Z   B   A   Cal2 Z   B   A   Cal1 Z   B   A
+//               encoder 3        encoder 2        encoder 1        encoder 0
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -23,22 +30,22 @@ inline constexpr PinInfo pins[] = {
     {"cal1", in, false, "calibration input Cal2"},
     {"cal2", in, false, "calibration input Cal3"},
     {"cal3", in, false, "calibration input Cal4"},
-    {"in0", in, false, "input 0"},
-    {"in1", in, false, "input 1"},
-    {"in2", in, false, "input 2"},
-    {"in3", in, false, "input 3"},
-    {"in4", in, false, "input 4"},
-    {"in5", in, false, "input 5"},
-    {"in6", in, false, "input 6"},
-    {"in7", in, false, "input 7"},
-    {"in8", in, false, "input 8"},
-    {"in9", in, false, "input 9"},
-    {"in10", in, false, "input 10"},
-    {"in11", in, false, "input 11"},
-    {"in12", in, false, "input 12"},
-    {"in13", in, false, "input 13"},
-    {"in14", in, false, "input 14"},
-    {"in15", in, false, "input 15"},
+    {"in0", in, false, "input 0: line A of encoder 0", "a0"},
+    {"in1", in, false, "input 1: line B of encoder 0", "b0"},
+    {"in2", in, false, "input 2: index of encoder 0", "z0"},
+    {"in3", in, false, "input 3: calibration input Cal1", "cal0"},
+    {"in4", in, false, "input 4: line A of encoder 1", "a1"},
+    {"in5", in, false, "input 5: line B of encoder 1", "b1"},
+    {"in6", in, false, "input 6: index of encoder 1", "z1"},
+    {"in7", in, false, "input 7: calibration input Cal2", "cal1"},
+    {"in8", in, false, "input 8: line A of encoder 2", "a2"},
+    {"in9", in, false, "input 9: line B of encoder 2", "b2"},
+    {"in10", in, false, "input 10: index of encoder 2", "z2"},
+    {"in11", in, false, "input 11: calibration input Cal3", "cal2"},
+    {"in12", in, false, "input 12: line A of encoder 3", "a3"},
+    {"in13", in, false, "input 13: line B of encoder 3", "b3"},
+    {"in14", in, false, "input 14: index of encoder 3", "z3"},
+    {"in15", in, false, "input 15: calibration input Cal4", "cal3"},
     {"out0", out, false, "output 0 (X5)"},
     {"out1", out, false, "output 1 (X5)"},
     {"out2", out, false, "output 2 (X5)"},

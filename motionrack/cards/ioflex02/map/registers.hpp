@@ -32,6 +32,12 @@ inline constexpr FieldInfo sts_fields[] = {
     {"CAL2", 0x0004, "axis 2"},
     {"CAL3", 0x0008, "axis 3"},
 };
+inline constexpr FieldInfo in_fields[] = {
+    {"AXIS0", 0x000F, "encoder 0: from the lowest bit A, B, Z, Cal1"},
+    {"AXIS1", 0x00F0, "encoder 1: A, B, Z, Cal2"},
+    {"AXIS2", 0x0F00, "encoder 2: A, B, Z, Cal3"},
+    {"AXIS3", 0xF000, "encoder 3: A, B, Z, Cal4"},
+};
 inline constexpr FieldInfo down_fields[] = {
     {"DOWN", 0x000F, "bit n: the last count of axis n was downwards"},
 };
@@ -56,6 +62,7 @@ inline constexpr FieldInfo cmd_fields[] = {
     {"CMD1", 0x000C, "of axis 1"},
     {"CMD2", 0x0030, "of axis 2"},
     {"CMD3", 0x00C0, "of axis 3"},
+    {"KEEP", 0x0F00, "bit 8 + n: axis n takes no command and keeps what it waits for"},
 };
 inline constexpr FieldInfo byte_fields[] = {
     {"BYTE", 0x00FF, "a bit an output"},
@@ -86,13 +93,13 @@ inline constexpr RegisterInfo registers[] = {
     {"CFG_ERROR", 0x08, 16, r, false, "", "why the last image was refused; cleared by CONFIGURE", error_fields},
     // ---- the project
     {"STROBE", 0x10, 16, w, false, "", "one instant for everything", strobe_fields},
-    {"CMD", 0x12, 16, w, false, "", "calibration commands of the four axes, together", cmd_fields},
+    {"CMD", 0x12, 16, w, false, "", "calibration commands of the axes, together", cmd_fields},
     {"OUTL", 0x14, 16, w, false, "", "low 8 outputs of X5", byte_fields},
     {"OUTH", 0x16, 16, w, false, "", "high 8 outputs of X5; X7 is not driven by this project", byte_fields},
     {"AXIS", 0x18, 16, w, false, "", "chooses the axis of the registers that there are one an axis", axis_fields},
     {"IDENT", 0x0A, 16, r, false, "", "the project in the array", ident_fields},
     {"STS", 0x0C, 16, r, false, "", "calibration status", sts_fields},
-    {"IN", 0x0E, 16, r, false, "", "the 16 inputs as they are", {}},
+    {"IN", 0x0E, 16, r, false, "", "the 16 inputs as they are, before the filter", in_fields},
     {"TIME_L", 0x10, 16, r, false, "", "captured: time in ticks of 1.2 us, low", {}},
     {"TIME_H", 0x12, 16, r, false, "", "captured: time, high; wraps after 20.13 s", {}},
     {"POS0_L", 0x14, 16, r, false, "", "captured: position of axis 0 since its calibration, low", {}},

@@ -39,22 +39,22 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     static_assert(std::size(map::pins) == line_pins + input_pins + output_pins);
     id_ = kernel.add(*this, sim::Phase::cards, name);
     for (std::size_t i = 0; i < wires_.size(); ++i) {
-        wires_[i] = kernel.add_wire(name + "." + std::string(map::pins[i].name), 0);
+        const PinInfo& pin = map::pins[i];
+        const auto same =
+            pin.same_as.empty() ? sim::WireId::none : kernel.find_wire(name + "." + std::string(pin.same_as));
+        wires_[i] = kernel.add_wire(name + "." + std::string(pin.name), 0, 1, same);
         if (i < line_pins) kernel.listen(wires_[i], id_, static_cast<int>(i));
     }
     kernel.schedule(id_, Instant{0});
-    if (!settings.loaded) return;
-    const std::vector<std::uint8_t> image = *raw_image({});
-    std::copy_n(image.begin(), image_header, state_.configuration.header.bytes.begin());
-    state_.configuration.array = ArrayState::starting;
-    state_.configuration.known = 1;
-    state_.configuration.starts_at = Instant{0};
+    if (settings.loaded) preload(settings.image.empty() ? *raw_image({}) : settings.image);
 }
 
 /// How the world is at power-up.
 void Card::begin() {
     if (state_.begun) return;
     state_.begun = 1;
+    const Configuration& c = state_.configuration;
+    if (c.error == CfgError::unknown_project) report(CardCondition::unknown_project, c.header.ident());
     for (std::size_t i = 0; i < line_pins; ++i) {
         kernel_.want(wires_[i], id_, true);
         state_.axes[i % axis_count].lines[i / axis_count].raw = kernel_.level(wires_[i]) != 0;

@@ -5,7 +5,8 @@
 //                                │
 //   a b z cal (4 axes) ──► [ sample ─► filter ─► count ─► calibrate ] ──┐
 //   1.2 us ──────────────► [ time ] ────────────────────────────────────┴─► STROBE ──► TIME, POS, RAW, AGE, ..
-//   in0 .. in15 ──► IN         OUTL, OUTH ──► out0 .. out15   (out16 .. out31, X7: not driven by this project)
+//   in0 .. in15: the same 16 lines by number ──► IN
+//   OUTL, OUTH ──► out0 .. out15   (out16 .. out31, X7: not driven by this project)
 //
 // Nothing polls and nothing is scheduled: a wire's change is noted with the sample that sees it, and worked off when it
 // is asked for.
@@ -71,6 +72,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void take_byte(std::uint8_t byte);
     void refuse(CfgError error);
     void accept();
+    void take_project();
+    void preload(std::span<const std::uint8_t> image);
 
     // registers.cpp
     std::uint16_t word(const State& state, std::uint32_t offset) const;

@@ -56,16 +56,29 @@ void Card::take_byte(std::uint8_t byte) {
     accept();
 }
 
-void Card::accept() {
+/// From header and payload.
+void Card::take_project() {
     Configuration& c = state_.configuration;
     c.known = c.header.named(position_project);
-    if (!c.known) {
-        c.error = CfgError::unknown_project;
-        report(CardCondition::unknown_project, c.header.ident());
-    }
+    if (!c.known) c.error = CfgError::unknown_project;
     for (std::size_t i = 0; i < axis_count; ++i)
         c.modes[i] = static_cast<std::uint16_t>(c.payload[2 * i] | c.payload[2 * i + 1] << 8) & mode::all;
     c.array = ArrayState::starting;
+}
+
+/// Before the kernel starts; the project begins at instant 0.
+void Card::preload(std::span<const std::uint8_t> image) {
+    Configuration& c = state_.configuration;
+    std::copy_n(image.begin(), image_header, c.header.bytes.begin());
+    std::copy_n(image.begin() + image_header, least_payload, c.payload.begin());
+    take_project();
+    c.starts_at = Instant{0};
+}
+
+void Card::accept() {
+    Configuration& c = state_.configuration;
+    take_project();
+    if (!c.known) report(CardCondition::unknown_project, c.header.ident());
     c.starts_at = kernel_.now() + settings_.configuration_time;
     catch_up(kernel_.now(), false);
 }

@@ -129,7 +129,8 @@ void Card::write_project(std::uint32_t at, std::uint16_t value) {
             return strobe(value);
         case offset("CMD"):
             for (std::size_t i = 0; i < axis_count; ++i)
-                command_axis(state_.axes[i], static_cast<tIOFlexCmd>(value >> (2 * i) & 3));
+                if ((field("CMD", "KEEP").get(value) >> i & 1) == 0)
+                    command_axis(state_.axes[i], static_cast<tIOFlexCmd>(value >> (2 * i) & 3));
             return;
         case offset("OUTL"):
             return put_out(static_cast<std::uint16_t>((state_.outputs & 0xFF00) | (value & 0xFF)));

@@ -1,6 +1,7 @@
 // Ranges of the settings.
 #include <fmt/format.h>
 
+#include <motionrack/cards/ioflex02/image.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/ioflex02/model/settings.hpp>
 
@@ -14,6 +15,7 @@ Result<void> check(const Settings& s) {
     if (s.configuration_time < Duration{0} || s.configuration_time > whole_seconds(60))
         return fail(Trouble::refused, fmt::format("The time of configuration is {} s, but it is 0 to 60 s.",
                                                   to_seconds(s.configuration_time)));
+    if (!s.image.empty()) MOTIONRACK_CHECK(inspect(s.image));
     return {};
 }
 

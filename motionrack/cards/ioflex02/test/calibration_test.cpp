@@ -115,5 +115,22 @@ TEST(Ioflex02Calibration, ANewCommandReplacesWhatIsPendingOnAllAxes) {
     EXPECT_EQ(rig.read(offset("STS")), 0b1101);
 }
 
+TEST(Ioflex02Calibration, AnAxisThatKeepsTakesNoCommandAndLosesNothingThatItHasSeen) {
+    Rig rig;
+    rig.start();
+    for (int axis = 0; axis < 4; ++axis) rig.turn(axis, 40);
+    rig.write(offset("CMD"), cResNmSig | cResNm << 2);
+    rig.pulse("cal0");
+    // Axis 2 is armed; 0 has had its edge of Cal, 1 waits for an index, 3 for nothing.
+    rig.write(offset("CMD"), cResNm << 4 | 0xB00);
+    EXPECT_EQ(rig.read(offset("STS")), 0b1000);
+    for (const char* index : {"z0", "z1", "z2", "z3"}) rig.pulse(index);
+    EXPECT_EQ(rig.read(offset("STS")), 0b1111);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(position(rig, axis), 0) << axis;
+    EXPECT_EQ(position(rig, 3), 40);
+    rig.write(offset("CMD"), 0xF55);
+    EXPECT_EQ(position(rig, 3), 40) << "all keep: nothing is written";
+}
+
 }  // namespace
 }  // namespace motionrack::ioflex02

@@ -64,7 +64,10 @@ class Run {
     }
     void set_wire(std::uint32_t number, bool level) {
         const sim::WireId wire = inputs_[number];
-        if (number < 8 && (rig_.kernel.level(wire) != 0) != level) ++may_count_[number % 4];
+        // in0 to in15 are the lines of the axes once more.
+        const bool counts = number < 8 || (number >= 16 && number % 4 < 2);
+        const std::uint32_t axis = number < 16 ? number % 4 : (number - 16) / 4;
+        if (counts && (rig_.kernel.level(wire) != 0) != level) ++may_count_[axis];
         rig_.kernel.set_wire(wire, level);
         if (feed_.below(2)) rig_.kernel.settle();
     }

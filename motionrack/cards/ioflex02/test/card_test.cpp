@@ -224,9 +224,19 @@ TEST(Ioflex02Capture, TellsHowLongAgoTheLastCountWas) {
 TEST(Ioflex02Card, InputsAreReadAsTheyAreAndOutputsHoldTheirBytes) {
     Rig rig;
     rig.start();
-    rig.set("in0", 1);
-    rig.set("in11", 1);
-    EXPECT_EQ(rig.read(offset("IN")), 1 | 1 << 11);
+    const char* lines[16] = {"a0", "b0", "z0", "cal0", "a1", "b1", "z1", "cal1",
+                             "a2", "b2", "z2", "cal2", "a3", "b3", "z3", "cal3"};
+    for (int i = 0; i < 16; ++i) {
+        rig.set(lines[i], 1);
+        EXPECT_EQ(rig.read(offset("IN")), 1 << i) << lines[i];
+        EXPECT_EQ(rig.level("in" + std::to_string(i)), 1);
+        rig.set("in" + std::to_string(i), 0);
+        EXPECT_EQ(rig.level(lines[i]), 0) << "two names of one wire";
+    }
+    rig.write(offset("AXIS"), 1);
+    rig.write(offset("MODE"), 0xF0);
+    rig.set("in5", 1);
+    EXPECT_EQ(rig.read(offset("IN")), 1 << 5) << "not behind the filter";
     rig.write(offset("OUTL"), 0xA5);
     rig.write(offset("OUTH"), 0xFF3C);
     for (int i = 0; i < 32; ++i) EXPECT_EQ(rig.level("out" + std::to_string(i)), 0x3CA5 >> i & 1) << i;

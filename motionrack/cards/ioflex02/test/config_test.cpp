@@ -134,6 +134,71 @@ TEST(Ioflex02Image, ConfiguringAgainEndsWhatRan) {
     EXPECT_EQ(rig.card.position(0), 0);
 }
 
+TEST(Ioflex02Image, OneOfTheUsersOwnRunsFromPowerUp) {
+    Settings settings = loaded_settings();
+    settings.image = *unpacked(position_image({mode::REVERSED.mask, 0, 0, 0}));
+    Rig rig{settings};
+    rig.start();
+    rig.turn(0, 12);
+    rig.run(microseconds(1));
+    EXPECT_EQ(rig.card.position(0), -12);
+    settings.image = *raw_image({"stepper", 0x77, std::vector<std::uint8_t>(8)});
+    Rig other{settings};
+    other.start();
+    EXPECT_EQ(other.read(error), static_cast<int>(CfgError::unknown_project));
+    EXPECT_EQ(other.read(ident), 0x77);
+    EXPECT_EQ(other.read(offset("IN")), 0xFFFF);
+    EXPECT_EQ(other.conditions(), (std::vector{CardCondition::unknown_project, CardCondition::no_project}));
+    settings.image.pop_back();
+    EXPECT_FALSE(check(settings));
+}
+
+TEST(Ioflex02Image, SaysOfItselfWhatItIs) {
+    const auto info = inspect(*raw_image({"position", 0x31, {1, 0, 2, 0, 8, 0, 0xF0, 0, 77}}));
+    ASSERT_TRUE(info);
+    EXPECT_EQ(info->project, "position");
+    EXPECT_EQ(info->ident, 0x31);
+    EXPECT_EQ(info->payload, 9u);
+    EXPECT_EQ(info->modes, (std::array<std::uint16_t, 4>{1, 2, 8, 0xF0}));
+    EXPECT_TRUE(info->position());
+    EXPECT_EQ(inspect(*raw_image({"sixteen letters.", 1, std::vector<std::uint8_t>(8)}))->project, "sixteen letters.");
+}
+
+TEST(Ioflex02Image, TheCardRefusesWhatInspectRefusesAndNothingElse) {
+    const auto refused = [](std::vector<std::uint8_t> raw, const char* sentence) {
+        ASSERT_FALSE(inspect(raw)) << sentence;
+        EXPECT_NE(inspect(raw).error().message.find(sentence), std::string::npos) << inspect(raw).error().message;
+        EXPECT_GT(error_after(raw), 0) << sentence;
+    };
+    std::vector<std::uint8_t> raw = good();
+    raw[7] = '3';
+    refused(raw, "does not begin with");
+    raw = good();
+    raw.resize(20);
+    refused(raw, "20 of 36 bytes");
+    raw = good();
+    raw[30] = 0x10;
+    refused(raw, "The length in its header");
+    raw = good();
+    raw.resize(40);
+    refused(raw, "has 4 bytes, but the header says 8");
+    raw = good();
+    raw[24] ^= 0x40;
+    refused(raw, "Its CRC-32");
+    refused({}, "does not begin with");
+    EXPECT_TRUE(inspect(good()));
+}
+
+RC_GTEST_PROP(Ioflex02Image, BytesAreTheSameAfterTheirDigits, (std::vector<std::uint8_t> bytes)) {
+    RC_ASSERT(*bytes_of_hex(hex_text(bytes)) == bytes);
+}
+
+TEST(Ioflex02Image, DigitsThatAreNoneAreToldWithTheirPlace) {
+    for (const char* wrong : {"7", "78d", "78 d", "-1", "0x", "78zz"}) EXPECT_FALSE(bytes_of_hex(wrong)) << wrong;
+    EXPECT_NE(bytes_of_hex("78zz").error().message.find("Digits 3 and 4"), std::string::npos);
+    EXPECT_EQ(*bytes_of_hex("78dA"), (std::vector<std::uint8_t>{0x78, 0xDA}));
+}
+
 // ---- compressed
 
 TEST(Ioflex02Image, IsCompressedAndUnpackedAgain) {
@@ -206,7 +271,7 @@ TEST(Ioflex02Bus, TwoCardsAtOneAddressBothTakeWhatIsWrittenAndReadAndedAndThatIs
     EXPECT_EQ(rig.level("out0"), 1);
     EXPECT_EQ(rig.kernel.level(rig.kernel.find_wire("c2.out0")), 1);
     rig.set("in3", 1);
-    EXPECT_EQ(rig.read(offset("IN")), 0);
+    EXPECT_EQ(rig.read(offset("IN")), 0);  // that of the other card is low
     const auto told = rig.kernel.conditions();
     ASSERT_EQ(told.size(), 1u);
     EXPECT_NE(describe(told[0], "bus").find("two cards answer at the base address 2300h"), std::string::npos);

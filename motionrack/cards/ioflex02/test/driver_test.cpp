@@ -95,6 +95,7 @@ TEST(Flex2PosTraffic, EveryOtherFunctionHasItsRegisters) {
     EXPECT_THAT(traffic([&] { on.card.ReadInH(); }), ElementsAre("R IN"));
     EXPECT_THAT(traffic([&] { on.card.GetIdent(); }), ElementsAre("R IDENT"));
     EXPECT_THAT(traffic([&] { on.card.WriteCmd(cNop, cRes, cResNm, cResNmSig); }), ElementsAre("W CMD=E4"));
+    EXPECT_THAT(traffic([&] { on.card.WriteCmdAxis(2, cResNmSig); }), ElementsAre("W CMD=B30"));
     EXPECT_THAT(traffic([&] { on.card.statuses(); }), ElementsAre("R STS"));
     EXPECT_THAT(traffic([&] {
                     EXPECT_TRUE(on.card.set_mode(2, {true, 1, true, 9}));
@@ -274,18 +275,6 @@ TEST(Flex2Pos, WaitsForAnIndexForEverIfItMay) {
                         [&] { r.rig.set("z0", r.rig.kernel.now() - begun > milliseconds(100) ? 1 : 0); });
     EXPECT_TRUE(r.card.wait_calibrated(0, never));
     EXPECT_GT(r.rig.kernel.now() - begun, milliseconds(100));
-}
-
-TEST(Flex2Pos, ReadsInputsAndWritesOutputs) {
-    Ready r;
-    r.rig.set("in1", 1);
-    r.rig.set("in15", 1);
-    EXPECT_EQ(r.card.ReadInL(), 0x02);
-    EXPECT_EQ(r.card.ReadInH(), 0x80);
-    r.card.WriteOutL(0x81);
-    r.card.WriteOutH(0x42);
-    EXPECT_EQ(r.rig.level("out0") + 2 * r.rig.level("out7") + 4 * r.rig.level("out9") + 8 * r.rig.level("out14"), 15);
-    EXPECT_EQ(r.rig.level("out8"), 0);
 }
 
 TEST(Flex2Pos, ModesAreReadBackAndOutOfRangeOnesRefused) {

@@ -1,6 +1,7 @@
 // The map is what the card has, and the page made from it is current.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <motionrack/base/describe.hpp>
 #include <motionrack/cards/ioflex02/test/rig.hpp>
@@ -44,7 +45,10 @@ TEST(Ioflex02Map, TheCardHasThePinsOfTheMap) {
     Rig rig;
     for (const PinInfo& pin : card_map().pins)
         EXPECT_NE(rig.kernel.find_wire("c1." + std::string(pin.name)), sim::WireId::none) << pin.name;
-    EXPECT_EQ(rig.kernel.wire_count(), card_map().pins.size() + 1);  // and the bus' interrupt line
+    const auto names = std::count_if(card_map().pins.begin(), card_map().pins.end(),
+                                     [](const PinInfo& pin) { return !pin.same_as.empty(); });
+    EXPECT_EQ(names, 16) << "the inputs by their bit are those of the encoders";
+    EXPECT_EQ(rig.kernel.wire_count() + 16, card_map().pins.size() + 1);  // and the bus' interrupt line
 }
 
 TEST(Ioflex02Map, TheStateTableIsTheDeclaredMachine) {

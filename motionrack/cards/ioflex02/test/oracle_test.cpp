@@ -85,7 +85,7 @@ class Maker {
         } else if (what < 78) {
             op(Op::input, static_cast<int>(below(16)), static_cast<int>(below(2)));
         } else if (what < 84) {
-            op(Op::write, 0x12, static_cast<int>(below(256)));
+            op(Op::write, 0x12, static_cast<int>(below(2) ? below(256) : below(65536)));
         } else if (what < 88) {
             op(Op::write, 0x10, static_cast<int>(below(4)));
         } else if (what < 91) {

@@ -215,6 +215,7 @@ void Twin::write(int at, int value) {
     }
     if (at == 0x12)
         for (int i = 0; i < 4; ++i) {
+            if (value & 0x100 << i) continue;
             const int command = value >> (2 * i) & 3;
             if (command == 1) axes_[i].position = 0;
             axes_[i].state = command == 2 ? 1 : command == 3 ? 2 : 0;
@@ -294,7 +295,7 @@ int Twin::read(int at) {
         return bits;
     }
     if (at == 0x0E) {
-        for (int i = 0; i < 16; ++i) bits += inputs_[i] << i;
+        for (int i = 0; i < 16; ++i) bits += axes_[i / 4].wire[i % 4] << i;
         return bits;
     }
     return captured(at);

@@ -26,7 +26,8 @@ class Twin {
     /// Goes to that half; a sample at it is not taken yet.
     void run_to(std::int64_t half);
     void wire(int axis, int line, int level) { axes_[axis].wire[line] = level; }
-    void input(int number, int level) { inputs_[number] = level; }
+    /// The same by the bit of IN.
+    void input(int number, int level) { wire(number / 4, number % 4, level); }
     void write(int at, int value);
     int read(int at);
     int outputs() const { return outputs_; }
@@ -59,7 +60,6 @@ class Twin {
     Axis axes_[4];
     Axis latched_[4];
     std::int64_t latched_time_ = 0;
-    int inputs_[16] = {};
     int outputs_ = 0;
     int chosen_ = 0;
     int serial_;
