@@ -38,7 +38,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_I
         FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE
         PATTERN wire.hpp EXCLUDE PATTERN "*_library.hpp" EXCLUDE)
 
-install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas
+set(pascal ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal)
+install(FILES ${pascal}/uIOFlex2.pas ${pascal}/uFlex2Pos.pas ${pascal}/uFlx2Pos.pas
         DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal COMPONENT dev)
 
 # ---- find_package ----

@@ -2,7 +2,7 @@
 program Calibrate;
 
 uses
-  uFlex2Pos;
+  uIOFlex2, uFlex2Pos;
 
 var
   Flex: tIOFlexPos;

@@ -1,15 +1,10 @@
-{ The short example of the unit's description: the card is initialised, and whoever asked hears how it went. }
-program Init;
-
-uses
-  uFlex2Pos;
-
-var
-  MyIOFlexObj: tIOFlexPos;
-
-begin
-  MyIOFlexObj.Init($2300); { IOFlex02 base address }
-  if MyIOFlexObj.Result <> Flex_Ok then
+Uses
+  uIOFlex2,
+  uFlx2Pos;
+Var
+  MyIOFlexObj : tIOFlexPos;
+Begin
+  MyIOFlexObj.Init($2300{IOFlex02 base addr});
+  If MyIOFlexObj.Result<>Flex_Ok then
     Write('Chyba inicializace desky: ', MyIOFlexObj.Result);
-  WriteLn('Result ', MyIOFlexObj.Result);
-end.
+End.

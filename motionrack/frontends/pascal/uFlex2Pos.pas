@@ -1,15 +1,15 @@
-{ The unit uFlex2Pos of the IOFLEX02 for Free Pascal: its source's types, constants and object, over the C interface (libmotionrack.so).
+{ The unit uFlex2Pos of the IOFLEX02 for Free Pascal: its source's types, constants and object, over the C interface
+  (libmotionrack.so). Its name of 8.3 letters is uFlx2Pos.
 
-    uses uFlex2Pos;
+    uses uIOFlex2, uFlex2Pos;
     var MyIOFlexObj: tIOFlexPos;
     begin
       MyIOFlexObj.Init($2300);
       if MyIOFlexObj.Result <> Flex_Ok then Write('not initialised: ', MyIOFlexObj.Result);
     end.
 
-  The first Init opens the rack file that the environment variable MOTIONRACK_RACK names; without it, a rack with one card at $2300. Rack
-  gives it to the functions of motionrack/c.h, such as mr_advance_ns: time passes in it only when somebody lets it pass. Compile with
-  -Fu and the unit's folder, -Fl and the library's. }
+  Which rack it is, and how to compile: uIOFlex2. Where the source links an image of the customer's own in with
+  $L IRC.OBJ, the environment variable MOTIONRACK_IRC names its file, or the program calls SetFlexBin. }
 unit uFlex2Pos;
 
 {$mode fpc}
@@ -17,40 +17,24 @@ unit uFlex2Pos;
 
 interface
 
+uses
+  uIOFlex2;
+
 const
   cVerNo = $0251;
   cVer = '02.51, 07.08.2003';
-
-  { Outcomes of Init. }
-  Flex_Ok = 0;          { the array is configured }
-  Flex_ErrCfg = 1;      { configuration failed }
-  Flex_ErrDevice = 2;   { no card, or a wrong base address }
-  Flex_ErrProject = 3;  { another project or version in the array }
 
 type
   { Calibration command and status of an axis. }
   tIOFlexCmd = (cNop, cRes, cResNm, cResNmSig);
   tIOFlexSts = (sNotCal, sCal);
 
-  { The card's configuration object: array, inputs, outputs. }
-  tIOFlex02 = object
-    Result: Integer;
-    procedure Init(Addr: Word);
-    procedure Done;
-    { The sentence to Result; empty if it is Flex_Ok. }
-    function Why: AnsiString;
-    function GetIdent: Byte;
-    procedure WriteOutL(Data: Byte);
-    procedure WriteOutH(Data: Byte);
-    function ReadInL: Byte;
-    function ReadInH: Byte;
-  protected
-    Handle: Pointer;
-    Sentence: AnsiString;
-  end;
+  pIOFlexPos = ^tIOFlexPos;
 
   { Time in ticks of 1.2 us, positions in counts from the calibration. }
   tIOFlexPos = object(tIOFlex02)
+    { Sets the base address and fills the array with the image at GetFlexBinAddr. }
+    constructor Init(Addr: Word);
     function ReadTime: Longint;
     function ReadTimeClr: Longint;
     function ReadPosition0: Longint;
@@ -59,108 +43,108 @@ type
     function ReadPosition3: Longint;
     procedure ReadTimeClrPosition(var Time, Pos0, Pos1, Pos2, Pos3: Longint);
     procedure WriteCmd(Cmd0, Cmd1, Cmd2, Cmd3: tIOFlexCmd);
+    { Ours: a command for one axis 0 to 3; the others keep what they wait for. }
+    procedure WriteCmdAxis(Axis: Integer; Cmd: tIOFlexCmd);
     procedure ReadSts(var Sts0, Sts1, Sts2, Sts3: tIOFlexSts);
   end;
 
-{ The rack that the cards are in: nil before the first Init. }
-function Rack: Pointer;
+{ The image that Init fills the array with, and its bytes: nil and 0 stand for the one that the rack file gives the card,
+  or else the one that is built in. }
+function GetFlexBinAddr: Pointer;
+function GetFlexBinSize: Longint;
 
-{ Lets virtual time pass, and drives a wire; the rest of motionrack/c.h can be declared alike. }
-function mr_advance_ns(Rack: Pointer; Ns: QWord): Longint; cdecl; external 'motionrack';
-function mr_wire_set(Rack: Pointer; Wire: PAnsiChar; Value: Double): Longint; cdecl; external 'motionrack';
-function mr_last_error: PAnsiChar; cdecl; external 'motionrack';
+{ From now on Init takes this image, which must stay where it is; nil: as before. }
+procedure SetFlexBin(Addr: Pointer; Size: Longint);
+
+{ Makes an image of one's own, of at most Size bytes, and gives its bytes; 0 if it could not be made: mr_last_error says
+  why. Project and Ident as the card shall have them ('position' and $25 are what Init takes); Modes: how the four axes
+  count, words MODE. }
+function MakeFlexBin(const Project: AnsiString; Ident: Byte; const Modes: array of Word; Addr: Pointer; Size: Longint):
+  Longint;
 
 implementation
 
 uses
-  Dos, Math;
+  Dos;
 
-function mr_rack_open(TomlPathOrText: PAnsiChar; var Rack: Pointer): Longint; cdecl; external 'motionrack';
-procedure mr_rack_close(Rack: Pointer); cdecl; external 'motionrack';
-function flex2pos_open(Rack: Pointer; var Flex: Pointer): Longint; cdecl; external 'motionrack';
-procedure flex2pos_close(Flex: Pointer); cdecl; external 'motionrack';
-function flex2pos_Init(Flex: Pointer; Addr: Word): Longint; cdecl; external 'motionrack';
-function flex2pos_why(Flex: Pointer): PAnsiChar; cdecl; external 'motionrack';
-function flex2pos_GetIdent(Flex: Pointer): Byte; cdecl; external 'motionrack';
 function flex2pos_ReadTime(Flex: Pointer): Longint; cdecl; external 'motionrack';
 function flex2pos_ReadTimeClr(Flex: Pointer): Longint; cdecl; external 'motionrack';
 function flex2pos_ReadPosition(Flex: Pointer; Axis: Longint): Longint; cdecl; external 'motionrack';
 procedure flex2pos_ReadTimeClrPosition(Flex: Pointer; Time, Pos: PLongint); cdecl; external 'motionrack';
-procedure flex2pos_WriteOutL(Flex: Pointer; Data: Byte); cdecl; external 'motionrack';
-procedure flex2pos_WriteOutH(Flex: Pointer; Data: Byte); cdecl; external 'motionrack';
-function flex2pos_ReadInL(Flex: Pointer): Byte; cdecl; external 'motionrack';
-function flex2pos_ReadInH(Flex: Pointer): Byte; cdecl; external 'motionrack';
 procedure flex2pos_WriteCmd(Flex: Pointer; Cmd0, Cmd1, Cmd2, Cmd3: Longint); cdecl; external 'motionrack';
+procedure flex2pos_WriteCmdAxis(Flex: Pointer; Axis, Cmd: Longint); cdecl; external 'motionrack';
 procedure flex2pos_ReadSts(Flex: Pointer; Sts: PLongint); cdecl; external 'motionrack';
+function flex2pos_image_make(Project: PAnsiChar; Ident: Byte; Payload: Pointer; PayloadSize: SizeUInt; Image: Pointer;
+  var Size: SizeUInt): Longint; cdecl; external 'motionrack';
 
 var
-  TheRack: Pointer = nil;
+  BinAddr: Pointer = nil;
+  BinSize: Longint = 0;
+  BinOfFile: array of Byte;
 
-function Rack: Pointer;
+function GetFlexBinAddr: Pointer;
 begin
-  Rack := TheRack;
+  GetFlexBinAddr := BinAddr;
 end;
 
-procedure tIOFlex02.Init(Addr: Word);
+function GetFlexBinSize: Longint;
+begin
+  GetFlexBinSize := BinSize;
+end;
+
+procedure SetFlexBin(Addr: Pointer; Size: Longint);
+begin
+  BinAddr := Addr;
+  BinSize := Size;
+end;
+
+function MakeFlexBin(const Project: AnsiString; Ident: Byte; const Modes: array of Word; Addr: Pointer; Size: Longint):
+  Longint;
 var
-  RackFile: AnsiString;
+  Payload: array[0..3] of Word;
+  Axis: Integer;
+  Bytes: SizeUInt;
 begin
-  Result := Flex_ErrDevice;
-  Handle := nil;
-  if TheRack = nil then
+  for Axis := 0 to 3 do
+    if Axis <= High(Modes) then Payload[Axis] := NtoLE(Modes[Axis]) else Payload[Axis] := 0;
+  if Size < 0 then Size := 0;
+  Bytes := Size;
+  if flex2pos_image_make(PAnsiChar(Project), Ident, @Payload, SizeOf(Payload), Addr, Bytes) <> 0 then Bytes := 0;
+  MakeFlexBin := Bytes;
+end;
+
+{ What is at most as long as an image can be; a file that cannot be read, or is longer, is no image. }
+procedure TakeFile(const Name: AnsiString);
+const
+  Most = 132000;
+var
+  F: file;
+  Got: Longint;
+  ModeBefore: Byte;
+begin
+  SetLength(BinOfFile, Most + 1);
+  Got := 0;
+  Assign(F, Name);
+  ModeBefore := FileMode;
+  FileMode := 0;
+  {$I-}
+  Reset(F, 1);
+  if IOResult = 0 then
   begin
-    RackFile := GetEnv('MOTIONRACK_RACK');
-    if RackFile = '' then RackFile := '[card.p1]'#10'type = "ioflex02"'#10'loaded = false'#10;
-    if mr_rack_open(PAnsiChar(RackFile), TheRack) <> 0 then
-    begin
-      Sentence := mr_last_error;
-      Exit;
-    end;
+    BlockRead(F, BinOfFile[0], Most + 1, Got);
+    if IOResult <> 0 then Got := 0;
+    Close(F);
   end;
-  if flex2pos_open(TheRack, Handle) <> 0 then
-  begin
-    Sentence := mr_last_error;
-    Exit;
-  end;
-  Result := flex2pos_Init(Handle, Addr);
-  Sentence := flex2pos_why(Handle);
+  if IOResult <> 0 then Got := 0;
+  {$I+}
+  FileMode := ModeBefore;
+  SetFlexBin(@BinOfFile[0], Got);
 end;
 
-procedure tIOFlex02.Done;
+constructor tIOFlexPos.Init(Addr: Word);
 begin
-  flex2pos_close(Handle);
-  Handle := nil;
-  Result := Flex_ErrDevice;
-end;
-
-function tIOFlex02.Why: AnsiString;
-begin
-  Why := Sentence;
-end;
-
-function tIOFlex02.GetIdent: Byte;
-begin
-  GetIdent := flex2pos_GetIdent(Handle);
-end;
-
-procedure tIOFlex02.WriteOutL(Data: Byte);
-begin
-  flex2pos_WriteOutL(Handle, Data);
-end;
-
-procedure tIOFlex02.WriteOutH(Data: Byte);
-begin
-  flex2pos_WriteOutH(Handle, Data);
-end;
-
-function tIOFlex02.ReadInL: Byte;
-begin
-  ReadInL := flex2pos_ReadInL(Handle);
-end;
-
-function tIOFlex02.ReadInH: Byte;
-begin
-  ReadInH := flex2pos_ReadInH(Handle);
+  inherited Init(Addr);
+  Configure(GetFlexBinAddr, GetFlexBinSize);
 end;
 
 function tIOFlexPos.ReadTime: Longint;
@@ -209,6 +193,11 @@ begin
   flex2pos_WriteCmd(Handle, Ord(Cmd0), Ord(Cmd1), Ord(Cmd2), Ord(Cmd3));
 end;
 
+procedure tIOFlexPos.WriteCmdAxis(Axis: Integer; Cmd: tIOFlexCmd);
+begin
+  flex2pos_WriteCmdAxis(Handle, Axis, Ord(Cmd));
+end;
+
 procedure tIOFlexPos.ReadSts(var Sts0, Sts1, Sts2, Sts3: tIOFlexSts);
 var
   Sts: array[0..3] of Longint;
@@ -221,9 +210,5 @@ begin
 end;
 
 initialization
-  { The library reckons with infinities; Free Pascal would stop the program at the first one. }
-  SetExceptionMask([exInvalidOp, exDenormalized, exZeroDivide, exOverflow, exUnderflow, exPrecision]);
-
-finalization
-  if TheRack <> nil then mr_rack_close(TheRack);
+  if GetEnv('MOTIONRACK_IRC') <> '' then TakeFile(GetEnv('MOTIONRACK_IRC'));
 end.
