@@ -184,10 +184,10 @@ TEST(Ioflex02InARack, AnInputIsRecordedByTheNameThatWasAskedFor) {
         std::filesystem::remove(file);
         return text.str();
     };
-    EXPECT_THAT(recorded("p1.in3"), HasSubstr(" in3 $end"));
+    EXPECT_THAT(recorded("p1.in3"), HasSubstr("p1_in3 $end"));
     const std::string all = recorded("p1.*");
-    EXPECT_THAT(all, HasSubstr(" cal0 $end"));
-    EXPECT_THAT(all, testing::Not(HasSubstr(" in3 $end"))) << "one wire, one signal";
+    EXPECT_THAT(all, HasSubstr("p1_cal0 $end"));
+    EXPECT_THAT(all, testing::Not(HasSubstr("p1_in3 $end"))) << "one wire, one signal";
 }
 
 TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
