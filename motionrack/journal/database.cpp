@@ -35,7 +35,6 @@ std::string Statement::text(int column) const {
 
 void Statement::again() {
     sqlite3_reset(statement_.get());
-    sqlite3_clear_bindings(statement_.get());
 }
 
 Result<Database> Database::open(const std::string& path, Use use) {

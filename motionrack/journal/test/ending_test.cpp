@@ -1,0 +1,90 @@
+// What a journal leaves behind when it ends, and how much it takes before.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <motionrack/journal/file_watch.hpp>
+
+#include "journal_file.hpp"
+
+namespace motionrack::journal {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::ptrdiff_t open_descriptors() {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+}
+
+TEST_F(AJournal, LeavesNeitherADescriptorNorALogBehind) {
+    open();
+    const std::ptrdiff_t before = open_descriptors();
+    for (int i = 0; i < 5; ++i) {
+        const auto journal = open();
+        write(*journal, "state", "moving");
+        EXPECT_TRUE(fs::exists(path_ + "-wal"));
+        EXPECT_TRUE(journal->close());
+    }
+    EXPECT_EQ(open_descriptors(), before);
+    EXPECT_FALSE(fs::exists(path_ + "-wal")) << "all of it is in the file";
+}
+
+TEST_F(AJournal, ThatIsClosedRefusesAnEntryAtOnce) {
+    const auto journal = open();
+    EXPECT_TRUE(journal->close());
+    std::string refused;
+    journal->write(Instant{}, "state", "too late", "{}",
+                   [&](const Result<std::int64_t>& number) { refused = number ? "written" : number.error().message; });
+    EXPECT_EQ(refused, "It was not written to the journal, which is closed.");
+    EXPECT_THAT(journal->failure(), IsEmpty());
+    remove();
+    EXPECT_TRUE(journal->close()) << "it has ended already";
+}
+
+TEST_F(AJournal, TakesSoManyEntriesAsMayWaitAndNoMore) {
+    const auto journal = open();
+    std::promise<void> busy, go_on;
+    journal->write(Instant{}, "state", "first", "{}", [&](const Result<std::int64_t>&) {
+        busy.set_value();
+        go_on.get_future().wait();
+    });
+    busy.get_future().wait();
+    for (std::size_t i = 0; i < Journal::most_waiting; ++i) journal->write(Instant{}, "state", "waits");
+    EXPECT_THAT(journal->failure(), IsEmpty());
+    journal->write(Instant{}, "state", "one too many");
+    EXPECT_THAT(journal->failure(), HasSubstr("100000 entries wait for the disk"));
+    go_on.set_value();
+    EXPECT_FALSE(journal->close());
+    EXPECT_EQ(all_entries().size(), Journal::most_waiting + 1);
+}
+
+TEST_F(AJournal, RemovesEntriesBeyondTheNewestMillionAtItsStart) {
+    open()->close();
+    change(
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 1000005) "
+        "INSERT INTO entry (number, run, utc_ms, at, kind, text, data, link) "
+        "SELECT i, 1, 0, 0, 'state', '', '', '' FROM n");
+    open()->close();
+    const std::map<std::int64_t, std::string> left = all_entries();
+    EXPECT_EQ(left.size(), static_cast<std::size_t>(Journal::most_entries));
+    EXPECT_EQ(left.begin()->first, 6);
+}
+
+TEST(AFileWatch, NoticesThatWhatWasAddedSinceItsStartIsGone) {
+    const std::string path = testing::TempDir() + "file_watch_" + std::to_string(::getpid());
+    std::ofstream(path) << "begun";
+    FileWatch watch;
+    watch.add(path);
+    EXPECT_TRUE(watch.check());
+    std::ofstream(path, std::ios::app) << " and gone on";
+    EXPECT_TRUE(watch.check());
+    fs::resize_file(path, 8);
+    const Result<void> cut = watch.check();
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().message, HasSubstr("was cut from 17 to 8 bytes"));
+    fs::remove(path);
+}
+
+}  // namespace
+}  // namespace motionrack::journal
