@@ -23,7 +23,7 @@ module mcx314_axis (
 
     reg [1:0]  wait_ticks;
     reg [24:0] acc;
-    reg [12:0] cv, aim, dvup;
+    reg [12:0] cv, aim;
     reg [16:0] va;
     reg [12:0] ca;
     reg [20:0] ja;
@@ -47,6 +47,16 @@ module mcx314_axis (
     reg [12:0] target, limit;
     reg        ended;
 
+    // Of an S-ramp: how far the speed is from its aim, and how far it gets while CA falls to 1, J ticks a step.
+    function [47:0] way;
+        input unused;
+        way = (up ? aim - cv : cv - aim) * 48'd64000 - va;
+    endfunction
+    function [47:0] fall;
+        input unused;
+        fall = j * (ca * (ca - 48'd1) / 2);
+    endfunction
+
     initial begin
         busy = 0; pulse = 0; stop_asked = 0; ca = 0;
     end
@@ -55,7 +65,7 @@ module mcx314_axis (
         pulse = 0;
         ended = 0;
         if (start && !busy) begin
-            busy = 1; wait_ticks = 2; acc = 0; va = 0; ja = 0; dvup = 0; ca = 0; n = 0; accel_pulses = 0;
+            busy = 1; wait_ticks = 2; acc = 0; va = 0; ja = 0; ca = 0; n = 0; accel_pulses = 0;
             up = 0; down = 0; phase = INC; final_seen = 0; stopping = 0; stop_asked = 0;
             cv = (v > sv) ? sv : v;
             final_ = !continuous && due($signed({3'b0, p}), 29'd0, 29'd0);
@@ -140,28 +150,30 @@ module mcx314_axis (
                 up = target > cv;
                 down = target < cv;
                 aim = target;
-                phase = INC; ca = 0; va = 0; ja = 0; dvup = 0;
+                phase = INC; ca = 0; va = 0; ja = down ? j : 0;
             end
             limit = (down && dsnde) ? d : a;
             if (up || down) begin
-                ja = ja + 1;
-                if (ja >= j) begin
-                    ja = 0;
-                    if (phase == INC) begin
+                if (phase == INC) begin
+                    ja = ja + 1;
+                    if (ja >= j) begin
+                        ja = 0;
                         ca = ca + 1;
                         if (ca >= limit) phase = CONST;
-                    end else if (phase == DEC && ca > 1) ca = ca - 1;
+                    end
+                end else if (ca > 1 && way(0) <= fall(0)) begin
+                    ca = ca - 1;
+                    phase = DEC;
                 end
                 va = va + ca;
                 if (va >= 64000) begin
                     va = va - 64000;
                     cv = up ? cv + 1 : cv - 1;
-                    if (phase == INC) dvup = dvup + 1;
-                    if (cv == aim) ramp_over;
-                    else if (phase != DEC && (up ? aim - cv : cv - aim) <= dvup) begin
-                        ja = j - ja;
-                        phase = DEC;
-                    end
+                end
+                if (cv == aim) ramp_over;
+                else if (phase == INC && way(0) <= fall(0) + ca * (ja + 48'd1)) begin
+                    phase = DEC;
+                    ja = 0;
                 end
             end
         end

@@ -8,6 +8,7 @@
 #include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/axes/segmenter.hpp>
 #include <motionrack/cards/mcx314/driver/parameters.hpp>
+#include <motionrack/cards/mcx314/ramp.hpp>
 
 namespace motionrack::mcx314 {
 

@@ -48,11 +48,11 @@ std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
         const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
         if (want != gen.ramp) return 1;
         if (gen.ramp == 0) return far;
-        return ticks_to_carry(gen.speed_part, ramp_rate(axis, gen));
+        return rules::ticks_to_carry(gen.speed_part, ramp_rate(axis, gen));
     }
     if (gen.final && !gen.final_seen) return 1;
     if (gen.ramp == 0) return gen.speed != to ? 1 : far;
-    return s_ticks(gen, jerk_ticks(axis));
+    return rules::s_ticks(gen, jerk_ticks(axis));
 }
 
 /// Basic pulses until one does more than step its axes (>= 1), far if never.
@@ -260,7 +260,7 @@ void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
     Generator& gen = axis.gen;
     if (gen.ramp == 0) return;
     ticks -= std::min<std::int64_t>(gen.wait, ticks);
-    if (gen.s_curve) return s_skip(gen, ticks, jerk_ticks(axis));
+    if (gen.s_curve) return rules::s_skip(gen, ticks);
     if (ticks > 0) gen.rate = ramp_rate(axis, gen);
     gen.speed_part += ticks * gen.rate;
 }
@@ -289,7 +289,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
         axis.lp = stepped(axis, axis.lp, steps);
         axis.count += steps;
         axis.made += rules::magnitude(steps);
-        if (axis.comparisons != 0) compare(i);
+        if (axis.steps_compared()) compare(i);
         request_interrupt(axis, rr3::PULSE.mask);
     };
     unsigned stepped = 1u << a;

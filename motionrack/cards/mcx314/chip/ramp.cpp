@@ -20,7 +20,7 @@ Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t 
     const std::int64_t steps = std::min<std::int64_t>(longest_walk, rules::magnitude(to - from.speed) - 1);
     const std::int64_t whole = rules::speed_carry / rate, rest = rules::speed_carry % rate;
     std::int64_t part = from.speed_part, speed = from.speed;
-    std::int64_t each = ticks_to_carry(part, rate);
+    std::int64_t each = rules::ticks_to_carry(part, rate);
     for (std::int64_t i = 0; i < steps; ++i) {
         const std::int64_t phase = walk.phase + each * speed;
         if (phase >= phase_limit || walk.ticks + each > tick_limit) break;
@@ -45,6 +45,7 @@ Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::i
     const std::int64_t end = axis.gen.stopping ? rules::used_speed(axis.start_speed) : -1;
     Speed law = from;
     std::int64_t rate = 0, whole = 0, rest = 0, ticks = 0, sum = 0, last_phase = 0, last_speed = 0;
+    std::int64_t same_rate = rules::s_ticks_of_rate(law, jerk);
     for (int i = 0; i < longest_walk; ++i) {
         const std::int64_t next = law.speed + law.ramp;
         if (next == law.aim || next <= end) break;
@@ -55,14 +56,16 @@ Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::i
         }
         std::int64_t each = far;
         if (rate > 0)
-            each = law.speed_part < rate ? whole + (rest > law.speed_part) : ticks_to_carry(law.speed_part, rate);
-        if (!keeps_rate(law)) each = std::max<std::int64_t>(1, std::min(jerk - law.rate_part, each));
+            each =
+                law.speed_part < rate ? whole + (rest > law.speed_part) : rules::ticks_to_carry(law.speed_part, rate);
+        each = std::min(each, same_rate);
         const std::int64_t phase = each * law.speed;
         if (each > tick_limit - ticks || sum + phase >= phase_limit) break;
         last_phase = phase;
         last_speed = law.speed;
-        s_skip(law, each - 1, jerk);
-        s_tick(law, jerk, top_rate);
+        rules::s_skip(law, each - 1);
+        rules::s_tick(law, jerk, top_rate);
+        same_rate = same_rate > each ? same_rate - each : rules::s_ticks_of_rate(law, jerk);
         sum += phase;
         ticks += each;
     }

@@ -69,9 +69,7 @@ void Chip::s_curve(int a) {
     const std::int64_t to = target(state_.axis[a]);
     if (gen.ramp == 0 && gen.speed != to) {
         set_ramp(a, to > gen.speed ? 1 : -1);
-        gen.aim = to;
-        gen.phase = Phase::increasing;
-        gen.rate = gen.speed_part = gen.rate_part = gen.speed_steps = 0;
+        rules::s_begin(gen, to, jerk_ticks(state_.axis[a]));
     }
     if (gen.ramp != 0) s_advance(a);
 }
@@ -96,7 +94,7 @@ void Chip::s_turn_final(int a) {
 void Chip::s_advance(int a) {
     Axis& axis = state_.axis[a];
     Generator& gen = axis.gen;
-    if (!s_tick(gen, jerk_ticks(axis), ramp_rate(axis, gen))) return;
+    if (!rules::s_tick(gen, jerk_ticks(axis), ramp_rate(axis, gen))) return;
     set_ramp(a, 0);
     gen.speed_part = gen.rate_part = 0;
 }

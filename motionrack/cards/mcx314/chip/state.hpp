@@ -5,9 +5,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/chip/extension.hpp>
 #include <motionrack/cards/mcx314/chip/fields.hpp>
+#include <motionrack/cards/mcx314/ramp.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/listeners.hpp>
 #include <type_traits>
@@ -17,7 +17,6 @@ namespace motionrack::mcx314 {
 inline constexpr int axes_of_chip = 4;
 
 enum class Drive : std::uint8_t { idle, fixed, continuous, path };
-enum class Phase : std::uint8_t { increasing, constant, decreasing };
 
 /// The command of a drive of its own.
 constexpr int drive_code(Drive drive, int direction) {
@@ -84,16 +83,6 @@ struct Pattern {
     }
 };
 
-/// A speed and the ramp it is on.
-struct Speed {
-    std::int64_t speed = 0, speed_part = 0;  ///< CV, va
-    std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
-    std::int64_t speed_steps = 0, aim = 0;   ///< dvup; where an S-ramp goes
-    std::int32_t ramp = 0;
-    Phase phase = Phase::increasing;
-    std::array<std::uint8_t, 3> reserved{};
-};
-
 /// Steps of a speed up to some tick, the steps' ticks included, in which nothing but the speed changes.
 struct Walk {
     Speed law;                                    ///< after them
@@ -155,6 +144,8 @@ struct Axis {
     std::int32_t lp = 0, comp_plus = 0, comp_minus = 0;
     std::int32_t ep = 0;             ///< EP where no encoder is connected
     sim::ClosedFormCounter encoder;  ///< EP behind a connected one
+    /// Whether a step may change a comparison that is heard of; where EP is compared, the encoder tells of it.
+    bool steps_compared() const { return comparisons != 0 && !wr2::CMPSL.test(wr2); }
     std::int32_t direction = 1;
     std::int32_t held_command = 0;
     bool hold = false;

@@ -224,7 +224,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     request_interrupt(axis, rr3::PULSE.mask);
     moved_last_ |= 1u << a;
     went_[a] = direction;
-    if (axis.comparisons != 0) compare(a);
+    if (axis.steps_compared()) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
     for (int i = 0; i < outputs_[a].listeners.size(); ++i)
         if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;

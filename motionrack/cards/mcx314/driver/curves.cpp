@@ -4,25 +4,22 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/parameters.hpp>
+#include <motionrack/cards/mcx314/ramp.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
-
-constexpr std::int64_t far_ahead = std::numeric_limits<std::int64_t>::max();
 
 class Walk {
   public:
     Walk(const CurveData& data, const std::function<void(const CurveSpan&)>& spans) : d_(data), spans_(spans) {
         plan_.data = data;
         jerk_ticks_ = rules::jerk_ticks_per_k * data.K;
-        cv_ = data.V > data.SV ? data.SV : data.V;
+        law_.speed = data.V > data.SV ? data.SV : data.V;
         tick_ = rules::start_ticks;
-        open_ = {tick_, 0, cv_, 0, 0};
+        open_ = {tick_, 0, law_.speed, 0, 0};
     }
 
     CurvePlan run() {
@@ -43,34 +40,29 @@ class Walk {
     }
 
   private:
-    enum class Phase { rising, constant, falling };
-
-    std::int64_t target() const { return final_ ? std::min(cv_, d_.SV) : d_.V; }
-    std::int64_t limit() const { return ramp_ < 0 && d_.asymmetric ? d_.D : d_.A; }
+    std::int64_t target() const { return final_ ? std::min(law_.speed, d_.SV) : d_.V; }
+    std::int64_t limit() const { return law_.ramp < 0 && d_.asymmetric ? d_.D : d_.A; }
 
     std::int64_t ticks_to_speed_event() const {
         if (final_ != final_seen_ || asked_to_stop_) return 1;
-        if (ramp_ == 0) return cv_ == target() ? (d_.pulses ? far_ahead : 1) : 1;
-        const std::int64_t rate = d_.s_curve ? rate_ : limit();
-        const std::int64_t to_step = rate > 0 ? rules::ceil_div(rules::speed_carry - speed_part_, rate) : far_ahead;
-        if (!d_.s_curve) return to_step;
-        return std::max<std::int64_t>(1, std::min(to_step, jerk_ticks_ - rate_part_));
+        if (law_.ramp == 0) return law_.speed == target() ? (d_.pulses ? far : 1) : 1;
+        return d_.s_curve ? rules::s_ticks(law_, jerk_ticks_) : rules::ticks_to_carry(law_.speed_part, limit());
     }
 
     /// Ticks until the pulse that ends the drive or begins its last deceleration.
     std::int64_t ticks_to_special_pulse() const {
-        if (!d_.pulses) return far_ahead;
+        if (!d_.pulses) return far;
         std::int64_t pulses = *d_.pulses - n_;
         if (!final_) {
             if (d_.dec_point)
                 pulses = std::min(pulses, *d_.dec_point - n_);
             else {
                 const std::int64_t spare = pulses - accel_pulses_ - d_.AO;
-                pulses = std::min(pulses, ramp_ > 0 ? rules::ceil_div(std::max<std::int64_t>(spare, 0), 2) : spare);
+                pulses = std::min(pulses, law_.ramp > 0 ? rules::ceil_div(std::max<std::int64_t>(spare, 0), 2) : spare);
             }
         }
         pulses = std::max<std::int64_t>(pulses, 1);
-        return rules::ceil_div(pulses * d_.R - phase_, cv_);
+        return rules::ceil_div(pulses * d_.R - phase_, law_.speed);
     }
 
     CurvePart& part(int direction) {
@@ -82,25 +74,27 @@ class Walk {
     void note(int direction, std::int64_t ticks, std::int64_t rate, std::int64_t from) {
         CurvePart& at = part(direction);
         if (at.ticks == 0) at.from_v = from;
-        at.to_v = cv_;
+        at.to_v = law_.speed;
         at.ticks += ticks;
         if (direction != 0) at.peak_rate = std::max(at.peak_rate, rate);
-        plan_.top_v = std::max({plan_.top_v, from, cv_});
+        plan_.top_v = std::max({plan_.top_v, from, law_.speed});
     }
 
     void skip(std::int64_t ticks) {
-        phase_ += ticks * cv_;
+        phase_ += ticks * law_.speed;
         const std::int64_t pulses = phase_ / d_.R;
         phase_ %= d_.R;
         n_ += pulses;
-        if (ramp_ > 0) accel_pulses_ += pulses;
-        if (ramp_ != 0) {
-            speed_part_ += ticks * (d_.s_curve ? rate_ : limit());
-            rate_part_ += ticks;
+        if (law_.ramp > 0) accel_pulses_ += pulses;
+        if (law_.ramp != 0) {
+            if (d_.s_curve)
+                rules::s_skip(law_, ticks);
+            else
+                law_.speed_part += ticks * limit();
         }
         tick_ += ticks;
-        part(ramp_).pulses += pulses;
-        note(ramp_, ticks, d_.s_curve ? rate_ : limit(), cv_);
+        part(law_.ramp).pulses += pulses;
+        note(law_.ramp, ticks, d_.s_curve ? law_.rate : limit(), law_.speed);
     }
 
     void check_final() {
@@ -111,91 +105,70 @@ class Walk {
     /// One tick by the rule: pulse, then speed.
     void step() {
         ++tick_;
-        const std::int64_t from = cv_;
+        const std::int64_t from = law_.speed;
         if (asked_to_stop_) asked_to_stop_ = false, final_ = stopping_ = true;
-        phase_ += cv_;
+        phase_ += law_.speed;
         if (phase_ >= d_.R) {
             phase_ -= d_.R;
             ++n_;
-            ++part(ramp_).pulses;  // a pulse that begins the fall is the last one before it
-            if (ramp_ > 0) ++accel_pulses_;
-            plan_.end_v = cv_;
+            ++part(law_.ramp).pulses;  // a pulse that begins the fall is the last one before it
+            if (law_.ramp > 0) ++accel_pulses_;
+            plan_.end_v = law_.speed;
             if (d_.pulses && n_ >= *d_.pulses) {
                 ended_ = true;
-                return note(ramp_, 1, d_.s_curve ? rate_ : limit(), from);
+                return note(law_.ramp, 1, d_.s_curve ? law_.rate : limit(), from);
             }
             check_final();
         }
         direction_ = 0;
-        if (!(stopping_ && cv_ <= d_.SV)) {
+        if (!(stopping_ && law_.speed <= d_.SV)) {
             if (d_.s_curve)
                 s_curve();
             else
                 t_curve();
             final_seen_ = final_;
         }
-        note(direction_, 1, rate_, from);
-        if (cv_ != from) flush();
-        if (stopping_ && cv_ <= d_.SV) ended_ = true;
+        note(direction_, 1, law_.rate, from);
+        if (law_.speed != from) flush();
+        if (stopping_ && law_.speed <= d_.SV) ended_ = true;
         // A continuous drive is planned with a slow stop as soon as it has its speed.
-        if (!d_.pulses && !final_ && ramp_ == 0 && cv_ == d_.V) asked_to_stop_ = true;
+        if (!d_.pulses && !final_ && law_.ramp == 0 && law_.speed == d_.V) asked_to_stop_ = true;
     }
 
     void t_curve() {
         const std::int64_t to = target();
-        const int want = to > cv_ ? 1 : to < cv_ ? -1 : 0;
-        if (want != ramp_) {
-            ramp_ = want;
-            speed_part_ = 0;
+        const int want = to > law_.speed ? 1 : to < law_.speed ? -1 : 0;
+        if (want != law_.ramp) {
+            law_.ramp = want;
+            law_.speed_part = 0;
         }
-        if (ramp_ == 0) return;
-        direction_ = ramp_;
-        rate_ = limit();
-        speed_part_ += rate_;
-        if (speed_part_ >= rules::speed_carry) {
-            speed_part_ -= rules::speed_carry;
-            cv_ += ramp_;
+        if (law_.ramp == 0) return;
+        direction_ = law_.ramp;
+        law_.rate = limit();
+        law_.speed_part += law_.rate;
+        if (law_.speed_part >= rules::speed_carry) {
+            law_.speed_part -= rules::speed_carry;
+            law_.speed += law_.ramp;
         }
-        if (cv_ == target()) {
-            ramp_ = 0;
-            speed_part_ = 0;
-        }
+        if (law_.speed == target()) ramp_over();
+    }
+
+    void ramp_over() {
+        law_.ramp = 0;
+        law_.speed_part = law_.rate_part = 0;
     }
 
     void s_curve() {
-        if (final_ && !final_seen_ && ramp_ > 0) {  // the rising ramp is dropped
-            ramp_ = 0;
-            speed_part_ = rate_part_ = 0;
-        }
+        if (final_ && !final_seen_ && law_.ramp > 0) ramp_over();  // the rising ramp is dropped
         const std::int64_t to = target();
-        if (ramp_ == 0 && cv_ != to) {
-            ramp_ = to > cv_ ? 1 : -1;
-            aim_ = to;
-            shape_ = Phase::rising;
-            rate_ = speed_part_ = rate_part_ = speed_steps_ = 0;
+        if (law_.ramp == 0 && law_.speed != to) {
+            law_.ramp = to > law_.speed ? 1 : -1;
+            rules::s_begin(law_, to, jerk_ticks_);
         }
-        if (ramp_ == 0) return;
-        direction_ = ramp_;
-        if (++rate_part_ >= jerk_ticks_) {
-            rate_part_ = 0;
-            if (shape_ == Phase::rising) {
-                if (++rate_ >= limit()) shape_ = Phase::constant, straight_middle_ = true;
-            } else if (shape_ == Phase::falling && rate_ > 1) {
-                --rate_;
-            }
-        }
-        speed_part_ += rate_;
-        if (speed_part_ < rules::speed_carry) return;
-        speed_part_ -= rules::speed_carry;
-        cv_ += ramp_;
-        if (shape_ == Phase::rising) ++speed_steps_;
-        if (cv_ == aim_) {
-            ramp_ = 0;
-            speed_part_ = rate_part_ = 0;
-        } else if (shape_ != Phase::falling && rules::magnitude(aim_ - cv_) <= speed_steps_) {
-            rate_part_ = jerk_ticks_ - rate_part_;
-            shape_ = Phase::falling;
-        }
+        if (law_.ramp == 0) return;
+        direction_ = law_.ramp;
+        if (rules::s_tick(law_, jerk_ticks_, limit())) ramp_over();
+        straight_middle_ |= law_.phase == Phase::constant;
     }
 
     /// Ends a span where the speed has changed.
@@ -203,17 +176,16 @@ class Walk {
         open_.ticks = tick_ - open_.tick;
         open_.ramp = direction_;
         if (spans_ && open_.ticks > 0) spans_(open_);
-        open_ = {tick_, 0, cv_, phase_, 0};
+        open_ = {tick_, 0, law_.speed, phase_, 0};
     }
 
     const CurveData& d_;
     const std::function<void(const CurveSpan&)>& spans_;
     CurvePlan plan_;
     CurveSpan open_;
-    std::int64_t jerk_ticks_ = 0, tick_ = 0, phase_ = 0, cv_ = 0, n_ = 0, accel_pulses_ = 0;
-    std::int64_t speed_part_ = 0, rate_part_ = 0, rate_ = 0, speed_steps_ = 0, aim_ = 0;
-    int ramp_ = 0, direction_ = 0;
-    Phase shape_ = Phase::rising;
+    std::int64_t jerk_ticks_ = 0, tick_ = 0, phase_ = 0, n_ = 0, accel_pulses_ = 0;
+    Speed law_;
+    int direction_ = 0;
     bool final_ = false, final_seen_ = false, stopping_ = false, asked_to_stop_ = false, ended_ = false,
          straight_middle_ = false;
 };
@@ -304,6 +276,17 @@ Result<std::int64_t> best_offset(const CurveData& data) {
         (ends_slow(middle) ? high : low) = middle;
     }
     return high;
+}
+
+Result<CurveData> with_slow_end(const CurveData& data) {
+    CurveData out = data;
+    if (!data.pulses) return out;
+    if (data.asymmetric) {
+        MOTIONRACK_TRY(out.dec_point, best_dec_point(data));
+    } else {
+        MOTIONRACK_TRY(out.AO, best_offset(data));
+    }
+    return out;
 }
 
 std::int64_t fall_pulses(const CurveData& data, std::int64_t v) {

@@ -88,6 +88,10 @@ Result<std::int64_t> best_dec_point(const CurveData& data);
 /// little more pulses than rising did, most of all in S-curves. 65,535 if none does.
 Result<std::int64_t> best_offset(const CurveData& data);
 
+/// The drive with what makes it end at SV: the point of best_dec_point() where it falls with D, else best_offset(). A
+/// continuous drive is as it was.
+Result<CurveData> with_slow_end(const CurveData& data);
+
 /// Pulses that the fall from `v` to SV takes, rounded up.
 std::int64_t fall_pulses(const CurveData& data, std::int64_t v);
 /// The speed, V units, after `pulses` of a T-curve's fall that began at `v`: SV if they suffice.

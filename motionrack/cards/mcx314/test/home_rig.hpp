@@ -30,14 +30,17 @@ struct RigAxis {
     double limit_plus_mm = 302;
     bool wired_home = true;
     bool wired_index = true;
+    int home_level = 0;           ///< of the home switch's wire when it acts
+    double start_stop_hz = 4000;  ///< jump of the pulse rate that the motor follows
 
     parts::AxisMachineSettings machine() const {
         parts::AxisMachineSettings s;
-        s.motor = {200, 16, 4000, 200'000};
+        s.motor = {200, 16, start_stop_hz, 200'000};
         s.axle.travel_per_rev = parts::linear_travel(5);
         s.axle.start_position = start_mm;
         s.encoder.counts_per_rev = 4000;
         s.home.position = home_mm;
+        s.home.active_level = home_level;
         s.limit_minus.position = limit_minus_mm;
         s.limit_plus.position = limit_plus_mm;
         for (parts::LimitSwitchSettings* each : {&s.home, &s.limit_minus, &s.limit_plus}) {

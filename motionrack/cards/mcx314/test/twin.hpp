@@ -46,7 +46,7 @@ struct Generator {
     bool manual = false, own_decel = false, s_curve = false;
     std::int64_t range = 0, range_now = 0;
     std::int64_t acc = 0, speed = 0, speed_part = 0;        ///< acc, CV, va
-    std::int64_t rate = 0, rate_part = 0, speed_steps = 0;  ///< CA, ja, dvup
+    std::int64_t rate = 0, rate_part = 0, lower_rates = 0;  ///< CA, ja, 0 + 1 + .. + (CA - 1)
     std::int64_t aim = 0, n = 0, accel_pulses = 0;
     int ramp = 0;
     Phase phase = Phase::increasing;

@@ -76,6 +76,49 @@ void Twin::t_curve(int a) {
     }
 }
 
+namespace {
+
+// J
+template <class Axis>
+std::int64_t s_jerk(const Axis& axis, bool extended) {
+    const bool own_jerk = extended && axis.gen.ramp < 0 && axis.gen.own_decel;
+    return 16 * used_jerk(own_jerk ? axis.reg.decel_jerk : axis.reg.jerk);
+}
+
+// The third step of the rules; true where the aim is reached.
+bool s_tick(Generator& gen, std::int64_t limit, std::int64_t jerk_ticks) {
+    using Phase = Generator::Phase;
+    // What the speed has still to change by, in parts of which 64,000 are a step.
+    const auto left = [&gen] { return std::abs(gen.aim - gen.speed) * speed_carry - gen.speed_part; };
+    if (gen.phase == Phase::increasing) {
+        ++gen.rate_part;
+        if (gen.rate_part >= jerk_ticks) {
+            gen.rate_part = 0;
+            gen.lower_rates += gen.rate;
+            ++gen.rate;
+            if (gen.rate >= limit) gen.phase = Phase::constant;
+        }
+    } else if (gen.rate > 1 && left() <= jerk_ticks * gen.lower_rates) {
+        gen.phase = Phase::decreasing;
+        --gen.rate;
+        gen.lower_rates -= gen.rate;
+    }
+    gen.speed_part += gen.rate;
+    if (gen.speed_part >= speed_carry) {
+        gen.speed_part -= speed_carry;
+        gen.speed += gen.ramp;
+    }
+    if (gen.speed == gen.aim) return true;
+    const std::int64_t behind_the_middle = jerk_ticks * gen.lower_rates + (gen.rate_part + 1) * gen.rate;
+    if (gen.phase == Phase::increasing && left() <= behind_the_middle) {
+        gen.phase = Phase::decreasing;
+        gen.rate_part = 0;
+    }
+    return false;
+}
+
+}  // namespace
+
 void Twin::s_curve(int a) {
     Generator& gen = axes_[a].gen;
     if (gen.final && !gen.final_seen) s_turn_final(a);
@@ -84,7 +127,8 @@ void Twin::s_curve(int a) {
         set_ramp(a, to > gen.speed ? +1 : -1);
         gen.aim = to;
         gen.phase = Generator::Phase::increasing;
-        gen.rate = gen.speed_part = gen.rate_part = gen.speed_steps = 0;
+        gen.rate = gen.speed_part = gen.lower_rates = 0;
+        gen.rate_part = gen.ramp < 0 ? s_jerk(axes_[a], extended_) : 0;
     }
     if (gen.ramp != 0) s_advance(a);
 }
@@ -108,34 +152,12 @@ void Twin::s_turn_final(int a) {
 }
 
 void Twin::s_advance(int a) {
-    using Phase = Generator::Phase;
     Axis& axis = axes_[a];
     Generator& gen = axis.gen;
     const std::int64_t limit = gen.ramp < 0 && gen.own_decel ? used_decel(axis.reg) : used_accel(axis.reg);
-    const bool own_jerk = extended_ && gen.ramp < 0 && gen.own_decel;
-    const std::int64_t jerk_ticks = 16 * used_jerk(own_jerk ? axis.reg.decel_jerk : axis.reg.jerk);
-    ++gen.rate_part;
-    if (gen.rate_part >= jerk_ticks) {
-        gen.rate_part = 0;
-        if (gen.phase == Phase::increasing) {
-            ++gen.rate;
-            if (gen.rate >= limit) gen.phase = Phase::constant;
-        } else if (gen.phase == Phase::decreasing && gen.rate > 1) {
-            --gen.rate;
-        }
-    }
-    gen.speed_part += gen.rate;
-    if (gen.speed_part < speed_carry) return;
-    gen.speed_part -= speed_carry;
-    gen.speed += gen.ramp;
-    if (gen.phase == Phase::increasing) ++gen.speed_steps;
-    if (gen.speed == gen.aim) {
-        set_ramp(a, 0);
-        gen.speed_part = gen.rate_part = 0;
-    } else if (gen.phase != Phase::decreasing && std::abs(gen.aim - gen.speed) <= gen.speed_steps) {
-        gen.rate_part = jerk_ticks - gen.rate_part;
-        gen.phase = Phase::decreasing;
-    }
+    if (!s_tick(gen, limit, s_jerk(axis, extended_))) return;
+    set_ramp(a, 0);
+    gen.speed_part = gen.rate_part = 0;
 }
 
 }  // namespace motionrack::mcx314::twin
