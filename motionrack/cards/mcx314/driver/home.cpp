@@ -214,7 +214,8 @@ std::int64_t Home::speed() const {
 }
 
 void Home::drive(const Look& look, Instant now) {
-    if (state_->until == HomeUntil::index && look.index_on) return fail(HomeFault::index_at_switch, look, now);
+    if (state_->until == HomeUntil::index && look.index_on && settings_.type != 5)
+        return fail(HomeFault::index_at_switch, look, now);
     if (state_->until == HomeUntil::distance) {
         planned_ = settings_.clearance;
         if (settings_.type == 1 || settings_.type == 3) planned_ = std::max(planned_, run_up());

@@ -16,12 +16,13 @@ namespace motionrack::mcx314 {
 
 /// Speeds are in V units (8,000,000 / range pulses a second), distances in pulses.
 struct HomeSettings {
-    int type =
-        2;  ///< 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index
+    /// 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index; 5 as 1, on
+    /// to the index, then back and again, slowly, to the switch: the source's HomeType4.
+    int type = 2;
     bool negative = true;                          ///< direction in which the switch is searched
     int input = 0;                                 ///< the home switch: IN0 .. IN3
     bool active_high = false;                      ///< its level
-    int index_input = 2;                           ///< the encoder's index: IN0 .. IN3, types 3 and 4
+    int index_input = 2;                           ///< the encoder's index: IN0 .. IN3, types 3 to 5
     bool index_high = true;                        ///< its level
     std::int64_t range = 0;                        ///< R, 16,000 .. 8,000,000; 0: as it was written before
     std::int64_t sv = 100;                         ///< 1 .. 8,000

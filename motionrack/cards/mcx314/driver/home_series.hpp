@@ -33,7 +33,8 @@ Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& set
                                std::span<const std::int64_t> away, Duration timeout = whole_seconds(600));
 
 /// The source's homing functions: all axes of the mask at once, in - direction, with R as it was written before.
-/// WR1Reg: WR1 with the home input enabled at its level, and IN2's level for the index. Types as HomeSettings::type.
+/// WR1Reg: WR1 with the home input enabled at its level, and in types 3 and 4 IN2's level for the index. Back it goes
+/// at SV, slowly at half of SV, in type 3 to the index at SV. Errors: refused; those of the first axis that fails.
 Result<std::vector<HomeReport>> HomeType1(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,
                                           std::int64_t V, std::int64_t A);
 Result<std::vector<HomeReport>> HomeType2(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,

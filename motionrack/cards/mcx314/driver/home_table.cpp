@@ -1,4 +1,4 @@
-// The four tables of homing. A failure (see HomeFault) leads from every state to STOPPING_WAIT, and from there to
+// The tables of homing. A failure (see HomeFault) leads from every state to STOPPING_WAIT, and from there to
 // FAILED.
 #include <motionrack/cards/mcx314/driver/home_table.hpp>
 
@@ -60,8 +60,9 @@ constexpr HomeState slow_wait(std::string_view next) {
 }
 constexpr HomeState index_start = drive("INDEX_START", "on towards the encoder's index, slowly", "INDEX_WAIT",
                                         HomeWay::towards, HomePace::slow, HomeUntil::index);
-constexpr HomeState index_wait =
-    wait("INDEX_WAIT", "the index ends the drive at once", index_start, {{{done, "ZERO_START"}}});
+constexpr HomeState index_wait(std::string_view next) {
+    return wait("INDEX_WAIT", "the index ends the drive at once", index_start, {{{done, next}}});
+}
 constexpr HomeState zero_start = {
     "ZERO_START", "LP and EP are given the home position", HomeDoes::zero, {{{done, "HOMED"}}}};
 constexpr HomeState stopping_wait = {
@@ -84,13 +85,18 @@ constexpr std::array type2 = {
 constexpr std::array type3 = {
     check_start, search_start, search_wait({{{done, "INDEX_START"}, {early, "REST_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
-    settle_start, settle_wait("SEARCH_START"), index_start, index_wait, zero_start, stopping_wait, homed, failed};
+    settle_start, settle_wait("SEARCH_START"), index_start, index_wait("ZERO_START"), zero_start, stopping_wait, homed,
+    failed};
 constexpr std::array type4 = {
     check_start, search_start, search_wait({{{done, "REST_START"}, {limit, "REST_START"}}}),
     rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start, clear_wait,
-    settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("INDEX_START"), index_start, index_wait, zero_start,
-    stopping_wait,
-    homed, failed};
+    settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("INDEX_START"), index_start,
+    index_wait("ZERO_START"), zero_start, stopping_wait, homed, failed};
+constexpr std::array type5 = {
+    check_start, search_start, search_wait({{{done, "INDEX_START"}, {limit, "REST_START"}}}), index_start,
+    index_wait("REST_START"), rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start,
+    clear_wait, settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("ZERO_START"), zero_start,
+    stopping_wait, homed, failed};
 // clang-format on
 
 // ---- the same as declared state machines
@@ -148,7 +154,7 @@ struct Declared {
     }();
 };
 
-constexpr std::array<HomeTable, 4> tables = {{
+constexpr std::array<HomeTable, 5> tables = {{
     {type1, {"HomeType1", "decelerating stop at the switch", Declared<type1>::states, Declared<type1>::transitions}},
     {type2,
      {"HomeType2", "stop, back at constant speed, slowly to the switch", Declared<type2>::states,
@@ -156,12 +162,17 @@ constexpr std::array<HomeTable, 4> tables = {{
     {type3,
      {"HomeType3", "slow to SV at the switch, stop at the index", Declared<type3>::states,
       Declared<type3>::transitions}},
-    {type4, {"HomeType4", "type 2, then slowly to the index", Declared<type4>::states, Declared<type4>::transitions}},
+    {type4,
+     {"HomeToIndex", "HomeType2, then slowly to the index", Declared<type4>::states, Declared<type4>::transitions}},
+    {type5,
+     {"HomeType4", "stop, slowly to the index, back at constant speed, slowly to the switch", Declared<type5>::states,
+      Declared<type5>::transitions}},
 }};
 static_assert(declared<machine_flaw(tables[0].machine)>());
 static_assert(declared<machine_flaw(tables[1].machine)>());
 static_assert(declared<machine_flaw(tables[2].machine)>());
 static_assert(declared<machine_flaw(tables[3].machine)>());
+static_assert(declared<machine_flaw(tables[4].machine)>());
 
 }  // namespace
 

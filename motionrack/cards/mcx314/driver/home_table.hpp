@@ -61,7 +61,7 @@ struct HomeTable {
     }
 };
 
-/// The table of a type, 1..4.
+/// The table of a type, 1..5.
 const HomeTable& home_table(int type);
 
 }  // namespace motionrack::mcx314

@@ -45,20 +45,26 @@ Result<void> HomeReport::result() const {
 // ---- what is refused
 
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
+    if (type < 1 || type > 4)
+        return motionrack::fail(Trouble::refused,
+                                fmt::format("The type of homing is {}, but it is 1 to 4. Nothing was moved.", type));
     HomeSettings out;
-    out.type = type;
+    const bool to_index = type >= 3;
+    out.type = type == 4 ? 5 : type;
     out.sv = SV;
     out.v = V;
     out.a = A;
+    if (type == 3) out.slow_v = SV;
     out.input = -1;
     for (int i = 3; i >= 0; --i)
-        if (i != out.index_input && (WR1Reg >> 2 * i & 2) != 0) out.input = i;
+        if ((WR1Reg >> 2 * i & 2) != 0 && !(to_index && i == out.index_input)) out.input = i;
     if (out.input < 0)
         return motionrack::fail(
             Trouble::refused,
-            fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of IN0, IN1 and IN3 as home switch "
-                        "(bits 1, 3, 7). Nothing was moved; enable one, with its level in the bit below.",
-                        type, WR1Reg));
+            fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of {} as home switch (bits {}). Nothing was "
+                        "moved; enable one, with its level in the bit below.",
+                        type, WR1Reg, to_index ? "IN0, IN1 and IN3" : "IN0 to IN3",
+                        to_index ? "1, 3, 7" : "1, 3, 5, 7"));
     out.active_high = (WR1Reg >> 2 * out.input & 1) != 0;
     out.index_high = (WR1Reg >> 2 * out.index_input & 1) != 0;
     return out;
@@ -73,7 +79,7 @@ Result<void> Home::check_ready() {
                                 fmt::format("Axis {} was not homed: {}. Nothing was moved.", name, why));
     };
     const Bound bounds[] = {
-        {"the type", s.type, 1, 4},
+        {"the type", s.type, 1, 5},
         {"the home input", s.input, 0, 3},
         {"the index input", s.index_input, 0, 3},
         {"the range R", s.range == 0 ? param::R.least : s.range, param::R.least, param::R.greatest},

@@ -1,0 +1,107 @@
+// The source's four functions of homing: their inputs, ways and speeds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <motionrack/cards/mcx314/test/home_rig.hpp>
+
+namespace motionrack::mcx314 {
+namespace {
+
+using testing::HasSubstr;
+
+/// WR1Reg: IN0 active Low is the origin, IN2 active High the index.
+constexpr unsigned origin_in0 = 0x0012;
+/// Where the switch of the rig acts, pulses from its start at 20 mm.
+constexpr std::int64_t origin = -19 * 640;
+
+const HomeStay& stay_in(const HomeReport& report, std::string_view state) {
+    for (const HomeStay& stay : report.stays)
+        if (stay.state == state) return stay;
+    ADD_FAILURE() << state << " was not entered";
+    return report.stays.front();
+}
+
+/// Pulses a second of the chip's clock, in a state in which the speed is constant.
+double speed_in(const HomeReport& report, std::string_view state) {
+    const HomeStay& stay = stay_in(report, state);
+    return std::fabs(static_cast<double>(way_between(stay.from_lp, stay.to_lp))) / to_seconds(stay.took);
+}
+
+HomeReport homed_by(HomeRig& rig, decltype(&HomeType1) function, unsigned wr1 = origin_in0) {
+    const auto done = function(rig.driver, axis_x, wr1, 50, 1000, 100);
+    EXPECT_TRUE(done) << (done ? "" : done.error().message);
+    return done ? done->front() : HomeReport{};
+}
+
+TEST(HomingBySource, Type2GoesBackAtTheInitialSpeedAndForwardAtHalfOfIt) {
+    HomeRig rig;
+    rig.start();
+    const HomeReport report = homed_by(rig, HomeType2);
+    EXPECT_EQ(rig.rotor(), origin);
+    EXPECT_NEAR(speed_in(report, "BACK_WAIT"), 500, 5);
+    EXPECT_NEAR(speed_in(report, "SLOW_WAIT"), 250, 2.5);
+}
+
+TEST(HomingBySource, Type3GoesToTheIndexAtTheInitialSpeed) {
+    HomeRig rig;
+    rig.start();
+    const HomeReport report = homed_by(rig, HomeType3);
+    EXPECT_EQ(rig.rotor(), -4 * pulses_per_turn);
+    EXPECT_NEAR(speed_in(report, "INDEX_WAIT"), 500, 5);
+}
+
+TEST(HomingBySource, Type4StopsAtTheIndexBeforeItGoesBackAndEndsAtTheOrigin) {
+    HomeRig rig;
+    rig.start();
+    const HomeReport report = homed_by(rig, HomeType4);
+    EXPECT_EQ(stay_in(report, "INDEX_WAIT").to_lp, -4 * pulses_per_turn);
+    EXPECT_EQ(stay_in(report, "BACK_WAIT").from_lp, -4 * pulses_per_turn);
+    EXPECT_LT(stay_in(report, "INDEX_WAIT").from, stay_in(report, "BACK_WAIT").from);
+    EXPECT_NEAR(speed_in(report, "BACK_WAIT"), 500, 5);
+    EXPECT_NEAR(speed_in(report, "SLOW_WAIT"), 250, 2.5);
+    EXPECT_EQ(rig.rotor(), origin);
+    EXPECT_EQ(rig.driver.ReadLPS(0), 0);
+}
+
+TEST(HomingBySource, Type4TakesAnIndexAtWhichItStandsAlready) {
+    HomeRig rig({RigAxis{.wired_index = false}});
+    rig.start();
+    rig.hold_wire("c.xin2", 1);
+    homed_by(rig, HomeType4);
+    EXPECT_EQ(rig.rotor(), origin);
+}
+
+TEST(HomingBySource, AnyInputMayBeTheOriginAtEitherLevel) {
+    for (const int input : {0, 1, 2, 3}) {
+        for (const bool high : {false, true}) {
+            for (const auto function : {&HomeType2, &HomeType4}) {
+                if (input == 2 && function == &HomeType4) continue;  // the index
+                SCOPED_TRACE("IN" + std::to_string(input) + (high ? " High" : " Low"));
+                const RigAxis axis{.wired_home = false, .wired_index = input != 2, .home_level = high ? 1 : 0};
+                HomeRig rig({axis});
+                rig.join(rig.machines[0]->home_wire(), "c.xin" + std::to_string(input));
+                rig.start();
+                homed_by(rig, function, (high ? 3u : 2u) << 2 * input | (input == 2 ? 0u : 0x10u));
+                EXPECT_EQ(rig.rotor(), origin);
+            }
+        }
+    }
+}
+
+TEST(HomingBySource, TypesWithAnIndexRefuseItsInputAsTheOrigin) {
+    HomeRig rig;
+    rig.start();
+    for (const auto function : {&HomeType3, &HomeType4}) {
+        const auto refused = function(rig.driver, axis_x, 0x0030, 50, 1000, 100);
+        ASSERT_FALSE(refused);
+        EXPECT_THAT(refused.error().message, HasSubstr("none of IN0, IN1 and IN3"));
+    }
+    const auto none = HomeType1(rig.driver, axis_x, 0x0055, 50, 1000, 100);
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("none of IN0 to IN3"));
+    EXPECT_EQ(rig.rotor(), 0);
+}
+
+}  // namespace
+}  // namespace motionrack::mcx314
