@@ -30,8 +30,9 @@ std::string indented(const std::string& text, const std::string& indent) {
     return out;
 }
 
-std::string code_of(const std::string& page) {
-    const std::size_t begin = page.find("```cpp\n") + 7;
+/// The page's first block of code in a language.
+std::string code_of(const std::string& page, const std::string& language = "cpp") {
+    const std::size_t begin = page.find("```" + language + "\n") + 4 + language.size();
     return page.substr(begin, page.find("```", begin) - begin);
 }
 
@@ -51,6 +52,17 @@ TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
     EXPECT_EQ(text_of(source_root / "docs/pictures" / ("mcx314_" + name + ".svg")), text_of(picture))
         << "make it anew: example_mcx314 " << name << " docs/pictures/mcx314_" << name << ".svg";
     fs::remove(picture);
+}
+
+TEST_P(HowTo, ShowsTheProgramInCAndItsOutput) {
+    const std::string name = GetParam(), page = text_of(source_root / "docs/howto/mcx314" / (name + ".md"));
+    ASSERT_NE(page.find("```c\n"), std::string::npos);
+    const std::string printed =
+        printed_by("MOTIONRACK_RACK='card.c1 = \"mcx314\"' " MOTIONRACK_MCX314LIB_HOWTO " " + name);
+    EXPECT_NE(page.find("\nIn C it prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
+    EXPECT_NE(text_of(source_root / "examples/09_mcx314lib/howto.c").find(indented(code_of(page, "c"), "    ")),
+              std::string::npos)
+        << "the page's program is not that of examples/09_mcx314lib/howto.c";
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, HowTo,

@@ -123,8 +123,8 @@ class Mcx314:
         """Deceleration, 1 to 8,000 units of 125 * M pulses/s2; used where SetAsymmetric is on."""
     def SetAA(self, axes: int, value: int) -> None:
         """K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3."""
-    def SetAO(self, axes: int, value: int) -> None:
-        """Pulses kept for the end at SV, 0 to 65,535."""
+    def SetAO(self, axes: int, value: int | None) -> None:
+        """Pulses kept for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there."""
     def Pulse(self, axes: int, value: int) -> None:
         """Output pulses of a fixed drive, -268,435,455 to 268,435,455."""
     def AutoDec(self, axes: int = 15) -> None:
@@ -258,8 +258,8 @@ class Mcx314:
     def multiple(self, axis: int) -> float:
         """Pulses a second of one V unit of a channel; 0 before R was written."""
     @staticmethod
-    def plan(pulses: int | None, R: int, SV: int, V: int, A: int, D: int | None = None, K: int | None = None, AO: int = 0) -> dict[str, Any]:
-        """What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an S-curve; D: another deceleration."""
+    def plan(pulses: int | None, R: int, SV: int, V: int, A: int, D: int | None = None, K: int | None = None, AO: int | None = None) -> dict[str, Any]:
+        """What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an S-curve; D: another deceleration; AO: None, as the library sets it."""
 
 
 class SpeedScale:

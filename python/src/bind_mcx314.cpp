@@ -48,7 +48,8 @@ void bind_parameters(Mcx314Class& c) {
     number("SetD", &Driver::SetD,
            "Deceleration, 1 to 8,000 units of 125 * M pulses/s2; used where SetAsymmetric is on.");
     number("SetAA", &Driver::SetAA, "K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3.");
-    number("SetAO", &Driver::SetAO, "Pulses kept for the end at SV, 0 to 65,535.");
+    c.def("SetAO", call<Driver>(&Driver::SetAO), py::arg("axes"), py::arg("value"),
+          "Pulses kept for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there.");
     number("Pulse", &Driver::Pulse, "Output pulses of a fixed drive, -268,435,455 to 268,435,455.");
     c.def("AutoDec", call<Driver>(&Driver::AutoDec), py::arg("axes") = mcx314::xyzu,
           "The chip finds the deceleration point itself. Arcs cannot.");
@@ -184,24 +185,24 @@ void bind_mcx314_status(Mcx314Class& c) {
     c.def_static(
         "plan",
         [](std::optional<Wide> pulses, Wide r, Wide sv, Wide v, Wide a, std::optional<Wide> d, std::optional<Wide> k,
-           Wide ao) {
-            mcx314::CurveData data{.R = r,
-                                   .SV = sv,
-                                   .V = v,
-                                   .A = a,
-                                   .D = d.value_or(a),
-                                   .K = k.value_or(65'535),
-                                   .AO = ao,
-                                   .s_curve = k.has_value(),
-                                   .asymmetric = d.has_value(),
-                                   .dec_point = {},
-                                   .pulses = pulses};
-            return planned(value_of(mcx314::plan_drive(data)));
+           std::optional<Wide> ao) {
+            const mcx314::CurveData data{.R = r,
+                                         .SV = sv,
+                                         .V = v,
+                                         .A = a,
+                                         .D = d.value_or(a),
+                                         .K = k.value_or(65'535),
+                                         .AO = ao.value_or(0),
+                                         .s_curve = k.has_value(),
+                                         .asymmetric = d.has_value(),
+                                         .dec_point = {},
+                                         .pulses = pulses};
+            return planned(value_of(mcx314::plan_drive(ao ? data : value_of(mcx314::with_slow_end(data)))));
         },
         py::arg("pulses"), py::arg("R"), py::arg("SV"), py::arg("V"), py::arg("A"), py::arg("D") = py::none(),
-        py::arg("K") = py::none(), py::arg("AO") = 0,
+        py::arg("K") = py::none(), py::arg("AO") = py::none(),
         "What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an "
-        "S-curve; D: another deceleration.");
+        "S-curve; D: another deceleration; AO: None, as the library sets it.");
 }
 
 void bind_mcx314(py::module_& m) {

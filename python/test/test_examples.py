@@ -57,7 +57,9 @@ FORMS = {
         cli("11_carriage"),
         built("11_carriage", "example_carriage", expected="expected_cpp.txt", python="driver.py"),
     ],
-    "12_pascal": [built("12_pascal", "calibrate/calibrate", environment=(("LD_LIBRARY_PATH", str(BUILD / "lib")),))],
+    "12_pascal": [
+        built("12_pascal", "fpc/calibrate/calibrate", environment=(("LD_LIBRARY_PATH", str(BUILD / "lib")),))
+    ],
     "13_stage": [built("13_stage", "example_stage")],
     "14_line": [built("14_line", "example_line", "line.toml")],
     "15_panel": [

@@ -105,6 +105,7 @@ class Arguments {
         pattern_ = {quick(), quick(), below(2) == 0 ? 0 : quick(), place()};
         return or_null(&pattern_);
     }
+    MCX314_PLAN* draw(std::type_identity<MCX314_PLAN*>) { return or_null(&plan_); }
     const MCX314_STEPS* draw(std::type_identity<const MCX314_STEPS*>) {
         for (unsigned& word : steps_.plus) word = bytes_.word() << (below(32) == 0 ? 4 : 0);
         for (unsigned& word : steps_.minus) word = bytes_.word();
@@ -130,6 +131,7 @@ class Arguments {
     MCX314_CONTOUR contour_{};
     MCX314_PATTERN pattern_{};
     MCX314_STEPS steps_{};
+    MCX314_PLAN plan_{};
 };
 
 enum class Kind {
@@ -223,6 +225,7 @@ constexpr std::array functions = {
     named<ReadEPS>("ReadEPS", Kind::reads),
     named<ReadCV>("ReadCV", Kind::reads),
     named<ReadCA>("ReadCA", Kind::reads),
+    named<mcx314_plan>("mcx314_plan", Kind::own),
     named<mcx314_home_axes>("mcx314_home_axes", Kind::own),
     named<mcx314_moving>("mcx314_moving", Kind::own),
     named<mcx314_at_limit>("mcx314_at_limit", Kind::own),

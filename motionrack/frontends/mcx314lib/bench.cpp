@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/frontends/mcx314lib/bench.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -18,6 +19,13 @@ bool is_mcx314(const rack::RackCard& card) {
     return card.type == "mcx314";
 }
 
+/// "uio:..", "memory:..", "port:..": where a real card is, and neither the text nor the path of a rack file.
+bool names_real_card(std::string_view text) {
+    for (const std::string_view kind : {"uio:", "memory:", "port:"})
+        if (text.substr(0, kind.size()) == kind) return true;
+    return false;
+}
+
 }  // namespace
 
 bool Chip::step() {
@@ -29,15 +37,42 @@ bool Chip::step() {
     return going_on;
 }
 
+Result<void> Chip::check_live() const {
+    if (live && live->trouble()) return tl::unexpected<Error>(*live->trouble());
+    return {};
+}
+
+Result<rack::Card*> Chip::virtual_card(const char* what) const {
+    if (card != nullptr) return card;
+    return fail(Trouble::refused,
+                fmt::format("The selected chip is a real card, which has no {} here. Nothing was done.", what));
+}
+
 // ---- chips
 
+int Bench::keep(std::unique_ptr<Chip> chip) {
+    chips_.emplace(++last_, std::move(chip));
+    return selected_ = last_;
+}
+
+Result<int> Bench::open_live(const char* text, const char* card) {
+    if (card != nullptr)
+        return fail(Trouble::bad_input,
+                    fmt::format("A real card has no name, but {} was given. Nothing was opened. Give NULL.",
+                                rack::in_quotes(card)));
+    MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
+    MOTIONRACK_TRY(auto port, live::Port::open(spec, mcx314::card_map()));
+    return keep(std::make_unique<Chip>(std::move(port)));
+}
+
 bool Bench::is_open(const rack::Card& card) const {
-    return std::any_of(chips_.begin(), chips_.end(), [&](const auto& chip) { return &chip.second->card == &card; });
+    return std::any_of(chips_.begin(), chips_.end(), [&](const auto& chip) { return chip.second->card == &card; });
 }
 
 Result<int> Bench::open(const char* rack, const char* card) {
     std::shared_ptr<rack::Session> world;
     if (rack != nullptr) {
+        if (names_real_card(rack)) return open_live(rack, card);
         MOTIONRACK_TRY(world, rack::Session::open(rack));
     } else if (chips_.empty()) {
         const char* path = std::getenv(variable);
@@ -46,11 +81,16 @@ Result<int> Bench::open(const char* rack, const char* card) {
                 Trouble::bad_input,
                 fmt::format(
                     "No chip is open, and the environment variable {0} is not set. Nothing was done. Set {0} to "
-                    "the path of a rack file with an mcx314 card, or call mcx314_open first.",
-                    variable));
+                    "the path of a rack file with an mcx314 card, or to a real card ({1}), or call mcx314_open "
+                    "first.",
+                    variable, live::port_spec_form()));
+        if (names_real_card(path)) return open_live(path, card);
         MOTIONRACK_TRY(world, rack::Session::open(path));
     } else {
         MOTIONRACK_TRY(Chip * chip, selected());
+        if (!chip->session)
+            return fail(Trouble::bad_input,
+                        "The selected chip is a real card and in no rack. Nothing was opened. Name a rack.");
         world = chip->session;
     }
     std::string known;
@@ -59,8 +99,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
         rack::Card& found = *world->rack().card(each.name);
         known += (known.empty() ? "" : ", ") + each.name + (is_open(found) ? " (open already)" : "");
         if (is_open(found) || (card != nullptr && each.name != card)) continue;
-        chips_.emplace(++last_, std::make_unique<Chip>(world, found));
-        return selected_ = last_;
+        return keep(std::make_unique<Chip>(world, found));
     }
     return fail(Trouble::bad_input, fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
                                                 card != nullptr ? fmt::format("The rack has no mcx314 card {} to open",
@@ -111,20 +150,22 @@ Result<Chip*> Bench::selected() {
 
 // ---- time
 
-bool Bench::step(const rack::Session& world) {
+bool Bench::step_all_beside(Chip& chip) {
     bool going_on = false;
-    for (auto& [handle, chip] : chips_)
-        if (chip->session.get() == &world) going_on = chip->step() || going_on;
+    for (auto& [handle, other] : chips_)
+        if (other->session == chip.session) going_on = other->step() || going_on;
     return going_on;
 }
 
 Result<void> Bench::pass(Chip& chip, Duration duration) {
-    rack::Session& world = *chip.session;
-    const auto advance = [&](Duration time) {
-        return world.advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
+    MOTIONRACK_CHECK(chip.check_live());
+    const auto advance = [&](Duration time) -> Result<void> {
+        if (chip.session) return chip.session->advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
+        chip.live->pass(time);
+        return {};
     };
     const Instant end = later(chip.now(), duration);
-    while (step(world) && chip.now() < end) MOTIONRACK_CHECK(advance(std::min(look_every, end - chip.now())));
+    while (step_all_beside(chip) && chip.now() < end) MOTIONRACK_CHECK(advance(std::min(look_every, end - chip.now())));
     while (end - chip.now() >= nanoseconds(1)) MOTIONRACK_CHECK(advance(std::min(most_at_once, end - chip.now())));
     return {};
 }

@@ -3,6 +3,7 @@
 //   MOTIONRACK_RACK ─┐
 //   mcx314_open ─────┴─► Chip 1 ─ Driver ─ Manual x4 ─┐
 //                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one Session (a rack and its time), or one each
+//                        Chip 3 ─ Driver ─ Manual x4 ───► live::Port: a real card and the computer's time
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/driver/manual.hpp>
+#include <motionrack/live/port.hpp>
 #include <motionrack/rack/session.hpp>
 
 namespace motionrack::mcx314lib {
@@ -18,15 +20,21 @@ namespace motionrack::mcx314lib {
 class Chip {
   public:
     Chip(std::shared_ptr<rack::Session> world, rack::Card& on)
-        : session(std::move(world)), card(on), driver(*on.port(), *on.port()) {}
+        : session(std::move(world)), card(&on), driver(*on.port(), *on.port()) {}
+    explicit Chip(std::unique_ptr<live::Port> port) : live(std::move(port)), driver(*live, *live) {}
 
-    Instant now() const { return card.host().now(); }
+    Instant now() { return driver.interrupt().now(); }
+    /// Errors: io, the first access that the computer refused.
+    Result<void> check_live() const;
+    /// Of its rack. Errors: refused where the card is a real one.
+    Result<rack::Card*> virtual_card(const char* what) const;
     mcx314::Manual& manual(int channel) { return manuals[static_cast<std::size_t>(channel)]; }
     /// Lets manual operations look; true if one goes on.
     bool step();
 
-    std::shared_ptr<rack::Session> session;
-    rack::Card& card;
+    std::unique_ptr<live::Port> live;        ///< of a real card
+    std::shared_ptr<rack::Session> session;  ///< of a virtual one, with `card`
+    rack::Card* card = nullptr;
     mcx314::Driver driver;
     std::array<mcx314::Manual, 4> manuals{{{driver, 0}, {driver, 1}, {driver, 2}, {driver, 3}}};
     unsigned home_axes = mcx314::axis_x;
@@ -47,7 +55,10 @@ class Bench {
     Result<void> check_open(int handle) const;
     std::string handles() const;
     bool is_open(const rack::Card& card) const;
-    bool step(const rack::Session& world);
+    Result<int> open_live(const char* text, const char* card);
+    int keep(std::unique_ptr<Chip> chip);
+    /// Lets the manual operations of all chips in the world of `chip` look; true if one goes on.
+    bool step_all_beside(Chip& chip);
 
     std::map<int, std::unique_ptr<Chip>> chips_;
     int selected_ = 0;  // 0: none

@@ -26,7 +26,9 @@ Value with_chip(const char* who, Value otherwise, Call call) noexcept {
     return with_bench(who, otherwise, [&](Bench& bench) -> Result<Value> {
         MOTIONRACK_TRY(Chip * chip, bench.selected());
         MOTIONRACK_CHECK(bench.pass(*chip, Duration{0}));  // manual operations look; refused at the end of time
-        return call(*chip);
+        Result<Value> answer = call(*chip);
+        MOTIONRACK_CHECK(chip->check_live());
+        return answer;
     });
 }
 

@@ -12,6 +12,10 @@
  *
  *     MOTIONRACK_RACK=machine.toml ./program
  *
+ * or on a real card, in Linux:
+ *
+ *     MOTIONRACK_RACK=port:/dev/port,offset=0x300,width=8 ./program
+ *
  * Chips. The first function opens the first mcx314 card of that rack file, unless mcx314_open() was called before. All
  * functions work on the selected chip: the one opened last, or that of mcx314_select().
  *
@@ -24,9 +28,10 @@
  * written, mcx314_last_error() has the sentence (kept for each thread), and the handler of mcx314_on_error() is called,
  * in the place of the source's message boxes. Functions of our own also return -1.
  *
- * Time. On a virtual card time passes while functions run (each access of a register takes the bus its time), in
- * mcx314_wait() and in mcx314_advance_ms(); nowhere else. A loop that polls ReadCV() or ReadLPS() therefore comes to an
- * end. HomeType1 to HomeType4, mcx314_contour_.. and mcx314_pattern_.. wait inside; no other function does.
+ * Time. On a real card it is the computer's. On a virtual card time passes while functions run (each access of a
+ * register takes the bus its time), in mcx314_wait() and in mcx314_advance_ms(); nowhere else. A loop that polls
+ * ReadCV() or ReadLPS() therefore comes to an end. HomeType1 to HomeType4, mcx314_contour_.. and mcx314_pattern_.. wait
+ * inside; no other function does.
  *
  * Threads. Functions may be called from any thread; a call waits until another one has ended. Chips and the selection
  * are those of the process.
@@ -64,8 +69,8 @@ MCX314_API void SetMaxSpeed(int data);
 
 /* ---- Basic motion ---- */
 
-/* Initial speed, drive speed, acceleration, deceleration: 1 .. 8,000. V acts also while driving; D where
- * mcx314_asymmetric() is on. */
+/* Initial speed, drive speed, acceleration, deceleration: 1 .. 8,000. V acts also while driving. Decelerations take A
+ * until D was set, and again after mcx314_asymmetric(axis, 0). */
 MCX314_API void SetSV(int axis, int data);
 MCX314_API void SetV(int axis, int data);
 MCX314_API void SetA(int axis, int data);
@@ -74,7 +79,8 @@ MCX314_API void SetD(int axis, int data);
 /* K, the acceleration's rate: 1 .. 65,535. */
 MCX314_API void SetAA(int axis, int data);
 
-/* Pulses kept for the end at SV: 0 .. 65,535. */
+/* Pulses kept for the end at SV: 0 .. 65,535. Where it was not called since the reset, each drive has what it needs to
+ * end at SV. */
 MCX314_API void SetAO(int axis, int data);
 
 /* Output pulses of a fixed drive: -268,435,455 .. 268,435,455, the sign is the direction. */
@@ -107,7 +113,8 @@ typedef struct LINEDATA {
     int P[4]; /* finish point of X, Y, Z, U relative to the start, -8,388,608 .. 8,388,607; all 0: that of SetFP() */
 } LINEDATA;
 
-/* An arc of two axes; the first of them (X before Y before Z before U) points right, the second up. */
+/* An arc of two axes, which begins where they stand; LPS() gives that place its numbers. The first of them (X before Y
+ * before Z before U) points right, the second up. */
 typedef struct CIRCLEDATA {
     int SV;   /* initial speed, 1 .. 8,000; not used by Circle.._C */
     int V;    /* speed of the axis that steps regularly, 1 .. 8,000 */
@@ -173,9 +180,10 @@ MCX314_API void InPosSig(int n, int axis);
 /* ---- Home ---- */
 
 /* Search the home switch in - direction and wait until that has ended; LP and EP are 0 at home. WR1Reg is WR1 with the
- * home switch (IN0, IN1 or IN3) enabled at its level, and IN2's level for the encoder's index Z. Type 1 decelerates at
- * the switch; 2 goes back and again, slowly; 3 and 4 are 1 and 2, on to Z. The axes, which the source leaves open, are
- * those of mcx314_home_axes(). */
+ * home switch enabled at its level: IN0 .. IN3 in types 1 and 2; IN0, IN1 or IN3 in types 3 and 4, where IN2 is the
+ * encoder's index Z at its level. 1 decelerates at the switch; 2 then goes back at SV and again, at half of SV, to the
+ * switch; 3 decelerates at the switch and goes on to Z at SV; 4 decelerates, goes on to Z at half of SV, and then does
+ * as 2. The axes, which the source leaves open, are those of mcx314_home_axes(). */
 MCX314_API void HomeType1(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType2(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType3(int WR1Reg, int SV, int V, int A);
@@ -209,7 +217,9 @@ MCX314_API void RESET(void);
 
 /* Opens a card of a rack and selects it. `rack`: path of a rack file or the text of one ("card.c1 = \"mcx314\""), which
  * is then a world of its own with a time of its own; NULL: the rack of the selected chip. `card`: its name; NULL: the
- * rack's first mcx314 card that is not open. Returns the chip's handle, 1 or greater, or -1. */
+ * rack's first mcx314 card that is not open. Or a real card: `rack` is uio:PATH, memory:PATH or port:PATH, and after it
+ * ,offset=N ,stride=N ,width=8 ,map=N ,interrupt=PATH ,gap_ns=N as it needs them; `card` is NULL then, and time is the
+ * computer's. Returns the chip's handle, 1 or greater, or -1. */
 MCX314_API int mcx314_open(const char* rack, const char* card);
 
 /* The functions that follow work on this chip. */
@@ -264,6 +274,20 @@ MCX314_API int mcx314_asymmetric(int axis, int on);
 
 /* Level, 0 or 1, of the general outputs OUT0 .. OUT7 of the axes: servo on, brakes. */
 MCX314_API int mcx314_set_output(int axis, int output, int level);
+
+/* ---- Plans ---- */
+
+/* What a fixed drive will do, exact to the chip's clock. */
+typedef struct MCX314_PLAN {
+    double seconds; /* from the command to the last pulse */
+    double top_hz;  /* the greatest speed, pulses a second */
+    double end_hz;  /* the speed at the last pulse; above SV where the way is too short for ramps */
+    int dec_point;  /* pulses after which the speed falls */
+    int offset;     /* AO with which it does; not used after ManualDec() and where D is another than A */
+} MCX314_PLAN;
+
+/* Plans TCurve_F (K 0) or SCurve_F with these numbers for one axis, as it is set; nothing is moved or written. */
+MCX314_API int mcx314_plan(int axis, int SV, int V, int A, int K, int pulses, MCX314_PLAN* plan);
 
 /* ---- Manual operation ---- */
 

@@ -145,7 +145,7 @@ int mcx314_advance_ms(int milliseconds) {
 
 int64_t mcx314_now_us(void) {
     return with_bench(__func__, std::int64_t{-1}, [](Bench& bench) -> Result<std::int64_t> {
-        MOTIONRACK_TRY(const Chip* chip, bench.selected());
+        MOTIONRACK_TRY(Chip * chip, bench.selected());
         return chip->now() / motionrack::microseconds(1);
     });
 }
@@ -193,6 +193,20 @@ int mcx314_set_output(int axis, int output, int level) {
     return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_TRY(const bool high, bit_of(level, "level"));
         return chip.driver.SetOutput(axes, output, high);
+    });
+}
+
+// ---- plans
+
+int mcx314_plan(int axis, int SV, int V, int A, int K, int pulses, MCX314_PLAN* plan) {
+    return done(__func__, [&](Chip& chip) -> Result<void> {
+        MOTIONRACK_TRY(const int channel, channel_of(axis));
+        MOTIONRACK_CHECK(check_pointer(plan, "The plan"));
+        MOTIONRACK_TRY(const motionrack::mcx314::CurvePlan made, chip.driver.plan(channel, SV, V, A, K, pulses));
+        *plan = {motionrack::to_seconds(made.time()), made.top_hz(), made.hz(made.end_v),
+                 static_cast<int>(made.data.dec_point.value_or(made.rise.pulses + made.cruise.pulses)),
+                 static_cast<int>(made.data.AO)};
+        return {};
     });
 }
 
@@ -310,7 +324,8 @@ int mcx314_peek(const char* name, int64_t* value) {
     return done(__func__, [&](Chip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(name, "The name"));
         MOTIONRACK_CHECK(check_pointer(value, "The place for the value"));
-        MOTIONRACK_TRY(*value, chip.card.inspect(name));
+        MOTIONRACK_TRY(const motionrack::rack::Card* card, chip.virtual_card("registers that are seen without access"));
+        MOTIONRACK_TRY(*value, card->inspect(name));
         return {};
     });
 }
@@ -318,6 +333,7 @@ int mcx314_peek(const char* name, int64_t* value) {
 int mcx314_set_wire(const char* wire, double value) {
     return done(__func__, [&](Chip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(wire, "The wire"));
+        MOTIONRACK_CHECK(chip.virtual_card("wires that a program could set"));
         return chip.session->set_wire(wire, value);
     });
 }

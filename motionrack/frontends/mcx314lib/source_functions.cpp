@@ -102,13 +102,16 @@ void SetA(int axis, int data) {
     set(__func__, axis, data, &Driver::SetA);
 }
 void SetD(int axis, int data) {
-    set(__func__, axis, data, &Driver::SetD);
+    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+        MOTIONRACK_CHECK(chip.driver.SetD(axes, data));
+        return chip.driver.SetAsymmetric(axes, true);
+    });
 }
 void SetAA(int axis, int data) {
     set(__func__, axis, data, &Driver::SetAA);
 }
 void SetAO(int axis, int data) {
-    set(__func__, axis, data, &Driver::SetAO);
+    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.SetAO(axes, data); });
 }
 void Pulse(int axis, int data) {
     set(__func__, axis, data, &Driver::Pulse);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
@@ -91,15 +92,14 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
         if (pattern_.axes != 0) close_pattern();
         if (chain_.kept_back_v != 0) chain_.speeds.V = chain_.kept_back_v;
         const bool ramps = chain_.speeds.kind == Curve::t;
-        const CurveData curve = curve_of(generator, chain_.speeds, basic_pulses(piece));
-        std::optional<std::int64_t> point;
-        if (ramps) point = param::DP.greatest;
+        CurveData curve = curve_of(generator, chain_.speeds, basic_pulses(piece));
+        if (ramps) curve.dec_point = param::DP.greatest;
         if (ramps && last) {
-            MOTIONRACK_TRY(point, best_dec_point(curve));
+            MOTIONRACK_TRY(curve.dec_point, best_dec_point(curve));
         }
         own_range_again(own);
         put_speeds(own, chain_.speeds);
-        put_deceleration(generator, point, curve.asymmetric, false);
+        put_deceleration(generator, curve);
         EnableDeceleration(ramps && last);
         read_start(piece);
         pieces_ = {};

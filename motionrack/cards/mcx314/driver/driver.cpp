@@ -1,6 +1,7 @@
 // Register traffic of the function library: range check, then WR7, WR6, WR0; and the parameters.
 #include <fmt/format.h>
 
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
@@ -73,33 +74,11 @@ const Driver::Kept& Driver::kept(int axis) const {
 
 // ---- checks
 
-Result<void> Driver::check_axes(unsigned axes, const char* who) {
-    if (axes >= 1 && axes <= xyzu) return {};
-    return fail(Trouble::refused,
-                fmt::format("{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8, and sums of these up "
-                            "to 15. Nothing was written.",
-                            who, axes));
-}
-
 Result<void> Driver::check_channel(int axis, const char* who) {
     if (axis >= 0 && axis < 4) return {};
     return fail(
         Trouble::refused,
         fmt::format("{}: the axis is {}, but it is one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
-}
-
-Result<void> Driver::check(unsigned axes, const Parameter& parameter, std::int64_t value) {
-    MOTIONRACK_CHECK(check_axes(axes, parameter.name));
-    if (value >= parameter.least && value <= parameter.greatest) return {};
-    return fail(Trouble::refused,
-                fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", parameter.name,
-                            axes_text(axes), value, parameter.least, parameter.greatest));
-}
-
-Result<void> Driver::check_switch(const char* who, int n, int greatest, const char* meanings) {
-    if (n >= 0 && n <= greatest) return {};
-    return fail(Trouble::refused,
-                fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
 }
 
 Result<void> Driver::check_standing(unsigned axes, const char* who, MainStatus main) {
@@ -230,8 +209,10 @@ Result<void> Driver::SetD(unsigned axes, std::int64_t value) {
 Result<void> Driver::SetAA(unsigned axes, std::int64_t value) {
     return write(axes, param::K, value);
 }
-Result<void> Driver::SetAO(unsigned axes, std::int64_t value) {
-    return write(axes, param::AO, value);
+Result<void> Driver::SetAO(unsigned axes, std::optional<std::int64_t> value) {
+    MOTIONRACK_CHECK(write(axes, param::AO, value.value_or(0)));
+    for (const int i : channels_of(axes)) kept(i).own_offset = value.has_value();
+    return {};
 }
 
 Result<void> Driver::Pulse(unsigned axes, std::int64_t pulses) {

@@ -48,7 +48,8 @@ class Driver {
     Result<void> SetD(unsigned axes,
                       std::int64_t value);  ///< deceleration, 1 .. 8,000; used where SetAsymmetric() is on
     Result<void> SetAA(unsigned axes, std::int64_t value);  ///< K, 1 .. 65,535: jerk 62.5e6 / K * M pulses/s3
-    Result<void> SetAO(unsigned axes, std::int64_t value);  ///< pulses kept for the end at SV, 0 .. 65,535
+    /// Pulses kept for the end at SV, 0 .. 65,535; nothing, as at first: what each drive needs, by with_slow_end().
+    Result<void> SetAO(unsigned axes, std::optional<std::int64_t> value);
     /// Output pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction that DriveFixed() takes.
     Result<void> Pulse(unsigned axes, std::int64_t pulses);
     /// The chip finds the deceleration itself. Arcs cannot.
@@ -74,6 +75,9 @@ class Driver {
                           std::int64_t pulses);
     Result<void> SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
                           bool negative = false);
+    /// What TCurve_F (`k` 0) or SCurve_F with these numbers will do; nothing is written.
+    Result<CurvePlan> plan(int axis, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
+                           std::int64_t pulses) const;
     /// Starts what Pulse() set, each axis in its direction, all at the same tick.
     Result<void> DriveFixed(unsigned axes);
     /// The bare commands 20h..27h.
@@ -253,7 +257,8 @@ class Driver {
         std::int64_t dec_point = 0;
         bool manual = false;
         bool asymmetric = false;
-        bool negative = false;  ///< direction of Pulse(), or of the last drive
+        bool own_offset = false;  ///< SetAO
+        bool negative = false;    ///< direction of Pulse(), or of the last drive
         bool from_known = false;
         std::int32_t from = 0;                                 ///< LP where the present fixed drive began
         std::optional<std::int64_t> finish = {}, centre = {};  ///< SetFP, SetCP
@@ -315,14 +320,10 @@ class Driver {
     bool fetch_interrupts(int axis);
 
     // Checks: nothing is written.
-    static Result<void> check_axes(unsigned axes, const char* who);
     static Result<void> check_count(const char* who, unsigned axes, int count);
-    static Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value);
-    static Result<void> check_switch(const char* who, int n, int greatest, const char* meanings);
     static Result<void> check_speeds(unsigned axes, const Speeds& speeds);
     static Result<void> check_standing(unsigned axes, const char* who, MainStatus main);
     Result<void> check_standing(unsigned axes, const char* who) { return check_standing(axes, who, status()); }
-    static Result<void> check_no_path(const char* who, MainStatus main);
     Result<void> check_free(unsigned axes, const char* who);
     Result<void> check_initialised(unsigned axes, const char* who) const;
     Result<void> check_piece(const char* who, const Piece& piece) const;
@@ -336,10 +337,11 @@ class Driver {
     Result<void> change_interrupts(const char* who, unsigned axes, std::uint16_t causes, bool on);
 
     // Drives.
-    CurveData curve_of(int axis, const Speeds& speeds, std::int64_t pulses) const;
-    std::uint16_t curve_word(int axis, bool manual, bool asymmetric, bool s_curve) const;
+    CurveData curve_of(int axis, const Speeds& speeds, std::optional<std::int64_t> pulses) const;
+    Speeds written_speeds(int axis) const;
+    Result<CurveData> planned_curve(const char* who, int axis, Speeds speeds, std::optional<std::int64_t> pulses) const;
     void put_speeds(unsigned axes, const Speeds& speeds);
-    void put_deceleration(int axis, std::optional<std::int64_t> point, bool asymmetric, bool s_curve);
+    void put_deceleration(int axis, const CurveData& curve);
     void own_range_again(unsigned axes);
     void note_direction(unsigned axes, bool negative);
     void begin_fixed(unsigned axes);

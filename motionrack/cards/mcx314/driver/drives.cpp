@@ -1,6 +1,7 @@
 // Fixed and continuous drives: everything is checked, then the parameters are written, then the command.
 #include <fmt/format.h>
 
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
@@ -13,10 +14,6 @@ constexpr Field own_decel_bit = field("WR3", "DSNDE");
 constexpr Field s_bit = field("WR3", "SACC");
 
 }  // namespace
-
-std::uint16_t Driver::curve_word(int axis, bool manual, bool asymmetric, bool s_curve) const {
-    return s_bit.set(own_decel_bit.set(manual_bit.set(mode3(axis), manual), asymmetric), s_curve);
-}
 
 Result<void> Driver::check_speeds(unsigned axes, const Speeds& speeds) {
     MOTIONRACK_CHECK(check(axes, param::V, speeds.V));
@@ -38,7 +35,7 @@ void Driver::put_speeds(unsigned axes, const Speeds& speeds) {
     if (speeds.kind == Curve::s) put(axes, param::K, speeds.K);
 }
 
-CurveData Driver::curve_of(int axis, const Speeds& speeds, std::int64_t pulses) const {
+CurveData Driver::curve_of(int axis, const Speeds& speeds, std::optional<std::int64_t> pulses) const {
     CurveData curve;
     curve.R = kept(axis).own_range;
     curve.SV = speeds.kind == Curve::constant ? speeds.V : speeds.SV;
@@ -53,10 +50,50 @@ CurveData Driver::curve_of(int axis, const Speeds& speeds, std::int64_t pulses) 
     return curve;
 }
 
+/// As the next bare drive takes them.
+Driver::Speeds Driver::written_speeds(int axis) const {
+    const auto last = [&](const Parameter& parameter, std::int64_t otherwise) {
+        return written(axis, parameter.code).value_or(otherwise);
+    };
+    Speeds out{s_bit.test(mode3(axis)) ? Curve::s : Curve::t};
+    out.SV = last(param::SV, 1), out.V = last(param::V, 1), out.A = last(param::A, 1);
+    out.K = last(param::K, param::K.greatest);
+    if (kept(axis).asymmetric) out.D = last(param::D, out.A);
+    return out;
+}
+
 /// Constant vector speed of an interpolation may have left another R in the chip.
 void Driver::own_range_again(unsigned axes) {
     for (const int i : channels_of(axes))
         if (kept(i).data[cmd::R] != kept(i).own_range) put(1u << i, param::vector_range, kept(i).own_range);
+}
+
+/// With what makes it end at SV, unless the user has given that.
+Result<CurveData> Driver::planned_curve(const char* who, int axis, Speeds speeds,
+                                        std::optional<std::int64_t> pulses) const {
+    const Kept& own = kept(axis);
+    if (own.asymmetric && !written(axis, cmd::D))
+        return fail(
+            Trouble::refused,
+            fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call SetD "
+                        "first, or SetAsymmetric(.., false).",
+                        who, axes_text(1u << axis)));
+    if (own.asymmetric) speeds.D = *written(axis, cmd::D);
+    CurveData curve = curve_of(axis, speeds, pulses ? std::optional(rules::magnitude(*pulses)) : std::nullopt);
+    if (own.manual) curve.dec_point = own.dec_point;
+    return own.manual || (own.own_offset && !curve.asymmetric) ? curve : with_slow_end(curve);
+}
+
+Result<CurvePlan> Driver::plan(int axis, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
+                               std::int64_t pulses) const {
+    MOTIONRACK_CHECK(check_channel(axis, "plan"));
+    const unsigned own = 1u << axis;
+    const Speeds speeds{k != 0 ? Curve::s : Curve::t, sv, v, a, 0, k};
+    MOTIONRACK_CHECK(check_speeds(own, speeds));
+    MOTIONRACK_CHECK(check(own, param::pulses, pulses));
+    MOTIONRACK_CHECK(check_initialised(own, "plan"));
+    MOTIONRACK_TRY(const CurveData curve, planned_curve("plan", axis, speeds, pulses));
+    return plan_drive(curve);
 }
 
 Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& speeds,
@@ -65,33 +102,15 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
     MOTIONRACK_CHECK(check_speeds(axes, speeds));
     if (pulses) MOTIONRACK_CHECK(check(axes, param::pulses, *pulses));
     MOTIONRACK_CHECK(check_initialised(axes, who));
-    std::array<std::optional<std::int64_t>, 4> points;
+    std::array<CurveData, 4> curves;
     for (const int i : channels_of(axes)) {
-        if (!kept(i).asymmetric) continue;
-        const std::optional<std::int64_t> decel = written(i, cmd::D);
-        if (!decel)
-            return fail(Trouble::refused,
-                        fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call "
-                                    "SetD first, or SetAsymmetric(.., false).",
-                                    who, axes_text(1u << i)));
-        if (!pulses || kept(i).manual) continue;
-        Speeds own = speeds;
-        own.D = *decel;
-        MOTIONRACK_TRY(points[static_cast<std::size_t>(i)],
-                       best_dec_point(curve_of(i, own, rules::magnitude(*pulses))));
+        MOTIONRACK_TRY(curves[static_cast<std::size_t>(i)], planned_curve(who, i, speeds, pulses));
     }
     MOTIONRACK_CHECK(check_standing(axes, who));
     own_range_again(axes);
     put_speeds(axes, speeds);
     if (pulses) MOTIONRACK_CHECK(Pulse(axes, *pulses));
-    for (const int i : channels_of(axes)) {
-        const std::optional<std::int64_t>& point = points[static_cast<std::size_t>(i)];
-        put_deceleration(i,
-                         point            ? point
-                         : kept(i).manual ? std::optional(kept(i).dec_point)
-                                          : std::nullopt,
-                         kept(i).asymmetric, speeds.kind == Curve::s);
-    }
+    for (const int i : channels_of(axes)) put_deceleration(i, curves[static_cast<std::size_t>(i)]);
     if (pulses)
         begin_fixed(axes);
     else
@@ -99,11 +118,16 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
     return {};
 }
 
-/// WR3 and DP of the next drive.
-void Driver::put_deceleration(int axis, std::optional<std::int64_t> point, bool asymmetric, bool s_curve) {
-    if (point && written(axis, cmd::DP) != point) put(1u << axis, param::DP, *point);
-    const std::uint16_t word = curve_word(axis, point.has_value(), asymmetric, s_curve);
-    if (word != mode3(axis)) write_mode(1u << axis, 3, word);
+/// WR3, and DP or AO, of the next drive.
+void Driver::put_deceleration(int axis, const CurveData& curve) {
+    const unsigned own = 1u << axis;
+    const bool manual = curve.dec_point.has_value();
+    if (manual && written(axis, cmd::DP) != curve.dec_point) put(own, param::DP, *curve.dec_point);
+    if (!manual && curve.pulses && curve.V > curve.SV && written(axis, cmd::AO) != curve.AO)
+        put(own, param::AO, curve.AO);
+    const auto word = static_cast<std::uint16_t>(
+        s_bit.set(own_decel_bit.set(manual_bit.set(mode3(axis), manual), curve.asymmetric), curve.s_curve));
+    if (word != mode3(axis)) write_mode(own, 3, word);
 }
 
 /// Remembers where each axis begins, then starts all at one tick: those of one direction with one command; where there
@@ -149,6 +173,12 @@ Result<void> Driver::DriveFixed(unsigned axes) {
                                         needed.name, axes_text(1u << i)));
     MOTIONRACK_CHECK(check_standing(axes, "DriveFixed"));
     own_range_again(axes);
+    for (const int i : channels_of(axes)) {
+        const CurveData curve = curve_of(i, written_speeds(i), written(i, cmd::P));
+        if (curve.asymmetric || manual_bit.test(mode3(i)) || kept(i).own_offset) continue;
+        MOTIONRACK_TRY(const std::int64_t offset, best_offset(curve));
+        if (written(i, cmd::AO) != offset) put(1u << i, param::AO, offset);
+    }
     begin_fixed(axes);
     return {};
 }

@@ -1,6 +1,7 @@
 // What may be changed while axes drive, and stopping them.
 #include <fmt/format.h>
 
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
@@ -68,17 +69,11 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
                         name, own.negative ? "-" : "+"));
     const std::int64_t v = ReadCV(axis);
     const std::int64_t made = rules::magnitude(way_between(own.from, ReadLPS(axis))), wanted = rules::magnitude(pulses);
-    const bool s_curve = field("WR3", "SACC").test(own.mode[2]), manual = field("WR3", "MANLD").test(own.mode[2]);
-    Speeds speeds{s_curve ? Curve::s : Curve::t,
-                  written(axis, cmd::SV).value_or(1),
-                  written(axis, cmd::V).value_or(1),
-                  written(axis, cmd::A).value_or(1),
-                  0,
-                  written(axis, cmd::K).value_or(param::K.greatest)};
-    if (own.asymmetric) speeds.D = written(axis, cmd::D).value_or(speeds.A);
+    const bool manual = field("WR3", "MANLD").test(own.mode[2]);
     const std::int64_t before = written(axis, cmd::P).value_or(0), point = written(axis, cmd::DP).value_or(0);
-    const std::int64_t fall = manual ? std::max<std::int64_t>(0, before - point)
-                                     : fall_pulses(curve_of(axis, speeds, 0), v) + written(axis, cmd::AO).value_or(0);
+    const std::int64_t fall =
+        manual ? std::max<std::int64_t>(0, before - point)
+               : fall_pulses(curve_of(axis, written_speeds(axis), 0), v) + written(axis, cmd::AO).value_or(0);
     const auto rest = static_cast<std::int64_t>(static_cast<double>(v) * multiple(axis) * to_seconds(margin)) + 1;
     if (wanted < made + fall + rest)
         return refused(fmt::format(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
@@ -214,18 +215,19 @@ Result<void> Driver::start_piece(const char* who, Piece piece, const Speeds& spe
     MOTIONRACK_CHECK(check_speeds(own, speeds));
     MOTIONRACK_CHECK(check_piece(who, piece));
     MOTIONRACK_CHECK(check_initialised(own, who));
-    const CurveData curve = curve_of(first, speeds, basic_pulses(piece));
-    std::optional<std::int64_t> point;
-    if (speeds.kind != Curve::constant && kept(first).manual)
-        point = kept(first).dec_point;
-    else if (speeds.kind != Curve::constant && (piece.arc || curve.asymmetric)) {
-        MOTIONRACK_TRY(point, best_dec_point(curve));
+    CurveData curve = curve_of(first, speeds, basic_pulses(piece));
+    if (speeds.kind != Curve::constant && kept(first).manual) {
+        curve.dec_point = kept(first).dec_point;
+    } else if (speeds.kind != Curve::constant && piece.arc) {
+        MOTIONRACK_TRY(curve.dec_point, best_dec_point(curve));
+    } else if (speeds.kind != Curve::constant && (curve.asymmetric || !kept(first).own_offset)) {
+        MOTIONRACK_TRY(curve, with_slow_end(curve));
     }
     MOTIONRACK_CHECK(check_free(piece.axes, who));
     abandon_path();
     own_range_again(own);
     put_speeds(own, speeds);
-    put_deceleration(first, point, curve.asymmetric, speeds.kind == Curve::s);
+    put_deceleration(first, curve);
     EnableDeceleration(speeds.kind != Curve::constant);
     read_start(piece);
     path_axes_ = piece.axes;

@@ -220,7 +220,7 @@ void Manual::step(Instant now) {
 void Manual::end_drive() {
     why_ = driver_.axis_status(axis_).why_stopped();
     if (!settings_.travel || state_ == ManualState::stepping) return;
-    static_cast<void>(driver_.SetAO(mask(), 0));
+    static_cast<void>(driver_.SetAO(mask(), std::nullopt));
     const bool negative = wanted_ < 0;
     if (why_.empty() && state_ == ManualState::jogging && way_left(negative) <= 0)
         why_ = fmt::format("the {} end of its travel was reached", negative ? "-" : "+");

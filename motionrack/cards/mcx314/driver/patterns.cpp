@@ -4,6 +4,7 @@
 //   34h, 35h  start      RR0 BPSC: words on the stack, 3: no room      37h  WR2..WR7 are themselves again
 #include <fmt/format.h>
 
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
@@ -41,7 +42,9 @@ Result<void> Driver::begin_pattern(const char* who, const BPDATA& data, unsigned
     abandon_path();
     own_range_again(own);
     put_speeds(own, speeds);
-    put_deceleration(first, data.A != 0 ? std::optional(data.DecPoint) : std::nullopt, false, false);
+    CurveData curve;
+    if (data.A != 0) curve.dec_point = data.DecPoint;
+    put_deceleration(first, curve);
     EnableDeceleration(data.A != 0);
     unsigned word = field("WR5", "AX1").set(path_mode_, static_cast<unsigned>(first));
     word = field("WR5", "AX2").set(word, static_cast<unsigned>(list.channel[1]));
@@ -151,13 +154,6 @@ Result<void> Driver::check_free(unsigned axes, const char* who) {
     const MainStatus main = status();
     MOTIONRACK_CHECK(check_standing(axes, who, main));
     return check_no_path(who, main);
-}
-
-Result<void> Driver::check_no_path(const char* who, MainStatus main) {
-    if (!main.interpolating()) return {};
-    return fail(
-        Trouble::refused,
-        fmt::format("{}: an interpolation runs. Nothing was written. Wait for its end, or stop it first.", who));
 }
 
 }  // namespace motionrack::mcx314

@@ -28,16 +28,11 @@ Result<void> RealAxis::check_set(const char* who) const {
                                               who, axis_ >= 0 && axis_ < 4 ? axes_text(1u << axis_) : "no axis"));
 }
 
-/// The curve of a move, with the deceleration point or the offset that makes it end at its start speed.
+/// The curve of a move, as the library makes it end at its start speed.
 Result<CurveData> RealAxis::curve(std::int64_t pulses) const {
     CurveData out = setting_.curve();
     out.pulses = rules::magnitude(pulses);
-    if (out.asymmetric) {
-        MOTIONRACK_TRY(out.dec_point, best_dec_point(out));
-    } else {
-        MOTIONRACK_TRY(out.AO, best_offset(out));
-    }
-    return out;
+    return with_slow_end(out);
 }
 
 Result<RealPlan> RealAxis::plan(double distance) const {
@@ -52,9 +47,9 @@ Result<Rounded> RealAxis::move(double distance) {
     MOTIONRACK_CHECK(check_set("move"));
     MOTIONRACK_TRY(const Rounded rounded, to_pulses(scale_, distance));
     const unsigned own = 1u << axis_;
-    MOTIONRACK_TRY(const CurveData data, curve(rounded.value));
+    const CurveData data = setting_.curve();
     // AO acts at once, so it must not be written to a drive under way; the curve is then refused.
-    if (!driver_.moving(own)) MOTIONRACK_CHECK(driver_.SetAO(own, data.AO));
+    if (!driver_.moving(own)) MOTIONRACK_CHECK(driver_.SetAO(own, std::nullopt));
     if (data.s_curve)
         MOTIONRACK_CHECK(driver_.SCurve_F(own, data.SV, data.V, data.A, data.K, rounded.value));
     else

@@ -1,6 +1,7 @@
 // Limits, signals, encoders, interrupts, inputs and outputs: bits of WR1..WR4, RR3..RR5.
 #include <fmt/format.h>
 
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {

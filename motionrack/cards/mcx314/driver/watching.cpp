@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/cards/mcx314/driver/checks.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {

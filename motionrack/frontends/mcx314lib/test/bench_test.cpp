@@ -101,6 +101,45 @@ TEST(Mcx314libChips, WhenTheSelectedOneIsClosedNoOtherIsTouched) {
     EXPECT_EQ(peek("x.R"), 0);
 }
 
+// ---- plans
+
+TEST(Mcx314libPlans, SayWhatADriveDoesWhichThenEndsAtItsStartSpeed) {
+    const Open chip;
+    set_up();
+    for (const int k : {0, 1010}) {
+        const int way = 50'000;
+        MCX314_PLAN plan = {};
+        ASSERT_EQ(mcx314_plan(x, 100, 4000, 400, k, way, &plan), 0) << mcx314_last_error();
+        EXPECT_EQ(plan.top_hz, 40'000);
+        EXPECT_EQ(plan.end_hz, 1'000);
+        EXPECT_EQ(mcx314_moving(all), 0);
+        const std::int64_t begun = mcx314_now_us();
+        const int from = static_cast<int>(ReadLPS(x));
+        if (k == 0)
+            TCurve_F(x, 100, 4000, 400, way);
+        else
+            SCurve_F(x, 100, 4000, 400, k, way);
+        EXPECT_EQ(peek("x.AO"), plan.offset);
+        std::int64_t last_speed = 0;
+        while (mcx314_moving(x) != 0) {
+            if (const unsigned speed = ReadCV(x); speed != 0) last_speed = speed;
+        }
+        EXPECT_LE(last_speed, 101) << "K " << k;
+        EXPECT_NEAR(static_cast<double>(mcx314_now_us() - begun) * 1e-6, plan.seconds, 1e-4);
+        EXPECT_EQ(static_cast<int>(ReadLPS(x)) - from, way);
+    }
+    SetAO(x, 3);
+    SCurve_F(x, 100, 4000, 400, 1010, 20'000);
+    EXPECT_EQ(peek("x.AO"), 3) << "the user's own stays";
+    EXPECT_EQ(mcx314_wait(x, 10'000), 0);
+    MCX314_PLAN own = {};
+    EXPECT_EQ(mcx314_plan(x, 100, 4000, 400, 1010, 20'000, &own), 0);
+    EXPECT_EQ(own.offset, 3);
+    ManualDec(x, 1'500);
+    EXPECT_EQ(mcx314_plan(x, 100, 4000, 400, 0, 2'000, &own), 0);
+    EXPECT_EQ(own.dec_point, 1'500);
+}
+
 // ---- errors, time
 
 TEST(Mcx314libErrors, TheHandlerMayCallTheLibrary) {
@@ -280,7 +319,7 @@ TEST(Mcx314lib, ShowsTheFunctionsOfItsHeaderAndNothingElse) {
     }
     EXPECT_EQ(::pclose(pipe), 0);
     EXPECT_EQ(shown, declared);
-    EXPECT_EQ(declared.size(), 90u);
+    EXPECT_EQ(declared.size(), 91u);
 }
 
 }  // namespace

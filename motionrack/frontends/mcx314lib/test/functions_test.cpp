@@ -32,7 +32,7 @@ const Row rows[] = {
     {"SetSV", [] { SetSV(x, 8000); }, {{"x.SV", whole, 8000}, {"y.SV", whole, 100}}},
     {"SetV", [] { SetV(y, 1); }, {{"y.V", whole, 1}, {"x.V", whole, 4000}}},
     {"SetA", [] { SetA(z, 77); }, {{"z.A", whole, 77}, {"x.A", whole, 400}}},
-    {"SetD", [] { SetD(u, 55); }, {{"u.D", whole, 55}}},
+    {"SetD", [] { SetD(u, 55); }, {{"u.D", whole, 55}, {"u.WR3", 2, 2}}},
     {"SetAA", [] { SetAA(x, 65'535); }, {{"x.K", whole, 65'535}}},
     {"SetAO", [] { SetAO(x, 65'535); }, {{"x.AO", 0xFFFF, 65'535}}},
     {"Pulse", [] { Pulse(x, 268'435'455); }, {{"x.P", whole, 268'435'455}}},

@@ -130,6 +130,13 @@ const Refused refusals[] = {
     {"mcx314_enable_interrupt", [] { EXPECT_EQ(mcx314_enable_interrupt(x, 256), -1); }, "1 to 255"},
     {"mcx314_disable_interrupt", [] { EXPECT_EQ(mcx314_disable_interrupt(x, 0), -1); }, "1 to 255"},
     {"mcx314_read_interrupt", [] { EXPECT_EQ(mcx314_read_interrupt(3), -1); }, "one of"},
+    {"mcx314_plan", [] { EXPECT_EQ(mcx314_plan(x, 100, 4000, 400, 0, 1000, nullptr), -1); }, "null pointer"},
+    {"mcx314_plan",
+     [] {
+         MCX314_PLAN plan = {};
+         EXPECT_EQ(mcx314_plan(x, 100, 4000, 400, 65'536, 1000, &plan), -1);
+     },
+     "1 to 65535"},
     {"mcx314_jog", [] { EXPECT_EQ(mcx314_jog(x, 100, 8001, 100), -1); }, "1 to 8000"},
     {"mcx314_jog_step", [] { EXPECT_EQ(mcx314_jog_step(x, 100, 100, 100, 0), -1); }, "0 pulses"},
     {"mcx314_jog_home", [] { EXPECT_EQ(mcx314_jog_home(x, 5, 2, 100, 100, 100), -1); }, "1 to 4"},
