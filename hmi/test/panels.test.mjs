@@ -52,6 +52,13 @@ test('a checked program shows its time, extents and path; a bad one its problems
 
 test('the MCX314 shows its counters, and they count', async () => {
   const tab = await at('cards/motion');
+  await until(() => tab.subscribed?.rate_hz === 100, 'the counters are asked for every 0.01 s');
+  for (const counter of ['LP', 'EP', 'CV', 'CA']) assert.ok(tab.subscribed.channels.includes(`motion.x.${counter}`));
+  const seen = { EP: new Set(), CV: new Set(), CA: new Set() };
+  const cells = panel(tab, /^motion:/)
+    .locator('tbody tr')
+    .first()
+    .locator('td');
   const lp = () =>
     panel(tab, /^motion:/)
       .locator('tbody tr')
@@ -63,6 +70,11 @@ test('the MCX314 shows its counters, and they count', async () => {
   const before = number(await lp());
   await panel(tab, 'Moves and homing').getByRole('button', { name: 'Move +' }).click();
   await until(async () => number(await lp()) > before, 'LP counts up');
+  await until(async () => {
+    const [, ep, cv, ca] = await cells.allInnerTexts();
+    for (const [name, text] of Object.entries({ EP: ep, CV: cv, CA: ca })) seen[name].add(number(text));
+    return [...seen.CV].some((speed) => speed > 0) && [...seen.CA].some((rate) => rate > 0) && seen.EP.size > 1;
+  }, 'real position, speed and acceleration while it moves');
   await state(tab, 'standstill');
   assert.ok((await panel(tab, 'Inputs and outputs').locator('li').count()) > 8);
   await picture(tab, 'card_mcx314', 1360);
@@ -81,6 +93,14 @@ test('the DataBoard 4002 answers at its ports by hand, and shows its status', as
   await tab.page.getByRole('group', { name: /^STAT/ }).getByText('READY').waitFor();
   await ports.getByRole('button', { name: /^G: / }).click();
   await ports.getByRole('log').getByText('command G').waitFor();
+  const commands = panel(tab, 'Commands');
+  await commands.getByLabel('Argument of N').fill('40');
+  await commands.getByRole('button', { name: 'Send N' }).click();
+  await commands.getByRole('button', { name: 'Ask V' }).click();
+  await commands.getByRole('row').filter({ hasText: 'version' }).getByText('32', { exact: true }).waitFor();
+  await commands.getByLabel('Argument of R').fill('99999');
+  await commands.getByRole('button', { name: 'Send R' }).click();
+  await tab.page.getByText(/is not one of 0 to 16.383/).waitFor();
   await picture(tab, 'card_databoard4002', 960);
   await done(tab);
 });
@@ -95,6 +115,12 @@ test('the IOFLEX02 shows four positions and is calibrated', async () => {
   assert.equal(await rows.count(), 4);
   await rows.first().getByRole('button', { name: 'cRes, axis 0' }).click();
   await until(async () => (await rows.first().locator('td').first().innerText()) === '0', 'position 0');
+  const output = tab.page.getByRole('button', { name: /^Output 9, low/ });
+  await output.click();
+  await tab.page.getByRole('button', { name: /^Output 9, high/ }).waitFor();
+  await panel(tab, /^glass:/)
+    .getByText(/^Time of the card: [0-9.]+ s/)
+    .waitFor();
   await picture(tab, 'card_ioflex02', 960);
   await done(tab);
 });

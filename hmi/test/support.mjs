@@ -54,7 +54,8 @@ export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
 
 export const openBrowser = () => chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox'] });
 
-/** A tab on the panel. `sent`: orders of this tab with their times; `troubles`: what the browser complained of. */
+/** A tab on the panel. `sent`: orders of this tab with their times; `subscribed`: what it asked to see; `troubles`:
+ * what the browser complained of. */
 export async function openTab(
   browser,
   server,
@@ -71,10 +72,11 @@ export async function openTab(
 
 export async function tabOf(context, server, hash = '') {
   const page = await context.newPage();
-  const tab = { page, context, sent: [], troubles: [], requests: [], status: null };
+  const tab = { page, context, sent: [], troubles: [], requests: [], status: null, subscribed: null };
   page.on('websocket', (socket) => {
     socket.on('framesent', ({ payload }) => {
       const message = JSON.parse(payload);
+      if (message.subscribe) tab.subscribed = message.subscribe;
       if (message.order) tab.sent.push({ at: performance.now(), ...message });
     });
     socket.on('framereceived', ({ payload }) => {

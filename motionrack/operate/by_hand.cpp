@@ -1,11 +1,22 @@
-// What a person does to a machine that stands: touching off, and accesses to the cards' own buses.
+// What a person does by hand: touching off, and accesses to the cards' own buses. Only cards that measure and move
+// nothing are accessed while the machine moves.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/bus_access.hpp>
+#include <motionrack/rack/card_types.hpp>
 
 namespace motionrack::operate {
+
+namespace {
+
+bool measures_only(const rack::RackConfig& config, const std::string& card) {
+    const rack::RackCard* const found = config.card(card);
+    return found != nullptr && rack::find_card_type(found->type)->measures_only;
+}
+
+}  // namespace
 
 Result<void> Machine::set_work_zero(char axis, double value) {
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work zero was not set", axis));
@@ -21,7 +32,7 @@ Result<void> Machine::set_work_zero(char axis, double value) {
 
 Result<void> Machine::access(const BusAccess& access, std::function<void(std::uint32_t)> ready) {
     const bool stands = idle(state_);
-    if (!stands || stream_->has_work())
+    if ((!stands || stream_->has_work()) && !measures_only(rack_.config(), access.card))
         return fail(
             Trouble::refused,
             fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.",

@@ -106,7 +106,7 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
             {"title", map.title},
             {"slot", config.slot.value_or(-1)},
             {"about", type.doc},
-            {"bus", {{"base", card.bus_base()}, {"widths", std::move(widths)}}},
+            {"bus", {{"base", card.bus_base()}, {"widths", std::move(widths)}, {"while_moving", type.measures_only}}},
             {"axes", std::move(axes)},
             {"registers", std::move(registers)},
             {"commands", commands_of(map)},

@@ -159,9 +159,11 @@ constexpr std::array order_rows = {
     AskRow{"inject_fault", Role::maintain, true, fault_fields, "Breaks something on purpose, or mends it."},
     AskRow{"press_estop", Role::operate, false, estop_fields, "Presses or releases the simulated emergency stop."},
     AskRow{"write_register", Role::maintain, true, write_fields,
-           "Writes to a card through its bus, while the machine stands."},
+           "Writes to a card through its bus, while the machine stands; to one that only measures at any time."},
     AskRow{"read_register", Role::maintain, true, read_fields,
-           "Reads from a card through its bus, with all effects that reading has, while the machine stands.", "value"},
+           "Reads from a card through its bus, with all effects that reading has, while the machine stands; from one "
+           "that only measures at any time.",
+           "value"},
     AskRow{"check", Role::observe, false, check_fields_,
            "Reads and plans a program as if it began here; nothing moves.",
            "ok, problems, lines, moves, seconds, length_mm, least, greatest, axes, path"},

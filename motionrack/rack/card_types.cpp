@@ -161,7 +161,7 @@ const std::array<CardType, 6>& card_type_table() {
     {"ioflex02", "position card for four encoders with calibration and time; it moves no axis, and its lines are wires",
      "", {},
      ioflex02_pins, {}, "", ioflex02_settings, ioflex02_of, nothing, nothing, nothing, 8'388'607, {}, {}, false,
-     ioflex02_flaw},
+     ioflex02_flaw, nullptr, {}, {}, {}, true},
     {"grating_bus",
      "motion card of a grating bus: all such cards of a rack read the same scales at the same instant, one as host, "
      "the others listening", "", {},

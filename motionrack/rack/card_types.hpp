@@ -86,6 +86,7 @@ struct CardType {
     std::span<const Lamp> lamps = {};
     std::string_view probe_pin = {};  ///< a channel's input at whose edge the card can catch its position; empty: none
     std::span<const StopPin> stop_pins = {};
+    bool measures_only = false;  ///< nothing moves by it: its bus may be used by hand while axes move
 
     int channel_count() const {
         return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size());

@@ -22,7 +22,8 @@ io::Settings settings_of(const Ioflex02Settings& s) {
     return out;
 }
 
-/// What can be inspected beside the registers: a value of each axis.
+/// What can be inspected beside the registers: the time, in ticks of 1.2 us, and a value of each axis.
+constexpr std::string_view card_time = "TIME";
 struct AxisValue {
     std::string_view name;
     std::int64_t (*get)(const io::Card& card, int axis);
@@ -61,16 +62,17 @@ class Ioflex02Card final : public Card {
 
     Result<std::int64_t> inspect(std::string_view name) const override {
         static constexpr std::string_view more[] = {"0.POSITION .. 3.POSITION", "0.CALIBRATED ..",
-                                                    "0.ILLEGAL_TRANSITIONS .."};
+                                                    "0.ILLEGAL_TRANSITIONS ..", card_time};
         if (name.size() > 2 && name[1] == '.' && name[0] >= '0' && name[0] <= '3')
             for (const AxisValue& value : pins_of_axes)
                 if (value.name == name.substr(2)) return value.get(card_, name[0] - '0');
+        if (name == card_time) return card_.time();
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write) return card_.peek(reg.offset);
         return no_such_value(*this, name, more);
     }
     std::vector<std::string> value_names() const override {
-        std::vector<std::string> out;
+        std::vector<std::string> out = {std::string(card_time)};
         for (const char axis : std::string_view("0123"))
             for (const AxisValue& value : pins_of_axes)
                 out.push_back(std::string(1, axis) + "." + std::string(value.name));

@@ -13,10 +13,10 @@ interface Line {
   answer: string;
 }
 
-export const mayAccess = (): string =>
+export const mayAccess = (card: CardInfo): string =>
   whyNot('maintain', true) ||
   (!inControl.value ? 'Take control first.' : '') ||
-  (standsStill.value ? '' : 'The bus is used by hand only while the machine stands still.');
+  (standsStill.value || card.bus.while_moving ? '' : 'The bus is used by hand only while the machine stands still.');
 
 /** A register that is read and one that is written may share their place. */
 const namesAt = (card: CardInfo, offset: number): string =>
@@ -40,7 +40,7 @@ function Log({ lines }: { lines: readonly Line[] }): JSX.Element {
 }
 
 function Commands({ card, onGive }: { card: CardInfo; onGive: (command: CommandInfo) => void }): JSX.Element {
-  const why = mayAccess();
+  const why = mayAccess(card);
   return (
     <div class="commands" role="group" aria-label="Commands">
       {card.commands.map((command) => (
@@ -72,7 +72,7 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
     const reply = await orderFor('read_register', { card: card.name, bits, address: card.bus.base + chosen });
     if (reply !== null) add(`read ${namesAt(card, chosen)}`, hex(reply.value as number, bits));
   };
-  const why = mayAccess();
+  const why = mayAccess(card);
   const send = (): void => {
     const what = typedWord(value.value, bits);
     if (what === null)

@@ -1,14 +1,18 @@
-// The DataBoard 4002's panel: its ports by hand, status and events, the slope as a picture.
+// The DataBoard 4002's panel: commands with their handshake, its ports by hand, status and events, the slope as a
+// picture.
+import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import uPlot from 'uplot';
-import type { CardInfo } from '../link/rack';
-import { fixed } from '../parts/numbers';
+import { notice, orderFor } from '../link/orders';
+import type { CardInfo, CommandInfo } from '../link/rack';
+import { fixed, typed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
-import { Empty, Panel } from '../parts/ui';
+import { Button, Empty, Field, Panel } from '../parts/ui';
 import { Chart, Legend } from '../scope/chart';
-import { Console } from './console';
-import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
+import { Console, mayAccess } from './console';
+import { ask, give, type Bus, type Exchanged } from './handshake';
+import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 
 interface SlopesAnswer {
   /** Speed in Hz over counts. */
@@ -59,6 +63,110 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
   );
 }
 
+/** Arguments of more bytes are tables, for programs. */
+const MOST_BYTES = 4;
+
+/** The ports by their names; DATA is written as OUT and read as INP. */
+function busOf(card: CardInfo): Bus {
+  const port = (name: string): number =>
+    card.bus.base +
+    (card.registers.find((one) => one.name === name || (name === 'DATA' && one.name === 'OUT'))?.offset ?? 0);
+  return {
+    read: async (name) =>
+      ((await orderFor('read_register', { card: card.name, bits: 8, address: port(name) }))?.value as
+        number | undefined) ?? null,
+    write: async (name, value) =>
+      (await orderFor('write_register', { card: card.name, bits: 8, address: port(name), value })) !== null,
+    rest: () => new Promise((done) => setTimeout(done, 5)),
+  };
+}
+
+function Command({ card, command, why }: { card: CardInfo; command: CommandInfo; why: string }): JSX.Element {
+  const argument = useSignal('');
+  const answer = useSignal<number | null>(null);
+  const told = (outcome: Exchanged): void => {
+    if ('value' in outcome) answer.value = outcome.value;
+    else if (outcome.why !== '') notice('refused', outcome.why);
+  };
+  const send = (): void => {
+    const value = command.data_bytes === 0 ? 0 : typed(argument.value);
+    if (value === null || !Number.isInteger(value) || value < command.least || value > command.greatest)
+      notice(
+        'refused',
+        `"${argument.value}" is not one of ${whole(command.least)} to ${whole(command.greatest)}. Nothing was sent.`,
+      );
+    else void give(busOf(card), command, value).then(told);
+  };
+  const reads = command.answer_bytes > 0;
+  return (
+    <tr>
+      <th scope="row">
+        <code>{command.name}</code>
+      </th>
+      <td class="meaning">{command.meaning}</td>
+      <td>
+        {command.data_bytes > 0 && (
+          <Field
+            label={`Argument of ${command.name}`}
+            value={argument.value}
+            unit={command.unit}
+            mode="text"
+            onEnter={() => why === '' && send()}
+            onInput={(text) => (argument.value = text)}
+          />
+        )}
+      </td>
+      <td>
+        <span class="buttons">
+          {(command.data_bytes > 0 || !reads) && (
+            <Button why={why} label={`Send ${command.name}`} onClick={send}>
+              Send
+            </Button>
+          )}
+          {reads && (
+            <Button why={why} label={`Ask ${command.name}`} onClick={() => void ask(busOf(card), command).then(told)}>
+              Ask
+            </Button>
+          )}
+        </span>
+      </td>
+      <td class="tabular">{answer.value === null ? '' : whole(answer.value)}</td>
+    </tr>
+  );
+}
+
+/** A row for each command; another card of the bus may be the chosen one. */
+function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null }): JSX.Element {
+  const chosen = answer === null || answer.pins.csb === 1;
+  const why =
+    mayAccess(card) ||
+    (chosen ? '' : 'Another card of the bus is chosen. Write the number of this one to CS (port 1).');
+  return (
+    <Panel title="Commands" class="wide">
+      <div class="scroll" tabIndex={0} role="region" aria-label="Commands of the card">
+        <table class="counters">
+          <thead>
+            <tr>
+              {['Command', 'Meaning', 'Argument', '', 'Answer'].map((head) => (
+                <th key={head} scope="col">
+                  {head}
+                </th>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {card.commands
+              .filter((one) => one.data_bytes <= MOST_BYTES)
+              .map((one) => (
+                <Command key={one.name} card={card} command={one} why={why} />
+              ))}
+          </tbody>
+        </table>
+      </div>
+    </Panel>
+  );
+}
+
 export function Databoard({ card }: { card: CardInfo }): JSX.Element {
   const { data } = usePoll<CardAnswer>('card', { name: card.name }, 200);
   const shown = card.registers.filter((one) => ['STAT', 'EVENT'].includes(one.name));
@@ -68,8 +176,12 @@ export function Databoard({ card }: { card: CardInfo }): JSX.Element {
         {shown.map((one) => (
           <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
         ))}
+        <p class="tabular">
+          Rate {whole(valueOf(data.value, 'RATE'))}, {fixed(data.value?.pins.vout, 4)} V behind the relay
+        </p>
         <Quantities card={card} />
       </Panel>
+      <Commands card={card} answer={data.value} />
       <Panel title="Ports" class="ports">
         <Console card={card} />
       </Panel>

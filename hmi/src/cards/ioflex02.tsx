@@ -1,38 +1,86 @@
-// The IOFLEX02's panel: positions of its four axes, calibration commands, what is wrong with an encoder.
+// The IOFLEX02's panel: positions and speeds of its four axes, calibration commands, time, inputs and outputs, what is
+// wrong with an encoder.
 import type { JSX } from 'preact';
+import { useRef } from 'preact/hooks';
 import { orderFor } from '../link/orders';
 import type { CardInfo } from '../link/rack';
-import { whole } from '../parts/numbers';
+import { fixed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Button, Led, Panel } from '../parts/ui';
 import { Console, mayAccess } from './console';
 import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 
 const AXES = [0, 1, 2, 3];
+const HEADS = [
+  'Axis',
+  'Position, counts',
+  'Speed, counts/s',
+  'Lines',
+  'Calibrated',
+  'Illegal transitions',
+  'Calibrate',
+];
 const COMMANDS = [
   { code: 1, name: 'cRes', text: 'zero now' },
   { code: 2, name: 'cResNm', text: 'zero at the index' },
   { code: 3, name: 'cResNmSig', text: 'zero at index and signal' },
 ];
 
-function Axis({ card, answer, axis }: { card: CardInfo; answer: CardAnswer | null; axis: number }): JSX.Element {
-  const command = card.registers.find((one) => one.name === 'CMD');
-  const why = mayAccess();
+/** Lines of an axis at the inputs. */
+const LINES = [
+  { name: 'a', text: 'track A' },
+  { name: 'b', text: 'track B' },
+  { name: 'z', text: 'index' },
+  { name: 'cal', text: 'calibration signal' },
+];
+const TICK_S = 1.2e-6;
+
+/** The answer that is shown, and the one before it. */
+interface Seen {
+  now: CardAnswer | null;
+  before: CardAnswer | null;
+}
+
+/** Counts a second between two answers. */
+export function speedOf({ now, before }: Seen, axis: number): number | null {
+  const [to, from] = [valueOf(now, `${axis}.POSITION`), valueOf(before, `${axis}.POSITION`)];
+  if (now === null || before === null || to === null || from === null || now.at <= before.at) return null;
+  return (to - from) / (now.at - before.at);
+}
+
+function write(card: CardInfo, register: string, value: number): void {
+  const found = card.registers.find((one) => one.name === register);
+  if (found === undefined) return;
+  void orderFor('write_register', { card: card.name, bits: 16, address: card.bus.base + found.offset, value });
+}
+
+function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }): JSX.Element {
+  const why = mayAccess(card);
+  const answer = seen.now;
   const calibrated = valueOf(answer, `${axis}.CALIBRATED`);
   const illegal = valueOf(answer, `${axis}.ILLEGAL_TRANSITIONS`);
-  const send = (code: number): void => {
-    if (command !== undefined)
-      void orderFor('write_register', {
-        card: card.name,
-        bits: 16,
-        address: card.bus.base + command.offset,
-        value: (code << (2 * axis)) | (0xf00 & ~(0x100 << axis)), // KEEP: the other axes take no command
-      });
-  };
+  // KEEP: the other axes take no command.
+  const send = (code: number): void => write(card, 'CMD', (code << (2 * axis)) | (0xf00 & ~(0x100 << axis)));
   return (
     <tr>
       <th scope="row">{axis}</th>
       <td class="tabular">{whole(valueOf(answer, `${axis}.POSITION`))}</td>
+      <td class="tabular">{fixed(speedOf(seen, axis), 0)}</td>
+      <td>
+        <span class="flags">
+          {LINES.map((line) => {
+            const level = answer?.pins[`${line.name}${axis}`];
+            return (
+              <Led
+                key={line.name}
+                on={level === 1}
+                letter={line.name.charAt(0).toUpperCase()}
+                text={`Axis ${axis}, ${line.text}`}
+              />
+            );
+          })}
+        </span>
+      </td>
       <td class="tabular">
         <Led on={calibrated === 1} letter="C" text={`Axis ${axis} calibrated`} />
       </td>
@@ -56,17 +104,51 @@ function Axis({ card, answer, axis }: { card: CardInfo; answer: CardAnswer | nul
   );
 }
 
+/** The 16 outputs of X5, a byte a register. */
+function Outputs({ card, answer }: { card: CardInfo; answer: CardAnswer | null }): JSX.Element {
+  const why = mayAccess(card);
+  const level = (output: number): number => answer?.pins[`out${output}`] ?? 0;
+  const turn = (output: number): void => {
+    const first = output < 8 ? 0 : 8;
+    let byte = 0;
+    for (let bit = 0; bit < 8; ++bit) {
+      const on = first + bit === output ? level(output) === 0 : level(first + bit) === 1;
+      byte |= on ? 1 << bit : 0;
+    }
+    write(card, first === 0 ? 'OUTL' : 'OUTH', byte);
+  };
+  return (
+    <span class="buttons">
+      {[...Array(16).keys()].map((output) => (
+        <Button
+          key={output}
+          why={why}
+          label={`Output ${output}, ${level(output) === 1 ? 'high' : 'low'}: turn it over`}
+          onClick={() => turn(output)}>
+          {output} {level(output) === 1 ? '●' : '○'}
+        </Button>
+      ))}
+    </span>
+  );
+}
+
 export function Flex({ card }: { card: CardInfo }): JSX.Element {
   const { data } = usePoll<CardAnswer>('card', { name: card.name }, 100);
+  const seen = useRef<Seen>({ now: null, before: null });
+  if (data.value !== seen.current.now) seen.current = { now: data.value, before: seen.current.now };
+  const ticks = valueOf(data.value, 'TIME');
   const shown = card.registers.filter((one) => ['STATUS', 'CFG_ERROR'].includes(one.name));
   return (
     <>
-      <Panel title={`${card.name}: ${card.title}`} class="wide">
+      <Panel
+        title={`${card.name}: ${card.title}`}
+        class="wide"
+        note={`Time of the card: ${fixed(ticks === null ? null : ticks * TICK_S, 3)} s.`}>
         <div class="scroll" tabIndex={0} role="region" aria-label="Axes of the card">
           <table class="counters">
             <thead>
               <tr>
-                {['Axis', 'Position, counts', 'Calibrated', 'Illegal transitions', 'Calibrate'].map((head) => (
+                {HEADS.map((head) => (
                   <th key={head} scope="col">
                     {head}
                   </th>
@@ -75,11 +157,14 @@ export function Flex({ card }: { card: CardInfo }): JSX.Element {
             </thead>
             <tbody>
               {AXES.map((axis) => (
-                <Axis key={axis} card={card} answer={data.value} axis={axis} />
+                <Axis key={axis} card={card} seen={seen.current} axis={axis} />
               ))}
             </tbody>
           </table>
         </div>
+      </Panel>
+      <Panel title="Outputs of X5">
+        <Outputs card={card} answer={data.value} />
       </Panel>
       <Panel title="Diagnostics">
         {shown.map((one) => (

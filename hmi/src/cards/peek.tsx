@@ -8,6 +8,8 @@ import { Empty, Led } from '../parts/ui';
 import { fieldValues } from './words';
 
 export interface CardAnswer {
+  /** The rack's time, s. */
+  at: number;
   registers: { name: string; register: string; word: number }[];
   values: { name: string; value: number }[];
   quantities: { name: string; value: number }[];

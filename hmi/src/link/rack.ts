@@ -23,6 +23,13 @@ export interface CommandInfo {
   name: string;
   code: number;
   meaning: string;
+  /** Of the argument, from `least` to `greatest`; 0: it has none. */
+  data_bytes: number;
+  least: number;
+  greatest: number;
+  unit: string;
+  /** Of the answer; 0: it has none. */
+  answer_bytes: number;
 }
 export interface PinInfo {
   name: string;
@@ -43,7 +50,8 @@ export interface CardInfo {
   title: string;
   slot: number;
   about: string;
-  bus: { base: number; widths: number[] };
+  /** `while_moving`: it only measures, and is accessed by hand at any time. */
+  bus: { base: number; widths: number[]; while_moving: boolean };
   axes: { letter: string; channel: string }[];
   registers: RegisterInfo[];
   commands: CommandInfo[];

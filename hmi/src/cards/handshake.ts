@@ -1,0 +1,78 @@
+// The handshake of a DataBoard 4002: each byte to C2 and DATA, and each from DATA, needs Ready in STAT. A command is a
+// letter at C2, then its argument's bytes at DATA, the lowest first, or its answer's from there.
+import type { CommandInfo } from '../link/rack';
+
+/** The card's ports. */
+export interface Bus {
+  /** The byte at a port; null: it was refused. */
+  read(port: string): Promise<number | null>;
+  /** False: it was refused. */
+  write(port: string, byte: number): Promise<boolean>;
+  /** Lets the card work. */
+  rest(): Promise<void>;
+}
+
+export type Exchanged = { value: number | null } | { why: string };
+
+const READY = 0x80;
+const LOOKS = 40;
+const refused: Exchanged = { why: '' };
+const late = (sent: string): Exchanged => ({
+  why: `The card was not ready after ${LOOKS} looks at STAT. ${sent} Look whether its program hangs, or reset it.`,
+});
+
+async function ready(bus: Bus): Promise<boolean | null> {
+  for (let look = 0; look < LOOKS; ++look) {
+    const status = await bus.read('STAT');
+    if (status === null) return null;
+    if ((status & READY) !== 0) return true;
+    await bus.rest();
+  }
+  return false;
+}
+
+/** Bytes of a number, the lowest first; a number below 0 as its two's complement. */
+export const bytesOf = (value: number, count: number): number[] =>
+  [...Array(count).keys()].map((byte) => Math.floor(value / 2 ** (8 * byte)) & 0xff);
+
+/** The number that these bytes are; of more than one byte with a sign. */
+export function numberOf(bytes: readonly number[]): number {
+  const value = bytes.reduceRight((sum, byte) => sum * 256 + byte, 0);
+  const range = 256 ** bytes.length;
+  return bytes.length > 1 && value >= range / 2 ? value - range : value;
+}
+
+async function begin(bus: Bus, command: CommandInfo): Promise<Exchanged | null> {
+  const state = await ready(bus);
+  if (state === null) return refused;
+  if (!state) return late('Nothing was sent.');
+  return (await bus.write('C2', command.code)) ? null : refused;
+}
+
+/** Sends a command with its argument, if it has one. */
+export async function give(bus: Bus, command: CommandInfo, argument: number): Promise<Exchanged> {
+  const wrong = await begin(bus, command);
+  if (wrong !== null) return wrong;
+  const bytes = bytesOf(argument, command.data_bytes);
+  for (const [sent, byte] of bytes.entries()) {
+    const state = await ready(bus);
+    if (state === false) return late(`Of ${bytes.length} bytes of ${command.name} it has ${sent}.`);
+    if (state === null || !(await bus.write('DATA', byte))) return refused;
+  }
+  return { value: null };
+}
+
+/** Sends a command and reads its answer. */
+export async function ask(bus: Bus, command: CommandInfo): Promise<Exchanged> {
+  const wrong = await begin(bus, command);
+  if (wrong !== null) return wrong;
+  const bytes: number[] = [];
+  while (bytes.length < command.answer_bytes) {
+    const state = await ready(bus);
+    if (state === false) return late(`Of ${command.answer_bytes} bytes of ${command.name} ${bytes.length} were read.`);
+    const byte = state === null ? null : await bus.read('DATA');
+    if (byte === null) return refused;
+    bytes.push(byte);
+  }
+  return { value: numberOf(bytes) };
+}
