@@ -93,9 +93,9 @@ MR_API uint64_t mr_now_ns(const mr_rack* rack);
  * and OUT), 16 or 32 bits for cards with registers of that width (an mcx314: 16, or 8 where its section of the rack
  * file says bus = "8-bit"). `offset` is the byte offset of the register (the port's number), as the card's reference
  * page lists them; of an ioflex02, which shares its bus with others, base_address of the rack file and that offset. An
- * access takes bus_access_ns of the rack file (250 ns if it says none): virtual time passes before the card sees it.
- * `value` is left alone if it fails. MR_BAD_CALL (null, no such card), MR_REFUSED (the card's bus is of another width;
- * nothing at that offset). */
+ * access takes bus_access_ns of the rack file, which the reference page of rack files gives a default for each kind of
+ * card (mcx314 250 ns, databoard4002 1000 ns): virtual time passes before the card sees it. `value` is left alone if it
+ * fails. MR_BAD_CALL (null, no such card), MR_REFUSED (the card's bus is of another width; nothing at that offset). */
 MR_API int mr_read8(mr_rack* rack, const char* card, uint32_t port, uint8_t* value);
 MR_API int mr_write8(mr_rack* rack, const char* card, uint32_t port, uint8_t value);
 MR_API int mr_read16(mr_rack* rack, const char* card, uint32_t offset, uint16_t* value);

@@ -108,7 +108,7 @@ void* mcx314_of(RackCard& card) {
 
 // ---- databoard4002
 
-constexpr std::array<PinType, 10> databoard4002_channel_pins = {{
+constexpr std::array<PinType, 11> databoard4002_channel_pins = {{
     {"o1", input, "encoder track A, or down pulses"},
     {"o2", input, "encoder track B, or up pulses"},
     {"zero", input, "zero pulse of the encoder"},
@@ -119,12 +119,14 @@ constexpr std::array<PinType, 10> databoard4002_channel_pins = {{
     {"sign", output, "direction, high is +"},
     {"fout", output, "speed as a frequency"},
     {"relay", output, "high while the analog output is connected"},
+    {"vdirect", output, "analog output in front of the relay, on which ems does not act, V", 1e-6},
 }};
 
-constexpr std::array<PinType, 3> databoard4002_pins = {{
+constexpr std::array<PinType, 4> databoard4002_pins = {{
     {"ems", input, "emergency stop; high, without current, is active", 0, PinKind::contact},
     {"rst", output, "pulse of 10 us at a reset of the card"},
     {"int", output, "interrupt, active high"},
+    {"csb", output, "high while the card is chosen, as its LED"},
 }};
 
 // Only those whose parts the axis has: a servo amplifier at the analog output, or a stepping motor at the frequency.

@@ -60,12 +60,11 @@ struct Databoard4002Settings {
 
 /// Settings of a card of type ioflex02.
 struct Ioflex02Settings {
-    std::int64_t base_address =
-        0x2300;                       ///< 0 .. FF00h, a multiple of 100h: where it answers on the bus of all such cards
-    std::int64_t serial = 1;          ///< 0 .. 65,535
-    double configuration_ms = 2'000;  ///< 0 .. 60,000 ms from the image's last byte to the running project
-    bool loaded = true;               ///< a project runs from power-up, without the host loading it
-    std::string image;                ///< its compressed image in hexadecimal digits; empty: the one that is built in
+    std::int64_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h: its place on the bus of such cards
+    std::int64_t serial = 1;             ///< 0 .. 65,535
+    double configuration_ms = 2'000;     ///< 0 .. 60,000 ms from the image's last byte to the running project
+    bool loaded = true;                  ///< a project runs from power-up, without the host loading it
+    std::string image;                 ///< its compressed image in hexadecimal digits; empty: the one that is built in
     std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
 };
 

@@ -6,10 +6,10 @@
 #include <array>
 #include <limits>
 #include <motionrack/cards/databoard4002/axes/position_axis.hpp>
-#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/databoard4002/model/bus.hpp>
 #include <motionrack/cards/databoard4002/model/card.hpp>
+#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <motionrack/rack/databoard4002_card.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 

@@ -108,15 +108,17 @@ inline constexpr PinInfo pins[] = {
     {"o2", in, false, "encoder track B, or up pulses"},
     {"zero", in, false, "zero pulse of the encoder"},
     {"ref", in, false, "reference; active without current"},
-    {"ems", in, false, "emergency stop; active without current"},
-    {"esr", in, false, "end stop right; active without current"},
-    {"esl", in, false, "end stop left; active without current"},
+    {"ems", in, false, "emergency stop; active without current; contact 3P: 10 at 0 V, 23 at 5 V"},
+    {"esr", in, false, "end stop right; active without current; contact 3P: 12 at 0 V, 25 at 5 V"},
+    {"esl", in, false, "end stop left; active without current; contact 3P: 11 at 0 V, 24 at 5 V"},
     {"vout", out, false, "analog output behind the relay; the wire's level is in uV"},
     {"sign", out, false, "direction: 1 is +"},
     {"fout", out, false, "speed as a frequency, 400 kHz / (16384 - rate)"},
     {"relay", out, false, "1: the analog output is connected, 0: shorted"},
     {"rst", out, false, "pulse of 10 us at C3"},
     {"int", out, false, "interrupt: 1 while one is asked for"},
+    {"vdirect", out, false, "analog output in front of the relay, on which EMS does not act; in uV"},
+    {"csb", out, false, "1 while the card is chosen: its answer to the bus, and its LED"},
 };
 static_assert(declared<pins_flaw(pins)>());
 

@@ -57,6 +57,26 @@ TEST(Databoard4002InARack, ACardAlonePositionsItsIdealMotor) {
     EXPECT_EQ(low | host.in(0) << 8, 1000u);
 }
 
+/// With the card's program hung, only the relay takes the voltage off.
+TEST(Databoard4002InARack, AWireChoosesWhetherTheServoIsBehindTheRelayOrInFrontOfIt) {
+    for (const bool direct : {false, true}) {
+        Host host(std::string("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\n[axis.X.servo]\n") +
+                  (direct ? "[wires]\n\"X.drive\" = \"c1.vdirect\"\n" : ""));
+        host.out(1, 13);
+        host.command('R', {0x00, 0x3E});
+        host.command('P', {0x00, 0x00, 0x70});
+        host.command('G');
+        ASSERT_TRUE(host.session->advance(200'000'000));
+        const double volts = *host.session->wire("X.drive");
+        EXPECT_GT(volts, 0.2);
+        ASSERT_TRUE(host.session->fault("watchdog.hang=1", "c1"));
+        ASSERT_TRUE(host.session->set_wire("c1.ems", 1));
+        ASSERT_TRUE(host.session->advance(1'000'000));
+        EXPECT_EQ(*host.session->wire("c1.vout"), 0);
+        EXPECT_EQ(*host.session->wire("X.drive"), direct ? volts : 0) << direct;
+    }
+}
+
 TEST(Databoard4002InARack, ItsWiresAreVoltsAndLevelsAndAnEndStopHoldsTheMove) {
     Host host("card.c1 = \"databoard4002\"");
     host.out(1, 13);

@@ -12,7 +12,7 @@ void Bus::plug(Card& card, std::uint8_t select) {
     MOTIONRACK_ASSERT(slots_.size() < most_cards);
     for (const Slot& slot : slots_) MOTIONRACK_ASSERT(slot.select != select);
     kernel_.listen(card.interrupt_wire(), id_, static_cast<int>(slots_.size()));
-    slots_.push_back({&card, select});
+    slots_.push_back({&card, select, kernel_.find_wire(kernel_.device_name(card.id()) + ".csb")});
 }
 
 Card* Bus::chosen() const {
@@ -38,6 +38,7 @@ std::uint8_t Bus::peek(std::uint8_t port) const {
 void Bus::out(std::uint8_t port, std::uint8_t value) {
     if (port == ports::CS) {
         state_.chosen = value;
+        for (const Slot& slot : slots_) kernel_.set_wire(slot.csb, slot.select == value);
         return;
     }
     if (Card* card = chosen()) card->out(port, value);

@@ -2,6 +2,7 @@
 //
 //   host ── OUT 1 ──► chosen number                card 13 ── int ──┐
 //        ── OUT 0, 2..5, INP 0, 1 ──► that card    card 14 ── int ──┴─► BUS.int (1 while any card asks)
+//        ◄───────────────────── csb ── that card
 //        ── INP 7 ──► all cards
 #pragma once
 
@@ -38,6 +39,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     struct Slot {
         Card* card = nullptr;
         std::uint8_t select = 0;
+        sim::WireId csb{};  ///< of the card: it is the chosen one
     };
     struct State {
         std::int32_t chosen = -1;  ///< the number written to port 1; -1: none yet

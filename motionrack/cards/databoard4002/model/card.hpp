@@ -92,6 +92,8 @@ class Card final : public sim::Device,
         relay_pin,
         rst_pin,
         interrupt_pin,
+        direct_pin,
+        chosen_pin,  // the bus drives it
         pin_count
     };
 

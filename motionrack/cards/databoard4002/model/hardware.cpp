@@ -1,7 +1,8 @@
 // The pins: inputs, events and zeroing, the gate, the outputs.
 //
 //   rate ─► divider ─► fout            sign: direction of the last move
-//        └► volts ─► relay ─► vout     gate: shut while an end stop in this direction is active
+//        └► volts ─┬► vdirect          gate: shut while an end stop in this direction is active
+//                  └► relay ─► vout
 #include <motionrack/cards/databoard4002/model/card.hpp>
 
 namespace motionrack::databoard4002 {
@@ -85,8 +86,9 @@ bool Card::fault(std::string_view name, double value, Instant now) {
 
 // ---- events
 
+/// Events that are not enabled do not happen.
 void Card::raise(std::uint8_t bits) {
-    state_.firmware.event |= bits;
+    state_.firmware.event |= bits & state_.firmware.enables;
     check_events();
 }
 
@@ -141,7 +143,9 @@ void Card::put_out(Instant now) {
     const bool relay = f.rate != 0 && !input(ems_pin, stat::EMS);
     kernel_.set_wire(wires_[sign_pin], direction > 0);
     kernel_.set_wire(wires_[relay_pin], relay);
-    kernel_.set_wire(wires_[vout_pin], driven && relay ? direction * microvolts_of(rate, settings_.trim) : 0);
+    const int microvolts = driven ? direction * microvolts_of(rate, settings_.trim) : 0;
+    kernel_.set_wire(wires_[direct_pin], microvolts);
+    kernel_.set_wire(wires_[vout_pin], relay ? microvolts : 0);
     if (driven)
         train_.run(divisor_of(rate), direction, now);
     else

@@ -79,9 +79,46 @@ TEST(Databoard4002, ABrokenWireIsAStop) {
     EXPECT_FALSE(host.card.fault("fuse", 1, host.kernel.now()));
 }
 
+TEST(Databoard4002, TheEmergencyStopDoesNotActOnTheOutputInFrontOfTheRelay) {
+    Host host;
+    host.start();
+    host.command('R', 16'344, 2);
+    host.command('P', 100'000, 3);
+    host.command('G');
+    host.run(milliseconds(50));
+    const int volts = host.level("vout");
+    EXPECT_GT(volts, 0);
+    EXPECT_EQ(host.level("vdirect"), volts);
+    host.command('P', -100'000, 3);
+    host.command('G');
+    host.run(milliseconds(5));
+    EXPECT_EQ(host.level("vdirect"), -volts);
+    EXPECT_TRUE(host.card.fault("watchdog.hang", 1, host.kernel.now()));
+    host.set("ems", 1);
+    EXPECT_EQ(host.level("relay"), 0);
+    EXPECT_EQ(host.level("vout"), 0);
+    EXPECT_EQ(host.level("vdirect"), -volts) << "the card's program, which would end the move, hangs";
+    EXPECT_TRUE(host.card.fault("watchdog.hang", 0, host.kernel.now()));
+    host.run(milliseconds(10));
+    EXPECT_EQ(host.level("vdirect"), 0);
+}
+
+TEST(Databoard4002, TheChosenCardShowsIt) {
+    Host host;
+    Card other(host.kernel, "c2", {});
+    host.bus.plug(other, 14);
+    host.start();
+    const auto shown = [&] { return std::pair(host.level("csb"), host.kernel.level(host.kernel.find_wire("c2.csb"))); };
+    EXPECT_EQ(shown(), std::pair(1, 0));
+    host.port.out(ports::CS, 14);
+    EXPECT_EQ(shown(), std::pair(0, 1));
+    host.port.out(ports::CS, 3);
+    EXPECT_EQ(shown(), std::pair(0, 0));
+}
+
 // ---- events
 
-TEST(Databoard4002, AnEventThatIsNotEnabledSetsNoFlagAndALatchedOneStaysUntilC4) {
+TEST(Databoard4002, AnEventThatIsNotEnabledDoesNotHappenAndALatchedOneStaysUntilC4) {
     Host host;
     host.start();
     host.command('W');
@@ -90,7 +127,10 @@ TEST(Databoard4002, AnEventThatIsNotEnabledSetsNoFlagAndALatchedOneStaysUntilC4)
     host.command('G');
     host.run(milliseconds(50));
     EXPECT_FALSE(host.status() & stat::EVENT);
-    EXPECT_EQ(host.events(event::POSITION), event::POSITION) << "the word shows it all the same, and is freed";
+    host.set("esr", 1);
+    host.set("esr", 0);
+    EXPECT_EQ(host.events(0x21), 0);
+    EXPECT_FALSE(host.status() & stat::EVENT) << "what happened before it was enabled is over";
     host.command('G');
     ASSERT_TRUE(host.wait_event(milliseconds(50)));
     host.set("esl", 1);

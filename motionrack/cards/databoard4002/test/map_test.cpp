@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <motionrack/base/describe.hpp>
-#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <motionrack/cards/databoard4002/test/host.hpp>
+#include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <set>
 #include <sstream>
 #include <tests/source_root.hpp>
@@ -58,6 +60,20 @@ TEST(Databoard4002Map, TheCardHasThePinsOfTheMap) {
     for (const PinInfo& pin : card_map().pins)
         EXPECT_NE(host.kernel.find_wire("c1." + std::string(pin.name)), sim::WireId::none) << pin.name;
     EXPECT_EQ(host.kernel.wire_count(), card_map().pins.size() + 1);  // and the bus' interrupt line
+}
+
+TEST(Databoard4002Map, ThePinsOfTheStopsAreThoseOfContact3P) {
+    struct Contact {
+        std::string_view pin, numbers;
+    };
+    for (const Contact& contact : {Contact{"ems", "contact 3P: 10 at 0 V, 23 at 5 V"},
+                                   {"esl", "contact 3P: 11 at 0 V, 24 at 5 V"},
+                                   {"esr", "contact 3P: 12 at 0 V, 25 at 5 V"}}) {
+        const auto pin = std::find_if(std::begin(map::pins), std::end(map::pins),
+                                      [&](const PinInfo& each) { return each.name == contact.pin; });
+        ASSERT_NE(pin, std::end(map::pins)) << contact.pin;
+        EXPECT_NE(pin->meaning.find(contact.numbers), std::string_view::npos) << pin->meaning;
+    }
 }
 
 TEST(Databoard4002Map, TheReferencePageIsCurrent) {

@@ -13,6 +13,43 @@ namespace {
 
 using ::testing::HasSubstr;
 
+/// The tables of the example in Basic, p. 38: 24 pairs of speed and position (in units of 256 counts) for each half.
+constexpr int basic_deceleration[24][2] = {
+    {14288, 1},   {15892, 6},   {16002, 8},   {16116, 15},  {16178, 30},  {16216, 35},  {16244, 40},  {16262, 45},
+    {16278, 50},  {16288, 60},  {16298, 70},  {16305, 85},  {16312, 100}, {16317, 115}, {16322, 130}, {16326, 145},
+    {16330, 160}, {16333, 180}, {16336, 200}, {16337, 225}, {16338, 250}, {16339, 285}, {16340, 320}, {16341, 370}};
+constexpr int basic_acceleration[24][2] = {
+    {14288, 1},   {15892, 12},  {16002, 16},  {16116, 22},  {16178, 30},  {16216, 35},  {16244, 40},  {16262, 50},
+    {16278, 60},  {16288, 70},  {16298, 80},  {16305, 105}, {16312, 130}, {16317, 150}, {16322, 180}, {16326, 215},
+    {16330, 250}, {16333, 290}, {16336, 330}, {16337, 365}, {16338, 400}, {16339, 450}, {16340, 500}, {16341, 600}};
+
+TEST(Databoard4002Slope, TheTableOfTheBasicExampleIsDrivenIntervalByInterval) {
+    Host host;
+    host.start();
+    host.command('S');
+    for (const auto* half : {&basic_deceleration, &basic_acceleration}) {
+        for (const auto& row : *half) {
+            host.number(row[0], 2);
+            host.number(256 * row[1], 3);
+        }
+    }
+    host.command('O');
+    constexpr std::int64_t target = 300'000;
+    host.command('P', target, 3);
+    host.command('G');
+    std::vector<int> rates;
+    for (bool begun = false; !begun || host.card.moving(); begun = begun || host.card.moving()) {
+        host.run(microseconds(200));
+        const int rate = host.card.output_rate();
+        if (rate != 0 && (rates.empty() || rates.back() != rate)) rates.push_back(rate);
+    }
+    std::vector<int> expected;
+    for (const auto& row : basic_acceleration) expected.push_back(row[0]);
+    for (int i = 22; i >= 0; --i) expected.push_back(basic_deceleration[i][0]);
+    EXPECT_EQ(rates, expected);
+    EXPECT_EQ(host.card.position(), target);
+}
+
 RC_GTEST_PROP(Databoard4002Slope, RateForIsTheGreatestRateThatIsNotFaster, ()) {
     SpeedScale scale;
     scale.analog = *rc::gen::arbitrary<bool>();

@@ -224,7 +224,7 @@ void Twin::break_wire(In pin, bool broken) {
 // ---- events
 
 void Twin::raise(int bits) {
-    event_ |= bits;
+    event_ |= bits & enables_;
     check_events();
 }
 

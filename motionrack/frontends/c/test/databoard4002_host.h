@@ -46,7 +46,7 @@ typedef struct {
 static host host_open(void) {
     host h;
     memset(&h, 0, sizeof h);
-    CHECK(mr_rack_open("card.c1 = \"databoard4002\"", &h.rack) == MR_OK);
+    CHECK(mr_rack_open("[card.c1]\ntype = \"databoard4002\"\nbus_access_ns = 250\n", &h.rack) == MR_OK);
     return h;
 }
 
