@@ -37,8 +37,8 @@ TEST_F(FramesPage, HostAndSlavesAgreeAndThreeHostsDoNot) {
 TEST_F(FramesPage, WavesHaveStatesAndLinesOfEveryBit) {
     ASSERT_EQ(motionrack("frames examples/grating_bus/crate.toml --for 0.001 -q --vcd f.vcd").code, 0);
     const std::string vcd = text_of(folder / "f.vcd");
-    for (const char* signal : {"wire 1 ", "bus_clk", "bus_hold", "bus_read_n", "bus_addr0", "bus_data31",
-                               "real 64 ", "c1_state", "bus_data", "\nr12 "})
+    for (const char* signal : {"wire 1 ", "bus_clk", "bus_hold", "bus_read_n", "bus_addr0", "bus_data31", "real 64 ",
+                               "c1_state", "bus_data", "\nr12 "})
         EXPECT_THAT(vcd, HasSubstr(signal));
 }
 

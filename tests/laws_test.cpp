@@ -112,11 +112,11 @@ const std::map<std::string, std::set<std::string>> may_include = {
                    "c.h",         "grating_bus/map",
                    "ioflex02/map"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
-    {"mcx314lib", {"base", "calls", "rack", "mcx314/map", "mcx314/driver"}},
+    {"mcx314lib", {"base", "calls", "rack", "live", "mcx314/map", "mcx314/driver"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
     {"python",
-     {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/driver", "ioflex02/driver",
-      "grating_bus/model", "grating_bus/driver", "rtc5/model"}},
+     {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/map",
+      "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver", "rtc5/model"}},
 };
 
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {

@@ -242,7 +242,7 @@ Result<void> VcdWriter::close(Instant end) {
     if (file_ && !gave_up_) {
         if (declaring_) end_declarations();
         room(longest_change);
-        if (end > now_) advance(end);
+        if (end >= now_ && end > Instant{0}) advance(end);
         write_out();
         (void)file_.commit();
     }

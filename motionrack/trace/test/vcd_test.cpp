@@ -67,7 +67,7 @@ TEST(VcdWriter, WritesAValueOnlyWhenItIsNew) {
     vcd.change_real(real, std::numeric_limits<double>::infinity(), Instant{12});
     ASSERT_TRUE(vcd.close(Instant{12}));
     const std::string text = file_text(vcd_scratch.path("a.vcd"));
-    EXPECT_EQ(text.substr(text.find("$dumpvars")), "$dumpvars\n0!\nr1.5 \"\nb11 #\n$end\n");
+    EXPECT_EQ(text.substr(text.find("$dumpvars")), "$dumpvars\n0!\nr1.5 \"\nb11 #\n$end\n#12\n");
 }
 
 TEST(VcdWriter, KeepsTheOrderOfChangesInsideOneUnitOfACoarseTimescale) {
