@@ -119,20 +119,30 @@ TEST_P(Databoard4002HowTo, ShowsTheProgramItsOutputAndItsPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, Databoard4002HowTo, testing::Values("slope", "lock"));
 
-TEST(Databoard4002HowToHost, ShowsThePartsOfTheProgramInCItsOutputAndThePictureOfItsRun) {
-    const fs::path csv = fs::temp_directory_path() / "motionrack_howto_old_host.csv";
-    const std::string printer = std::string(MOTIONRACK_DATABOARD_C_EXAMPLE) + " '" + csv.string() + "'";
+/// A page whose program is in C: it prints what the page says and writes a run, of which the picture is made; the page
+/// shows parts of the program.
+void shows_program_in_c(const std::string& name, const std::string& command, const std::string& source, int parts) {
+    const fs::path csv = fs::temp_directory_path() / ("motionrack_howto_" + name + ".csv");
+    const std::string printer = command + " '" + csv.string() + "'";
     ASSERT_FALSE(printed_by(printer).empty());
-    shows("old_host", MOTIONRACK_DATABOARD4002_EXAMPLE " old_host '" + csv.string() + "'", printer);
+    shows(name, MOTIONRACK_DATABOARD4002_EXAMPLE " " + name + " '" + csv.string() + "'", printer);
     fs::remove(csv);
-    const std::string page = databoard_page("old_host"),
-                      program = text_of(source_root / "examples/10_databoard_c/program.c");
+    const std::string page = databoard_page(name), program = text_of(source_root / source);
     int blocks = 0;
     for (std::size_t at = page.find("```c\n"); at != std::string::npos; at = page.find("```c\n", at + 5), ++blocks) {
         const std::string code = page.substr(at + 5, page.find("```", at + 5) - at - 5);
         EXPECT_NE(program.find(code), std::string::npos) << code;
     }
-    EXPECT_EQ(blocks, 3);
+    EXPECT_EQ(blocks, parts);
+}
+
+TEST(Databoard4002HowToHost, ShowsThePartsOfTheProgramInCItsOutputAndThePictureOfItsRun) {
+    shows_program_in_c("old_host", MOTIONRACK_DATABOARD_C_EXAMPLE, "examples/10_databoard_c/program.c", 3);
+}
+
+TEST(Databoard4002HowToRig, ShowsAClosedLoopThatSettlesAndTwoThatOscillate) {
+    const std::string rig = (source_root / "examples/servo_rig/rig.toml").string();
+    shows_program_in_c("closed_loop", MOTIONRACK_SERVO_RIG_EXAMPLE " '" + rig + "'", "examples/servo_rig/program.c", 1);
 }
 
 }  // namespace

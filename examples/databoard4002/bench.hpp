@@ -62,5 +62,7 @@ Result<std::string> slope();
 Result<std::string> lock();
 /// Of what examples/10_databoard_c has written.
 Result<std::string> old_host(const std::string& csv);
+/// Of what examples/servo_rig has written.
+Result<std::string> closed_loop(const std::string& csv);
 
 }  // namespace howto

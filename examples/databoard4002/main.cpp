@@ -1,5 +1,6 @@
 // The programs of the how-to pages about the DataBoard 4002: runs one on a virtual card and writes its picture.
-//   example_databoard4002 slope [PICTURE.svg] | lock [PICTURE.svg] | old_host RUN.csv PICTURE.svg
+//   example_databoard4002 slope [PICTURE.svg] | lock [PICTURE.svg]
+//   example_databoard4002 old_host RUN.csv PICTURE.svg | closed_loop RUN.csv PICTURE.svg
 #include <fmt/format.h>
 
 #include <string>
@@ -7,18 +8,28 @@
 
 #include "bench.hpp"
 
+namespace {
+
+motionrack::Result<std::string> picture_of(const std::string& page, const std::string& csv) {
+    if (page == "slope") return howto::slope();
+    if (page == "lock") return howto::lock();
+    return page == "old_host" ? howto::old_host(csv) : howto::closed_loop(csv);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const std::string page = words.empty() ? "" : words[0];
-    const std::size_t most = page == "old_host" ? 3 : 2;
-    if ((page != "slope" && page != "lock" && page != "old_host") || words.size() > most ||
-        (page == "old_host" && words.size() < most)) {
+    const bool drawn = page == "old_host" || page == "closed_loop";  // of a run that another program has written
+    const std::size_t most = drawn ? 3 : 2;
+    if ((page != "slope" && page != "lock" && !drawn) || words.size() > most || (drawn && words.size() < most)) {
         fmt::print(stderr,
-                   "Usage: example_databoard4002 slope|lock [PICTURE.svg], or example_databoard4002 old_host RUN.csv "
-                   "PICTURE.svg\n");
+                   "Usage: example_databoard4002 slope|lock [PICTURE.svg], or example_databoard4002 "
+                   "old_host|closed_loop RUN.csv PICTURE.svg\n");
         return 1;
     }
-    const auto picture = page == "slope" ? howto::slope() : page == "lock" ? howto::lock() : howto::old_host(words[1]);
+    const auto picture = picture_of(page, drawn ? words[1] : "");
     if (!picture) return fmt::print(stderr, "{}\n", picture.error().text()), 1;
     if (words.size() < most) return 0;
     if (const auto written = motionrack::trace::write_text(*picture, words.back()); !written)
