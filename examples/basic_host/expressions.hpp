@@ -39,7 +39,7 @@ struct Cursor {
     }
 };
 
-/// What expressions need of the interpreter.
+/// Services of the interpreter that expressions use.
 class Context {
   public:
     virtual ~Context() = default;

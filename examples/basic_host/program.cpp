@@ -128,7 +128,7 @@ class Reader {
     int number_ = 0;
 };
 
-// ---- what belongs together
+// ---- functions, data and ends of loops
 
 /// Finds functions, the ends of loops, and data.
 class Pairs {

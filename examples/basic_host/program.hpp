@@ -1,4 +1,4 @@
-// A program in BASIC II, read: its words line after line, and what belongs together in it.
+// A program in BASIC II: its words line after line, with its functions, data and ends of loops.
 //
 //   "1300 Q7=FNGoPosition(1000) ! TO C"  ──►  name Q7, symbol =, function FNGOPOSITION, ( 1000 ), end of line
 //

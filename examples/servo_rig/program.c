@@ -100,7 +100,7 @@ static void drive(double mv) {
     }
 }
 
-/* One look at the counter, and what follows from it. */
+/* Reads the counter and sets the voltage for it; returns the position. */
 static long sample(double gain_mv) {
     const long position = counter();
     drive(gain_mv * (double)(TURN - position));

@@ -10,7 +10,7 @@ namespace asmz {
 /// The value of a symbol; throws if it has none.
 using Lookup = std::function<int(const std::string& name)>;
 
-/// `here`: the value of '*' where a number is expected. Throws old_host::Failure with what is wrong.
+/// `here`: the value of '*' where a number is expected. Throws old_host::Failure with the reason.
 int value_of(std::string_view text, int here, const Lookup& lookup);
 
 }  // namespace asmz

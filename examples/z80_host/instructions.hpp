@@ -9,7 +9,7 @@
 
 namespace asmz {
 
-/// What the operands of an instruction are, and where they go.
+/// Operands of an instruction, and their places in its bytes.
 enum class Form {
     none,
     word,        ///< nn
@@ -47,14 +47,14 @@ struct Encoded {
     std::string zilog;
 };
 
-/// What the encoder asks of the assembler.
+/// State of the assembler that the encoder needs.
 struct Place {
     int here = 0;        ///< address of the instruction
     bool final = false;  ///< all symbols have their values
     std::function<int(const std::string& expression)> value;
 };
 
-/// Throws old_host::Failure with what is wrong.
+/// Throws old_host::Failure with the reason.
 Encoded encode(const Instruction& row, const std::vector<std::string>& operands, const Place& place);
 
 /// 0x1234.

@@ -32,7 +32,7 @@ std::uint64_t ns_of(const std::string& word, const std::string& usage) {
 
 Request request_of(const std::vector<std::string>& words, const std::string& usage) {
     if (words.empty() || words.size() == 3 || words.size() == 4 || words.size() > 5)
-        throw Failure("The command needs other words. Nothing was run.\n" + usage);
+        throw Failure("The number of arguments is wrong. Nothing was run.\n" + usage);
     Request out;
     out.program = words[0];
     if (words.size() > 1) {

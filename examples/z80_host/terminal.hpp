@@ -1,5 +1,5 @@
-// What an old host has around it: a DataBoard 4002 by the C library, the screen of an ADM-3A whose texts are listed
-// with the place of the axis, and a user who presses a key three seconds after the program asks for one.
+// The surroundings of an old host: a DataBoard 4002 by the C library, the screen of an ADM-3A whose texts are listed
+// with the position of the axis, and a user who presses a key three seconds after the program asks for one.
 //
 //   host program ── port ──► Machine ── mr_read8, mr_write8 ──► card c1 ──► pulses ──► an ideal motor ──► counter
 //                └─ byte ──► Terminal ──► a line of output for each text
@@ -27,7 +27,7 @@ struct Press {
     std::uint64_t until_ns = 0;
 };
 
-/// What the command line asks for.
+/// Arguments of the command line.
 struct Request {
     std::string program;  ///< path of the listing
     int rounds = 1;       ///< 1 .. 100: rounds of three keys each
@@ -41,7 +41,7 @@ std::string file_text(const std::string& path);
 
 class Machine {
   public:
-    /// `bus_access_ns`: what an access of the host takes, 0 .. 100,000. Throws Failure.
+    /// `bus_access_ns`: duration of an access of the host, 0 .. 100,000. Throws Failure.
     Machine(std::uint64_t bus_access_ns, std::optional<Press> press);
     ~Machine() { mr_rack_close(rack_); }
     Machine(const Machine&) = delete;
@@ -59,7 +59,7 @@ class Machine {
     double counts() const;
     /// The program does something that its user sees.
     void seen() { patience_ns_ = now_ns() + 1'000'000'000'000; }
-    /// Until when the user waits for that.
+    /// Instant at which pass_to() gives the program up.
     std::uint64_t patience_ns() const { return patience_ns_; }
 
   private:
