@@ -74,7 +74,8 @@ constexpr ByteValue quantities_of_card[] = {
     {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); }},
 };
 
-// What can be inspected beside the registers.
+// What can be inspected beside the registers; own_number: what is written to port 1 to choose the card.
+constexpr std::string_view own_number = "SELECT";
 constexpr ByteValue inspected[] = {
     {"POSITION", [](const db::Card& card) { return static_cast<double>(card.position()); }},
     {"RATE", [](const db::Card& card) { return static_cast<double>(card.output_rate()); }},
@@ -87,6 +88,7 @@ class Databoard4002Card final : public MotionCard {
   public:
     Databoard4002Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<db::Bus> bus)
         : name_(config.name),
+          select_(config.databoard4002.select),
           card_(kernel, config.name, settings_of(config.databoard4002)),
           bus_(bus ? std::move(bus) : std::make_shared<db::Bus>(kernel, "databoard")),
           port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns),
@@ -115,13 +117,15 @@ class Databoard4002Card final : public MotionCard {
             if (value.name == name) return static_cast<std::int64_t>(value.get(card_));
             more.push_back(value.name);
         }
+        if (name == own_number) return select_;
+        more.push_back(own_number);
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write && reg.bank.empty())
                 return card_.peek(static_cast<std::uint8_t>(reg.offset));
         return no_such_value(*this, name, more);
     }
     std::vector<std::string> value_names() const override {
-        std::vector<std::string> out;
+        std::vector<std::string> out = {std::string(own_number)};
         for (const ByteValue& value : inspected) out.emplace_back(value.name);
         return out;
     }
@@ -188,6 +192,7 @@ class Databoard4002Card final : public MotionCard {
 
   private:
     std::string name_;
+    std::int64_t select_;
     db::Card card_;
     std::shared_ptr<db::Bus> bus_;
     sim::VirtualBytePort port_;

@@ -67,21 +67,23 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
 const MOST_BYTES = 4;
 
 /** The ports by their names; DATA is written as OUT and read as INP. */
-function busOf(card: CardInfo): Bus {
+function busOf(card: CardInfo, answer: CardAnswer | null): Bus {
   const port = (name: string): number =>
     card.bus.base +
     (card.registers.find((one) => one.name === name || (name === 'DATA' && one.name === 'OUT'))?.offset ?? 0);
+  const write = async (name: string, value: number): Promise<boolean> =>
+    (await orderFor('write_register', { card: card.name, bits: 8, address: port(name), value })) !== null;
   return {
+    choose: async () => answer?.pins.csb === 1 || (await write('CS', valueOf(answer, 'SELECT') ?? 0)),
     read: async (name) =>
       ((await orderFor('read_register', { card: card.name, bits: 8, address: port(name) }))?.value as
         number | undefined) ?? null,
-    write: async (name, value) =>
-      (await orderFor('write_register', { card: card.name, bits: 8, address: port(name), value })) !== null,
+    write,
     rest: () => new Promise((done) => setTimeout(done, 5)),
   };
 }
 
-function Command({ card, command, why }: { card: CardInfo; command: CommandInfo; why: string }): JSX.Element {
+function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: string }): JSX.Element {
   const argument = useSignal('');
   const answer = useSignal<number | null>(null);
   const told = (outcome: Exchanged): void => {
@@ -95,7 +97,7 @@ function Command({ card, command, why }: { card: CardInfo; command: CommandInfo;
         'refused',
         `"${argument.value}" is not one of ${whole(command.least)} to ${whole(command.greatest)}. Nothing was sent.`,
       );
-    else void give(busOf(card), command, value).then(told);
+    else void give(bus, command, value).then(told);
   };
   const reads = command.answer_bytes > 0;
   return (
@@ -124,7 +126,7 @@ function Command({ card, command, why }: { card: CardInfo; command: CommandInfo;
             </Button>
           )}
           {reads && (
-            <Button why={why} label={`Ask ${command.name}`} onClick={() => void ask(busOf(card), command).then(told)}>
+            <Button why={why} label={`Ask ${command.name}`} onClick={() => void ask(bus, command).then(told)}>
               Ask
             </Button>
           )}
@@ -135,19 +137,17 @@ function Command({ card, command, why }: { card: CardInfo; command: CommandInfo;
   );
 }
 
-/** A row for each command; another card of the bus may be the chosen one. */
+/** A row for each command. */
 function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null }): JSX.Element {
-  const chosen = answer === null || answer.pins.csb === 1;
-  const why =
-    mayAccess(card) ||
-    (chosen ? '' : 'Another card of the bus is chosen. Write the number of this one to CS (port 1).');
+  const why = mayAccess(card);
+  const bus = busOf(card, answer);
   return (
     <Panel title="Commands" class="wide">
       <div class="scroll" tabIndex={0} role="region" aria-label="Commands of the card">
         <table class="counters">
           <thead>
             <tr>
-              {['Command', 'Meaning', 'Argument', '', 'Answer'].map((head) => (
+              {['Command', 'Meaning', 'Argument', 'Do', 'Answer'].map((head) => (
                 <th key={head} scope="col">
                   {head}
                 </th>
@@ -158,7 +158,7 @@ function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null 
             {card.commands
               .filter((one) => one.data_bytes <= MOST_BYTES)
               .map((one) => (
-                <Command key={one.name} card={card} command={one} why={why} />
+                <Command key={one.name} bus={bus} command={one} why={why} />
               ))}
           </tbody>
         </table>

@@ -4,6 +4,8 @@ import type { CommandInfo } from '../link/rack';
 
 /** The card's ports. */
 export interface Bus {
+  /** Another card of the bus may be the chosen one. False: it was refused. */
+  choose(): Promise<boolean>;
   /** The byte at a port; null: it was refused. */
   read(port: string): Promise<number | null>;
   /** False: it was refused. */
@@ -43,6 +45,7 @@ export function numberOf(bytes: readonly number[]): number {
 }
 
 async function begin(bus: Bus, command: CommandInfo): Promise<Exchanged | null> {
+  if (!(await bus.choose())) return refused;
   const state = await ready(bus);
   if (state === null) return refused;
   if (!state) return late('Nothing was sent.');

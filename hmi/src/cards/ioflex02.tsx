@@ -66,20 +66,15 @@ function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }
       <th scope="row">{axis}</th>
       <td class="tabular">{whole(valueOf(answer, `${axis}.POSITION`))}</td>
       <td class="tabular">{fixed(speedOf(seen, axis), 0)}</td>
-      <td>
-        <span class="flags">
-          {LINES.map((line) => {
-            const level = answer?.pins[`${line.name}${axis}`];
-            return (
-              <Led
-                key={line.name}
-                on={level === 1}
-                letter={line.name.charAt(0).toUpperCase()}
-                text={`Axis ${axis}, ${line.text}`}
-              />
-            );
-          })}
-        </span>
+      <td class="levels">
+        {LINES.map((line) => (
+          <Led
+            key={line.name}
+            on={answer?.pins[`${line.name}${axis}`] === 1}
+            letter={line.name.charAt(0).toUpperCase()}
+            text={`Axis ${axis}, ${line.text}`}
+          />
+        ))}
       </td>
       <td class="tabular">
         <Led on={calibrated === 1} letter="C" text={`Axis ${axis} calibrated`} />
@@ -118,7 +113,7 @@ function Outputs({ card, answer }: { card: CardInfo; answer: CardAnswer | null }
     write(card, first === 0 ? 'OUTL' : 'OUTH', byte);
   };
   return (
-    <span class="buttons">
+    <div class="commands" role="group" aria-label="Outputs">
       {[...Array(16).keys()].map((output) => (
         <Button
           key={output}
@@ -128,7 +123,7 @@ function Outputs({ card, answer }: { card: CardInfo; answer: CardAnswer | null }
           {output} {level(output) === 1 ? '●' : '○'}
         </Button>
       ))}
-    </span>
+    </div>
   );
 }
 

@@ -24,6 +24,7 @@ function card(busyFor: number, answers: number[] = []): { bus: Bus; sent: string
     return result;
   };
   const bus: Bus = {
+    choose: () => Promise.resolve(true),
     read: (port) => Promise.resolve(port === 'STAT' ? (busy === 0 ? 0x80 : 0) : work(answers.shift() ?? 0)),
     write: (port, byte) => {
       sent.push(`${port} ${byte}`);
@@ -55,6 +56,14 @@ describe('a command', () => {
     expect(rests()).toBe(9);
   });
 
+  test('is for the card that is chosen first', async () => {
+    const { bus, sent } = card(0);
+    const other = { ...bus, choose: () => bus.write('CS', 13) };
+    await give(other, command('G'), 0);
+    expect(sent).toEqual(['CS 13', 'C2 71']);
+    expect(await ask({ ...bus, choose: () => Promise.resolve(false) }, command('V'))).toEqual({ why: '' });
+  });
+
   test('without an argument is its letter', async () => {
     const { bus, sent } = card(0);
     await give(bus, command('G'), 0);
@@ -77,6 +86,7 @@ describe('a command', () => {
 
   test('that is refused says so once, by whoever refused it', async () => {
     const bus: Bus = {
+      choose: () => Promise.resolve(true),
       read: () => Promise.resolve(0x80),
       write: () => Promise.resolve(false),
       rest: () => Promise.resolve(),
