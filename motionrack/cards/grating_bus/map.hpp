@@ -121,6 +121,40 @@ inline constexpr PinInfo pins[] = {
 };
 static_assert(declared<pins_flaw(pins)>());
 
+// ---- connector P2: what the source prints of it
+
+/// A pin of connector P2. The source's scan has broken characters; readings are guesses.
+struct ConnectorPin {
+    std::string_view printed;  ///< as the scan has it
+    std::string_view likely;   ///< the likeliest reading
+    std::string_view or_else;  ///< another reading; empty: none is near
+    std::string_view line;     ///< of the bus; which address line has which pin is not stated
+    std::string_view doubt;    ///< why the reading is a guess
+};
+inline constexpr ConnectorPin connector_pins[] = {
+    {"F2E12", "P2C12", "P2E12", "clk", "F for P; a VME connector of three rows has no row E"},
+    {"?2430", "P2A30", "", "addr", "? for P, 4 for A"},
+    {"?2031", "P2C31", "P2D31", "addr", "? for P, 0 for C or D"},
+    {"?2431", "P2A31", "", "addr", "? for P, 4 for A"},
+    {"?2032", "P2C32", "P2D32", "addr", "? for P, 0 for C or D"},
+    {"?2々5", "P2A5", "", "addr", "? for P, 々 for A: the least sure of all"},
+    {"?204", "P2C4", "P2D4", "addr", "? for P, 0 for C or D"},
+    {"?205", "P2C5", "P2D5", "addr", "? for P, 0 for C or D"},
+};
+
+/// Levels on one side of the level shifters.
+struct SignalLevels {
+    std::string_view side;
+    std::string_view family;
+    double supply_v;
+    double max_low_in_v;   ///< an input takes what is below as low
+    double min_high_in_v;  ///< and what is above as high
+};
+inline constexpr SignalLevels signal_levels[] = {
+    {"bus, connector P2", "TTL", 5.0, 0.8, 2.0},
+    {"pins of the card's logic", "LVTTL", 3.3, 0.8, 2.0},
+};
+
 // ---- the decoder card
 
 inline constexpr RegisterInfo decoder_registers[] = {

@@ -10,11 +10,25 @@
 namespace motionrack::grating_bus {
 namespace {
 
-std::string stored(const std::string& page) {
-    std::ifstream file(source_dir() + "/docs/reference/" + page);
+std::string text_of(const std::string& path) {
+    std::ifstream file(source_dir() + "/" + path);
     std::stringstream out;
     out << file.rdbuf();
     return out.str();
+}
+
+std::string stored(const std::string& page) {
+    return text_of("docs/reference/" + page);
+}
+
+/// A cell of a table with its bar; an empty one is a blank.
+std::string cell(std::string_view text) {
+    return text.empty() ? " |" : " " + std::string(text) + " |";
+}
+
+std::string volts(double value) {
+    const int tenths = static_cast<int>(value * 10 + 0.5);
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " V";
 }
 
 TEST(GratingBusMap, TheReferencePagesAreCurrent) {
@@ -22,6 +36,37 @@ TEST(GratingBusMap, TheReferencePagesAreCurrent) {
         << "make it anew: motionrack describe grating_bus --markdown > docs/reference/grating_bus.md";
     EXPECT_EQ(stored("grating_decoder.md"), describe_markdown(decoder_map()))
         << "make it anew: motionrack describe grating_decoder --markdown > docs/reference/grating_decoder.md";
+}
+
+TEST(GratingBusMap, TheReadmeHasEveryPinOfTheConnector) {
+    const std::string page = text_of("motionrack/cards/grating_bus/README.md");
+    int addresses = 0;
+    for (const map::ConnectorPin& pin : map::connector_pins) {
+        const std::string row = "\n|" + cell("`" + std::string(pin.printed) + "`") + cell(pin.likely) +
+                                cell(pin.or_else) + cell(pin.line) + cell(pin.doubt) + "\n";
+        EXPECT_NE(page.find(row), std::string::npos) << "missing:" << row;
+        addresses += pin.line == "addr";
+    }
+    EXPECT_EQ(addresses, 7);
+    EXPECT_NE(page.find("every reading in this table is a guess"), std::string::npos);
+}
+
+TEST(GratingBusMap, TheReadmeHasTheLevelsAndWhyThereAreShifters) {
+    const std::string page = text_of("motionrack/cards/grating_bus/README.md");
+    for (const map::SignalLevels& side : map::signal_levels) {
+        const std::string row = "\n|" + cell(side.side) + cell(side.family) + cell(volts(side.supply_v)) +
+                                cell(volts(side.max_low_in_v)) + cell(volts(side.min_high_in_v)) + "\n";
+        EXPECT_NE(page.find(row), std::string::npos) << "missing:" << row;
+    }
+    EXPECT_EQ(map::signal_levels[0].supply_v, 5.0);
+    EXPECT_EQ(map::signal_levels[1].supply_v, 3.3);
+    EXPECT_NE(page.find("no card without level shifters may be put on the bus"), std::string::npos);
+}
+
+TEST(GratingBusMap, TheReadmeCallsTheLostDigitAGuess) {
+    const std::string page = text_of("motionrack/cards/grating_bus/README.md");
+    EXPECT_NE(page.find("prints 1 ns in [0076]. That a digit was lost there, and 10 ns were meant, is a guess"),
+              std::string::npos);
 }
 
 TEST(GratingBusMap, TheSequenceTakesTheDeclaredSteps) {

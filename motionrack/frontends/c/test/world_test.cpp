@@ -224,6 +224,24 @@ TEST(CWorld, RecordsInTheUnitOfTimeThatShowsEveryEdgeOrTheOneThatIsAskedFor) {
     std::filesystem::remove(vcd);
 }
 
+TEST(CWorld, RecordsAFrameOfTheGratingBusInAUnitThatShowsEachOfItsWaits) {
+    const std::string vcd = temporary("frame.vcd");
+    World world("[card.c1]\ntype = \"grating_bus\"\nscales = 2\n");
+    ASSERT_EQ(mr_trace_start(world, vcd.c_str(), "bus.read_n bus.hold"), MR_OK) << mr_last_error();
+    world.pass(201'000);
+    ASSERT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+    const std::string waves = text_of_file(vcd);
+    EXPECT_THAT(waves, HasSubstr("$timescale 1 ns $end"));
+    // The frame of 200 us: READ falls after T1 = 20 ns, rises T2 + T3 = 60 ns later; the next word comes 110 ns later.
+    std::size_t at = 0;
+    for (const char* instant :
+         {"\n#200000\n", "\n#200020\n", "\n#200080\n", "\n#200130\n", "\n#200190\n", "\n#200230\n"}) {
+        at = waves.find(instant, at);
+        ASSERT_NE(at, std::string::npos) << instant;
+    }
+    std::filesystem::remove(vcd);
+}
+
 TEST(CWorld, RecordsNumbersAsRealsAndVoltagesInVolts) {
     const std::string vcd = temporary("v.vcd"), csv = temporary("v.csv");
     for (const std::string& path : {vcd, csv}) {
