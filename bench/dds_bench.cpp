@@ -128,14 +128,14 @@ void network(benchmark::State& state) {
 BENCHMARK(network)
     ->ArgNames({"period_us", "scales"})
     ->Args({200, 8})
-    ->Args({200, 255})
+    ->Args({200, 128})
     ->UseRealTime()
     ->MinTime(10)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(network)
     ->ArgNames({"period_us", "scales"})
     ->Args({0, 8})
-    ->Args({0, 255})
+    ->Args({0, 128})
     ->UseRealTime()
     ->MinTime(3)
     ->Unit(benchmark::kMillisecond);
@@ -163,7 +163,7 @@ void judging(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(judging)->ArgName("scales")->Arg(8)->Arg(255);
+BENCHMARK(judging)->ArgName("scales")->Arg(8)->Arg(128);
 
 }  // namespace
 

@@ -35,7 +35,7 @@ struct Source {
 /// A source of its own: a random id, this computer's name and this process.
 Source new_source();
 
-inline constexpr std::uint32_t wire_format = 0x4D524701;  ///< "MRG" and the version of sample.idl
+inline constexpr std::uint32_t wire_format = 0x4D524702;  ///< "MRG" and the version of sample.idl
 
 /// Trivially copyable; counts beyond the frame's `words` mean nothing.
 struct Sample {

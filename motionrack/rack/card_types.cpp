@@ -97,8 +97,8 @@ constexpr std::array<Field, 14> grating_bus_settings = {
                      "is the host unless it is said; a remote one listens to a bus on another computer (motionrack "
                      "frames feed)"),
                  grating_roles),
-    field<&GratingBusSettings::scales>("scales", 1, 255, "", "scales of a frame"),
-    field<&GratingBusSettings::first>("first", 0, 254, "", "address of the first scale"),
+    field<&GratingBusSettings::scales>("scales", 1, 128, "", "scales of a frame"),
+    field<&GratingBusSettings::first>("first", 0, 127, "", "address of the first scale"),
     field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),
     field<&GratingBusSettings::t2_ns>("t2_ns", 0.1, 6'000, "ns", "wait from the address to stable data"),
     field<&GratingBusSettings::t3_ns>("t3_ns", 0.1, 6'000, "ns", "wait until the data are latched"),
@@ -120,7 +120,7 @@ constexpr std::array<Field, 14> grating_bus_settings = {
 };
 
 constexpr std::array<Field, 4> grating_decoder_settings = {
-    field<&GratingDecoderSettings::scales>("scales", 1, 255, "",
+    field<&GratingDecoderSettings::scales>("scales", 1, 128, "",
                                            "scales that it counts; its pins a0 b0 a1 b1 .. are that many pairs"),
     field<&GratingDecoderSettings::latch_ns>("latch_ns", 0, 6'000, "ns", "from HOLD to valid counts"),
     field<&GratingDecoderSettings::output_ns>("output_ns", 0.1, 6'000, "ns", "from the address to valid data"),
@@ -168,7 +168,7 @@ const std::array<CardType, 6>& card_type_table() {
      grating_bus_pins, {}, "", grating_bus_settings, grating_bus_of, nothing, nothing, nothing, 2'147'483'647, {}, {},
      false, grating_bus_flaw},
     {"grating_decoder",
-     "decoder card of the grating bus: counts up to 255 scales and freezes them at HOLD; a rack of grating_bus cards "
+     "decoder card of the grating bus: counts up to 128 scales and freezes them at HOLD; a rack of grating_bus cards "
      "without one gets one called `decoder`", "", {},
      grating_decoder_pins, {}, "", grating_decoder_settings, grating_decoder_of, nothing, nothing, nothing,
      2'147'483'647, {}, {}, false, grating_decoder_flaw,

@@ -76,8 +76,8 @@ enum class GratingShifter : std::uint8_t { as_role, out, in };
 /// Settings of a card of type grating_bus; the model's are in cards/grating_bus/model/settings.hpp.
 struct GratingBusSettings {
     GratingRole role = GratingRole::first_is_host;
-    std::int64_t scales = 4;                                   ///< 1 .. 255 scales of a frame
-    std::int64_t first = 0;                                    ///< 0 .. 254: address of the first one
+    std::int64_t scales = 4;                                   ///< 1 .. 128 scales of a frame
+    std::int64_t first = 0;                                    ///< 0 .. 127: address of the first one
     double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
     double period_us = 200;                                    ///< 1 .. 100,000 us
     double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most a period
@@ -90,7 +90,7 @@ struct GratingBusSettings {
 
 /// Settings of a card of type grating_decoder.
 struct GratingDecoderSettings {
-    std::int64_t scales = 4;           ///< 1 .. 255
+    std::int64_t scales = 4;           ///< 1 .. 128
     double latch_ns = 10;              ///< 0 .. 6,000 ns
     double output_ns = 20;             ///< 0.1 .. 6,000 ns
     std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
@@ -268,7 +268,7 @@ struct RackStage {
     std::string name;
     std::string card;         ///< of type grating_bus
     std::int64_t output = 0;  ///< 0 .. 3: the card's analog output
-    std::int64_t input = 0;   ///< 0 .. 254: number of its scale at the decoder
+    std::int64_t input = 0;   ///< 0 .. 127: number of its scale at the decoder
     double accel_per_volt_m_s2 = 5;
     double top_accel_m_s2 = 50;
     double top_speed_m_s = 2;

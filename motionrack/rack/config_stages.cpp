@@ -18,7 +18,7 @@ constexpr std::array<Field, 12> stage_table = {
     required(field<&RackStage::card>("card", 1, 32, "", "name of the card (type grating_bus) that drives it"),
              "required"),
     field<&RackStage::output>("output", 0, grating_bus::output_count - 1, "", "number of the card's analog output"),
-    required(field<&RackStage::input>("input", 0, 254, "", "number of its scale at the decoder"), "required"),
+    required(field<&RackStage::input>("input", 0, 127, "", "number of its scale at the decoder"), "required"),
     field<&RackStage::accel_per_volt_m_s2>("accel_per_volt_m_s2", 0.001, 1'000, "m/s2",
                                            "acceleration for a volt, without the load"),
     field<&RackStage::top_accel_m_s2>("top_accel_m_s2", 0.001, 1'000, "m/s2",

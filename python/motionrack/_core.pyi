@@ -439,7 +439,7 @@ class GratingCard:
     def clear_errors(self) -> None:
         """Clears those counters."""
     def set_position(self, scale: int, count: int) -> None:
-        """From now on scale 0 to 254 of the frame counts from there on, where the next reading's low 32 bits allow it."""
+        """From now on scale 0 to 127 of the frame counts from there on, where the next reading's low 32 bits allow it."""
 
 def bus_conflicts(world: World) -> int:
     """Conflicts on all lines of the grating bus so far."""

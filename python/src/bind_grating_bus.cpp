@@ -91,11 +91,11 @@ void bind_grating_bus(py::module_& m) {
             "set_position",
             [](Grating& self, int scale, std::int64_t count) {
                 if (scale < 0 || scale >= static_cast<int>(gb::most_scales))
-                    refuse("There is no such scale; they are 0 to 254. Nothing was done.");
+                    refuse("There is no such scale; they are 0 to 127. Nothing was done.");
                 self.driver->set_position(scale, count);
             },
             py::arg("scale"), py::arg("count"),
-            "From now on scale 0 to 254 of the frame counts from there on, where the next reading's low 32 bits allow "
+            "From now on scale 0 to 127 of the frame counts from there on, where the next reading's low 32 bits allow "
             "it.");
     m.def(
         "bus_conflicts",

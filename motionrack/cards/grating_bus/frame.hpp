@@ -15,14 +15,15 @@
 
 namespace motionrack::grating_bus {
 
-inline constexpr int most_scales = 255;
+inline constexpr int most_scales = 128;  ///< seven lines of addr
 
 /// Positions of one instant. Trivially copyable; counts beyond `words` mean nothing.
 struct Frame {
     std::int64_t time = 0;       ///< of HOLD, ticks of 0.1 ns since the start of the card
     std::uint32_t sequence = 0;  ///< counts the periods of the bus, wraps
     std::uint32_t crc = 0;       ///< as the card computed it
-    std::uint32_t words = 0;     ///< N, 1 .. 255
+    std::uint32_t words = 0;     ///< N, 1 .. 128
+    std::uint32_t reserved = 0;  ///< always 0: there is no padding
     std::array<std::uint32_t, most_scales> counts{};
 
     Instant instant() const { return Instant{time}; }
@@ -31,7 +32,7 @@ struct Frame {
 
 /// CRC-32 of a frame's content.
 std::uint32_t crc_of(const Frame& frame);
-/// Whether the CRC is that of the content and there are 1 to 255 words.
+/// Whether the CRC is that of the content and there are 1 to 128 words.
 bool sound(const Frame& frame);
 /// Same content, sequence and time included.
 bool same(const Frame& a, const Frame& b);
@@ -51,7 +52,7 @@ struct Timing {
 
     /// From one word's sample to the next one's.
     constexpr Duration word_time() const { return t1 + t2 + t3 + 3 * clock; }
-    /// From entering S1 to re-entering S0 with `words` (1 .. 255) scales.
+    /// From entering S1 to re-entering S0 with `words` (1 .. 128) scales.
     constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
     /// From entering S1 to the sample of word `k`.
     constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }

@@ -7,7 +7,7 @@
 //   00h .. 1Fh   the card: role, state, what to do
 //   20h .. 3Fh   counters of what went wrong; each is 16 bits and stays at FFFFh
 //   40h .. 4Fh   the claimed frame: sequence, time, N, CRC
-//  100h .. 4FBh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
+//  100h .. 2FEh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
 #pragma once
 
 #include <array>
@@ -172,7 +172,7 @@ inline constexpr RegisterInfo decoder_registers[] = {
 };
 static_assert(declared<registers_flaw(decoder_registers)>());
 
-/// Names of numbered pins: "a0" .. "a254".
+/// Names of numbered pins: "a0" .. "a127".
 struct PinName {
     char text[5] = {};
     constexpr std::string_view view() const {
@@ -200,7 +200,7 @@ inline constexpr PinInfo decoder_pins[] = {
 };
 
 inline constexpr CardMap decoder = {"grating_decoder",
-                                    "Decoder card that counts up to 255 scales and freezes all of them at one instant",
+                                    "Decoder card that counts up to 128 scales and freezes all of them at one instant",
                                     decoder_registers,
                                     {},
                                     {},

@@ -58,7 +58,7 @@ class Run {
                 s.frame.words = feed_.word();
                 break;
             case 2:
-                s.frame.counts[feed_.below(255)] ^= feed_.word();
+                s.frame.counts[feed_.below(grating_bus::most_scales)] ^= feed_.word();
                 break;
             case 3:
                 s.frame.time = static_cast<std::int64_t>(wide());

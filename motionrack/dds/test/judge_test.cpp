@@ -201,7 +201,7 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
     EXPECT_EQ(damaged([](Sample& s) { s.pace += 1; }), Verdict::wrong_crc);
     EXPECT_EQ(damaged([](Sample& s) { s.format += 1; }), Verdict::foreign);
     EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 0; }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 256; }), Verdict::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 129; }), Verdict::malformed);
     EXPECT_EQ(damaged([](Sample& s) { s.frame.time = -1, seal(s); }), Verdict::malformed);
     EXPECT_EQ(damaged([](Sample& s) { s.period = 0, seal(s); }), Verdict::malformed);
     EXPECT_EQ(damaged([](Sample& s) { s.pace = -5, seal(s); }), Verdict::malformed);

@@ -27,7 +27,7 @@ module grating_card #(
     output logic        clk,
     output logic        hold,
     output logic        read_n,
-    output logic [7:0]  addr,
+    output logic [6:0]  addr,
     // The processor.
     input  logic        claim,
     input  logic        give_back,
@@ -109,14 +109,14 @@ module grating_card #(
     initial begin
         hold = 0;
         read_n = 1;
-        addr = 8'hFF;
+        addr = 7'h7F;
     end
     always_ff @(posedge clock)
         if (HOST != 0 && enters) begin
             if (next == 4'd1) hold <= 1;
             if (next == 4'd0) begin
                 hold <= 0;
-                addr <= 8'hFF;
+                addr <= 7'h7F;
             end
             if (asks) begin
                 addr <= FIRST + word;

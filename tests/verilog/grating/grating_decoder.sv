@@ -12,7 +12,7 @@ module grating_decoder #(
     input  logic [N-1:0] b,
     input  logic         hold,
     input  logic         read_n,
-    input  logic [7:0]   addr,
+    input  logic [6:0]   addr,
     output logic         data_enable,
     output logic [31:0]  data,
     output logic         illegal      // a scale's lines changed both in one clock, at some time
@@ -21,7 +21,7 @@ module grating_decoder #(
     logic [31:0] frozen [0:N-1];
     logic [N-1:0] jumped;
     logic         hold_before = 0, read_before = 1;
-    logic [7:0]   addr_before = 8'hFF;
+    logic [6:0]   addr_before = 7'h7F;
 
     for (genvar k = 0; k < N; k = k + 1) begin : scale
         logic [1:0] was = 0;
@@ -56,7 +56,7 @@ module grating_decoder #(
     wire        owes = asked || held || waits;
     wire        puts_out = data_enable && owes && asked_for == 2'd2 && (!hold || held_for == 2'd3);
 
-    assign data_enable = !read_n && addr < SCALES;
+    assign data_enable = !read_n && {1'b0, addr} < SCALES;
     assign data = !puts_out ? data_before : hold ? frozen[chosen] : count[chosen];
     always_ff @(posedge clock) begin
         hold_before <= hold;

@@ -25,17 +25,17 @@ module grating_system #(
     output logic                conflict        // those of hold, read_n or addr
 );
     logic [CARDS-1:0] drives, clks, holds, reads_n;
-    logic [7:0]       addrs [0:CARDS-1];
+    logic [6:0]       addrs [0:CARDS-1];
     logic [N-1:0]     a, b;
     logic             clk, hold, read_n, data_enable;
-    logic [7:0]       addr;
+    logic [6:0]       addr;
     logic [31:0]      data, decoder_data;
 
     assign clk = &(clks | ~drives) && |drives;
     assign hold = &(holds | ~drives) && |drives;
     assign read_n = &(reads_n | ~drives);
     always_comb begin
-        addr = 8'hFF;
+        addr = 7'h7F;
         clk_conflict = |(clks & drives) && |(~clks & drives);
         conflict = (|(holds & drives) && |(~holds & drives)) || (|(reads_n & drives) && |(~reads_n & drives));
         for (int i = 0; i < CARDS; i = i + 1) if (drives[i]) addr = addr & addrs[i];

@@ -55,7 +55,7 @@ class GratingCard {
     /// Waits for a frame that was not read yet, and reads it. Errors: refused after `timeout`, stopped where the user
     /// asked to stop, and those of read().
     Result<Reading> wait(Duration timeout);
-    /// From now on scale `n` (0 .. 254) of the frame counts from `count` on where the next reading's low 32 bits allow
+    /// From now on scale `n` (0 .. 127) of the frame counts from `count` on where the next reading's low 32 bits allow
     /// it.
     void set_position(int n, std::int64_t count) { before_[static_cast<std::size_t>(n)] = count; }
 

@@ -21,8 +21,9 @@ namespace motionrack::grating_bus {
 class Bus final : public sim::Device {
   public:
     /// Its wires by number: the lines, whether there is a conflict, then addr and data bit by bit.
-    static constexpr int vector_pins = 5, conflict_pin = 5, addr_pins = 6, data_pins = addr_pins + 8,
-                         pin_count = data_pins + 32;
+    static constexpr int vector_pins = 5, conflict_pin = 5, addr_pins = 6,
+                         data_pins = addr_pins + bits_of_line(Line::addr),
+                         pin_count = data_pins + bits_of_line(Line::data);
 
     /// Adds the bus and its wires "<name>.clk", "<name>.addr", "<name>.addr0", "<name>.conflict" .. to the kernel.
     explicit Bus(sim::Kernel& kernel, const std::string& name = "bus");

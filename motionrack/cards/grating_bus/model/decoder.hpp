@@ -53,11 +53,11 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
         std::uint32_t out = 0;  // what it drives, or drove last
         std::uint32_t no_latch = 0;
         std::uint32_t high = 0;                                          // high word kept by a read of a low one
+        std::uint32_t frozen = 0;                                        // a latch is being held
         Instant valid{};                                                 // when the latch became, or becomes, valid
         Instant asked{};                                                 // when read_n fell or addr changed last
         Instant output = never;                                          // when the addressed count comes out
         std::uint32_t hold = 0, read_n = 1, addr = rest_of(Line::addr);  // as it reacted to them last
-        std::uint32_t frozen = 0;                                        // a latch is being held
         std::uint32_t reserved = 0;
         std::uint32_t lines[most_scales] = {};  // bit 0: A, bit 1: B
         std::array<sim::QuadratureDecoder, most_scales> counters;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/base/time.hpp>
+#include <motionrack/cards/grating_bus/frame.hpp>
 #include <string_view>
 
 namespace motionrack::grating_bus {
@@ -25,16 +26,21 @@ inline constexpr std::array<LineType, line_count> line_types = {{
     {"clk", 0, 1},
     {"hold", 0, 1},
     {"read_n", 1, 1},
-    {"addr", 0xFF, 8},
+    {"addr", 0x7F, 7},
     {"data", 0xFFFFFFFF, 32},
 }};
 constexpr std::uint32_t rest_of(Line line) {
     return line_types[static_cast<std::size_t>(line)].rest;
 }
+/// How many bits a line has.
+constexpr int bits_of_line(Line line) {
+    return line_types[static_cast<std::size_t>(line)].bits;
+}
 /// All bits of a line.
 constexpr std::uint32_t bits_of(Line line) {
-    return 0xFFFFFFFFu >> (32 - line_types[static_cast<std::size_t>(line)].bits);
+    return 0xFFFFFFFFu >> (32 - bits_of_line(line));
 }
+static_assert(1 << bits_of_line(Line::addr) == most_scales, "every address is that of a scale");
 
 /// Drivers that differed on a line, from `begin` to `end`.
 struct Conflict {
@@ -87,7 +93,7 @@ class Lines {
     /// Whether later conflicts have not yet pushed number `n` out of the list.
     bool listed(std::uint64_t n) const { return count_ <= n + kept; }
 
-    std::array<std::uint32_t, line_count> level_ = {0, 0, 1, 0xFF, 0xFFFFFFFF};
+    std::array<std::uint32_t, line_count> level_ = {0, 0, 1, rest_of(Line::addr), rest_of(Line::data)};
     std::array<std::uint32_t, line_count> forced_{};
     std::array<std::uint32_t, line_count> stuck_{};
     std::uint32_t in_conflict_ = 0;  // a bit a line

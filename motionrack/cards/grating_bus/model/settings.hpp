@@ -16,8 +16,8 @@ enum class Shifter : std::uint8_t { as_role, out, in };
 /// Of a motion card.
 struct CardSettings {
     Role role = Role::slave;
-    int scales = 4;                              ///< N, 1 .. 255: scales of a frame
-    int first = 0;                               ///< 0 .. 255 - N: address of the first one
+    int scales = 4;                              ///< N, 1 .. 128: scales of a frame
+    int first = 0;                               ///< 0 .. 128 - N: address of the first one
     Timing timing;                               ///< waits and clock, 0.1 ns .. 6 us each
     Duration period = microseconds(200);         ///< of the frames, 1 us .. 100 ms
     Duration offset{0};                          ///< host: its first pulse, 0 .. period
@@ -39,7 +39,7 @@ struct CardSettings {
 
 /// Of a decoder card.
 struct DecoderSettings {
-    int scales = 4;                     ///< 1 .. 255
+    int scales = 4;                     ///< 1 .. 128
     Duration latch = nanoseconds(10);   ///< from HOLD to valid counts, 0 .. 6 us
     Duration output = nanoseconds(20);  ///< from the address to valid data, 0.1 ns .. 6 us
 };

@@ -31,7 +31,7 @@ struct ServoGains {
 ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
 
 struct ServoSettings {
-    std::uint64_t word = 0;   ///< of the frame, 0 .. 254
+    std::uint64_t word = 0;   ///< of the frame, 0 .. 127
     double nm_per_count = 1;  ///< not 0; negative: the scale counts the other way
     double zero_nm = 0;       ///< where the scale's count is 0
     ServoGains gains;

@@ -48,7 +48,7 @@ TEST_P(GratingBusOf, ManySlavesHaveTheFramesOfTheHostWhichAreTrueAtHold) {
 INSTANTIATE_TEST_SUITE_P(Slaves, GratingBusOf, testing::Values(0, 1, 2, 5, 10, 30));
 
 TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
-    for (const int scales : {1, 8, 255}) {
+    for (const int scales : {1, 8, 128}) {
         Crate fast(crew(2, scales), scales), slow(crew(2, scales), scales), turning(crew(2, scales), scales);
         slow.watch_wires();
         for (int i = 0; i < 500; ++i) {
@@ -72,6 +72,16 @@ TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
         }
         EXPECT_LT(fast.kernel.events(), slow.kernel.events() / 3);
     }
+}
+
+TEST(GratingBus, SevenLinesAddress128Scales) {
+    Crate crate(crew(1, 128), 128);
+    EXPECT_NE(crate.kernel.find_wire("bus.addr6"), sim::WireId::none);
+    EXPECT_EQ(crate.kernel.find_wire("bus.addr7"), sim::WireId::none);
+    EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), 0x7F) << "at rest";
+    crate.run(2 * period);
+    expect_true_frames(crate, 2, 128);
+    EXPECT_FALSE(check(host_settings(129)));
 }
 
 TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusSaysWho) {
@@ -318,10 +328,10 @@ TEST(GratingBus, ARemoteCardHoldsWhatComesFromOutsideAndNothingElse) {
 }
 
 TEST(GratingBus, WhatDoesNotFitIsRefusedWithItsNumbers) {
-    CardSettings s = host_settings(255);
-    s.period = microseconds(20);
+    CardSettings s = host_settings(128);
+    s.period = microseconds(10);
     EXPECT_THAT(check(s).error().message,
-                AllOf(HasSubstr("28060.0 ns"), HasSubstr("255 scales"), HasSubstr("20000.0 ns")));
+                AllOf(HasSubstr("14090.0 ns"), HasSubstr("128 scales"), HasSubstr("10000.0 ns")));
     DecoderSettings decoder;
     EXPECT_THAT(check(host_settings(5), decoder).error().message, HasSubstr("scales 0 to 4, but the decoder has 4"));
     decoder.latch = nanoseconds(21);
@@ -331,10 +341,12 @@ TEST(GratingBus, WhatDoesNotFitIsRefusedWithItsNumbers) {
     EXPECT_THAT(check(host_settings(), decoder).error().message, HasSubstr("T2 = 30.0 ns"));
     s = host_settings(0);
     EXPECT_FALSE(check(s));
-    s = host_settings(200);
-    s.first = 56;
+    s = host_settings(129);
+    EXPECT_THAT(check(s).error().message, HasSubstr("is 129, but it is 1 to 128"));
+    s = host_settings(100);
+    s.first = 29;
     EXPECT_FALSE(check(s));
-    EXPECT_TRUE(check(host_settings(255))) << "28.06 us of 200 us";
+    EXPECT_TRUE(check(host_settings(128))) << "14.09 us of 200 us";
 }
 
 }  // namespace

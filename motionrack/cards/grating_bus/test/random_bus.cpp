@@ -150,7 +150,7 @@ Op Maker::op() {
         op.kind = Op::force;
         op.line = static_cast<Line>(below(5));
         op.bit = width[op.line] > 1 && !one_in(6) ? static_cast<int>(below(width[op.line])) : -1;
-        op.a = op.bit < 0 && op.line == addr ? below(256) : op.bit < 0 && op.line == data ? below(1 << 30) : below(2);
+        op.a = op.bit < 0 && op.line == addr ? below(128) : op.bit < 0 && op.line == data ? below(1 << 30) : below(2);
     } else if (what < 92) {
         op.kind = Op::claim;
     } else if (what < 97) {

@@ -193,7 +193,7 @@ void Twin::enter(Card& card, int state) {
     const bool drives = card.settings.host;
     switch (state) {
         case 0:
-            if (drives) card.hold_pin = 0, card.address_pin = 0xFF;
+            if (drives) card.hold_pin = 0, card.address_pin = rest[addr];
             break;
         case 1:
             if (drives) card.hold_pin = 1;
@@ -296,7 +296,7 @@ void Twin::begin_anew(Card& card) {
     card.state = 0;
     card.leaves_at = card.start_at = card.clock_falls = nothing_due;
     card.own_clock = card.own_clock_before = false;
-    card.hold_pin = 0, card.read_pin = 1, card.address_pin = 0xFF;
+    card.hold_pin = 0, card.read_pin = 1, card.address_pin = rest[addr];
     abandon(card);
     card.silent = true;
     card.seen_one = card.row_bad = false;

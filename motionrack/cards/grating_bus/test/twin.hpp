@@ -18,10 +18,10 @@ namespace motionrack::grating_bus::twin {
 
 using Ticks = std::int64_t;  ///< of 0.1 ns
 
-/// The bus' lines; addr and data of 8 and 32 bits.
+/// The bus' lines; addr and data of 7 and 32 bits.
 enum Line { clk, hold, read_n, addr, data, line_count };
-inline constexpr std::array<int, line_count> width{1, 1, 1, 8, 32};
-inline constexpr std::array<std::uint32_t, line_count> rest{0, 0, 1, 0xFF, 0xFFFFFFFF};
+inline constexpr std::array<int, line_count> width{1, 1, 1, 7, 32};
+inline constexpr std::array<std::uint32_t, line_count> rest{0, 0, 1, 0x7F, 0xFFFFFFFF};
 using Levels = std::array<std::uint32_t, line_count>;
 
 struct CardSettings {
@@ -145,7 +145,7 @@ class Twin {
         std::uint32_t sequence = 0, frame_sequence = 0;
         bool word_bad = false, frame_bad = false, row_bad = false;
         // What it drives, behind its shifters.
-        std::uint32_t hold_pin = 0, read_pin = 1, address_pin = 0xFF;
+        std::uint32_t hold_pin = 0, read_pin = 1, address_pin = rest[addr];
         // The buffers.
         std::array<Frame, 2> buffer;
         int filling = none, published = none, claimed = none;

@@ -42,8 +42,8 @@ std::vector<Ticks> entered(const Twin& twin, int card, int state, int other) {
 
 TEST(GratingTwin, FramesLastAsLongAsTheSourceSays) {
     for (const auto& [words, lasts] :
-         std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {255, 28'060}}) {
-        Twin twin({host(words)}, {decoder(255)});
+         std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {128, 14'090}}) {
+        Twin twin({host(words)}, {decoder(128)});
         twin.run_to(150'000 * ns);
         EXPECT_EQ(twin.states(0)[1].at, 0);
         EXPECT_EQ(twin.states(0)[1].state, 1);
