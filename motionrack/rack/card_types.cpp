@@ -90,7 +90,7 @@ constexpr auto grating_decoder_pins = [] {
 constexpr std::array<std::string_view, 4> grating_roles = {"first is host", "host", "slave", "remote"};
 constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"};
 
-constexpr std::array<Field, 14> grating_bus_settings = {
+constexpr std::array<Field, 15> grating_bus_settings = {
     with_choices(field<&GratingBusSettings::role>(
                      "role", 0, 0, "",
                      "the host gives clock and addresses, slaves only listen; the first card of the rack "
@@ -99,6 +99,10 @@ constexpr std::array<Field, 14> grating_bus_settings = {
                  grating_roles),
     field<&GratingBusSettings::scales>("scales", 1, 128, "", "scales of a frame"),
     field<&GratingBusSettings::first>("first", 0, 127, "", "address of the first scale"),
+    field<&GratingBusSettings::addresses>(
+        "addresses", 0, 600, "",
+        "addresses of the scales in the order in which they are read, as in \"5, 2, 9\", each 0 to 127 and only once; "
+        "scales and first are left out then; empty: from first on, as many as scales says"),
     field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),
     field<&GratingBusSettings::t2_ns>("t2_ns", 0.1, 6'000, "ns", "wait from the address to stable data"),
     field<&GratingBusSettings::t3_ns>("t3_ns", 0.1, 6'000, "ns", "wait until the data are latched"),

@@ -78,6 +78,7 @@ struct GratingBusSettings {
     GratingRole role = GratingRole::first_is_host;
     std::int64_t scales = 4;                                   ///< 1 .. 128 scales of a frame
     std::int64_t first = 0;                                    ///< 0 .. 127: address of the first one
+    std::string addresses;                                     ///< the list of addresses, see addresses_from_text
     double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
     double period_us = 200;                                    ///< 1 .. 100,000 us
     double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most a period
@@ -393,8 +394,7 @@ RackReading read_rack_text(std::string_view text, std::string_view file = {});
 /// Reads a rack file of at most 1 MB. Errors: io if it cannot be read, then those of the text.
 RackReading read_rack_file(const std::filesystem::path& path);
 
-/// The reference page of the rack file (Markdown): every section, key, unit, range and default, card types and their
-/// pins.
+/// The reference page of the rack file (Markdown): sections, keys, units, ranges, defaults, card types and their pins.
 std::string rack_file_reference();
 
 }  // namespace motionrack::rack

@@ -127,19 +127,23 @@ class StageReader {
                 refuse(node, "input",
                        fmt::format("scale {} of the decoder is that of stage {} already.", stage.input, other.name));
         }
-        const GratingBusSettings& bus = card->grating_bus;
-        std::int64_t scales = bus.first + bus.scales;
+        const std::vector<int> wanted = wanted_scales(card->grating_bus);
+        if (wanted.empty()) return;  // its list cannot be read, which is told of the card
+        std::int64_t scales = 0;
+        for (const RackCard& other : config_.cards)
+            if (other.type == "grating_bus")
+                for (const int address : wanted_scales(other.grating_bus))
+                    scales = std::max(scales, std::int64_t{1} + address);
         for (const RackCard& other : config_.cards)
             if (other.type == "grating_decoder") scales = other.grating_decoder.scales;
         if (stage.input >= scales)
             refuse(node, "input",
                    fmt::format("its scale is number {}, but the decoder has {} (0 to {}).", stage.input, scales,
                                scales - 1));
-        if (stage.servo && (stage.input < bus.first || stage.input >= bus.first + bus.scales))
-            refuse(
-                node, "input",
-                fmt::format("card {} cannot close its loop: it reads the scales {} to {}, and its scale is number {}.",
-                            stage.card, bus.first, bus.first + bus.scales - 1, stage.input));
+        if (stage.servo && std::find(wanted.begin(), wanted.end(), stage.input) == wanted.end())
+            refuse(node, "input",
+                   fmt::format("card {} cannot close its loop: it reads the scales {}, and its scale is number {}.",
+                               stage.card, fmt::join(wanted, ", "), stage.input));
         check_scale(stage, node);
         if (check_servo(stage, node)) check_place(stage, node);
     }

@@ -22,10 +22,18 @@ FrameWatch::Watched& FrameWatch::watched(const gb::Card& card) {
 
 void FrameWatch::began(const gb::Card& card, Instant now) {
     Watched& own = watched(card);
-    const int first = card.settings().first;
-    for (int k = 0; k < card.settings().scales; ++k)
-        own.truth[static_cast<std::size_t>(k)] =
-            bus_.decoders().empty() ? 0 : bus_.decoders()[0]->count(first + k, now);
+    if (bus_.decoders().empty()) return;
+    const gb::Decoder& decoder = *bus_.decoders()[0];
+    for (int n = 0; n < decoder.settings().scales; ++n) own.truth[static_cast<std::size_t>(n)] = decoder.count(n, now);
+}
+
+/// Whether a count of the frame is not that of its scale when the frame began.
+bool FrameWatch::untrue(const Watched& own, const gb::Frame& frame) {
+    for (std::uint32_t k = 0; k < frame.words; ++k) {
+        const int address = own.card->settings().address(static_cast<int>(k));
+        if (frame.counts[k] != own.truth[static_cast<std::size_t>(address)]) return true;
+    }
+    return false;
 }
 
 void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant) {
@@ -33,7 +41,7 @@ void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant
     Watched& own = watched(card);
     ++own.frames;
     if (card.is_remote()) return;  // another crate's scales, and its time
-    own.untrue += !std::equal(frame.positions().begin(), frame.positions().end(), own.truth.begin());
+    own.untrue += untrue(own, frame);
     const Duration apart = frame.instant() - first_.instant();
     if (first_.words == 0 || apart > card.settings().period / 2 || apart < -card.settings().period / 2)
         first_ = frame;

@@ -42,9 +42,10 @@ class FrameWatch final : private grating_bus::FrameListener {
         const grating_bus::Card* card = nullptr;
         std::string name;
         std::uint64_t frames = 0, untrue = 0, unlike = 0;
-        std::array<std::uint32_t, grating_bus::most_scales> truth{};  ///< of the scales it reads, when its frame began
+        std::array<std::uint32_t, grating_bus::most_scales> truth{};  ///< of all scales, when its frame began
     };
     Watched& watched(const grating_bus::Card& card);
+    static bool untrue(const Watched& own, const grating_bus::Frame& frame);
     void began(const grating_bus::Card& card, Instant now) override;
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
 

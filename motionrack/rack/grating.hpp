@@ -5,8 +5,12 @@
 #include <motionrack/rack/card_types.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace motionrack::rack {
+
+/// Addresses of the scales that a card reads, in order; none if its list cannot be read (grating_bus_flaw says why).
+std::vector<int> wanted_scales(const GratingBusSettings& card);
 
 /// `first`: it is the first of its kind in the rack.
 grating_bus::CardSettings grating_settings(const RackCard& card, bool first);

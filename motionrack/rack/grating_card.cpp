@@ -84,7 +84,11 @@ class GratingCard final : public Member {
         return unit;
     }
     sim::RegisterDevice* registers() override { return &card_; }
-    bool in_window(std::uint32_t offset) const override { return in_counts(offset, card_.settings().scales); }
+    bool in_window(std::uint32_t offset) const override {
+        const auto words = static_cast<std::uint32_t>(card_.settings().scales);
+        return in_counts(offset, card_.settings().scales) ||
+               (offset >= gb::list_at && offset < gb::list_at + 2 * words);
+    }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
     void bus_write(int, std::uint32_t address, std::uint32_t value) override {
         port_.write(address, static_cast<std::uint16_t>(value));
@@ -124,7 +128,9 @@ class GratingCard final : public Member {
         if (!bus_->decoders().empty() || card_.is_remote()) return;
         const bool taken = kernel_.find_wire("decoder.a0") != sim::WireId::none;
         gb::DecoderSettings settings;
-        settings.scales = card_.settings().first + card_.settings().scales;
+        settings.scales = 1;
+        for (const gb::Card* card : bus_->cards())
+            if (!card->is_remote()) settings.scales = std::max(settings.scales, card->settings().last_address() + 1);
         const std::string name = taken ? name_ + ".decoder" : "decoder";
         own_decoder_ = std::make_unique<gb::Decoder>(kernel_, name, *bus_, settings);
         wires_ = bus_->wire_names();

@@ -38,7 +38,30 @@ std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& set
                                         fits.error().message)};
 }
 
+/// What is wrong with the list of addresses itself, or beside the keys that it stands for.
+std::optional<CardFlaw> list_flaw(const RackCard& card) {
+    const GratingBusSettings& own = card.grating_bus;
+    if (own.addresses.empty()) return std::nullopt;
+    const auto list = gb::addresses_from_text(own.addresses);
+    if (!list) return CardFlaw{"addresses", fmt::format("Card {}: {}", card.name, list.error().message)};
+    const GratingBusSettings left_out;
+    const bool counted = own.scales == left_out.scales || own.scales == static_cast<std::int64_t>(list->size());
+    if (counted && own.first == left_out.first) return std::nullopt;
+    return CardFlaw{"addresses", fmt::format("Card {} has a list of {} addresses, but also scales = {} and first = {}; "
+                                             "leave those two out.",
+                                             card.name, list->size(), own.scales, own.first)};
+}
+
 }  // namespace
+
+std::vector<int> wanted_scales(const GratingBusSettings& card) {
+    std::vector<int> out;
+    if (card.addresses.empty())
+        for (std::int64_t k = 0; k < card.scales; ++k) out.push_back(static_cast<int>(card.first + k));
+    else if (auto list = gb::addresses_from_text(card.addresses))
+        out = std::move(*list);
+    return out;
+}
 
 gb::CardSettings grating_settings(const RackCard& card, bool first) {
     const GratingBusSettings& s = card.grating_bus;
@@ -47,6 +70,10 @@ gb::CardSettings grating_settings(const RackCard& card, bool first) {
     out.role = s.role == GratingRole::remote ? gb::Role::remote : host ? gb::Role::host : gb::Role::slave;
     out.scales = static_cast<int>(s.scales);
     out.first = static_cast<int>(s.first);
+    if (!s.addresses.empty()) {
+        out.addresses = wanted_scales(s);
+        out.scales = static_cast<int>(out.addresses.size());
+    }
     out.timing = {ns(s.t1_ns), ns(s.t2_ns), ns(s.t3_ns), ns(s.clock_ns)};
     out.period = from_seconds(s.period_us * 1e-6);
     out.offset = ns(s.offset_ns);
@@ -63,6 +90,7 @@ gb::DecoderSettings decoder_settings(const RackCard& card) {
 }
 
 std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const RackCard> before) {
+    if (const auto flaw = list_flaw(card)) return flaw;
     const gb::CardSettings own = settings_among(card, before);
     if (const Result<void> good = gb::check(own); !good)
         return CardFlaw{"scales", fmt::format("Card {}: {}", card.name, good.error().message)};
@@ -73,12 +101,10 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
             if (const auto flaw = no_fit(card, own, other)) return flaw;
         if (!is_grating(other)) continue;
         const gb::CardSettings its = settings_among(other, before.first(i));
-        if (own.scales != its.scales || own.first != its.first)
-            return CardFlaw{"scales", fmt::format("Card {} reads the scales {} to {} and card {} the scales {} to {}; "
-                                                  "all cards of a bus take the same ones, "
-                                                  "as the host addresses them.",
-                                                  other.name, its.first, its.first + its.scales - 1, card.name,
-                                                  own.first, own.first + own.scales - 1)};
+        if (own.scales != its.scales)
+            return CardFlaw{"scales", fmt::format("Card {} reads {} scales and card {} reads {}; all cards of a bus "
+                                                  "take the same number, as the host reads them.",
+                                                  other.name, its.scales, card.name, own.scales)};
         if (own.period != its.period)
             return CardFlaw{
                 "period_us",

@@ -427,7 +427,7 @@ class GratingCard:
     """The function library of a motion card on a grating bus: the positions of one instant."""
     def __init__(self, world: World, card: str) -> None: ...
     def open(self) -> dict[str, Any]:
-        """Looks whether such a card answers: how it is set; period in s."""
+        """Looks whether such a card answers: how it is set, with the addresses of its own list; period in s."""
     def read(self) -> tuple[int, int, npt.NDArray[np.int64]]:
         """The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it is stale, or its CRC is wrong."""
     def wait(self, timeout: float) -> tuple[int, int, npt.NDArray[np.int64]]:

@@ -29,6 +29,7 @@ py::dict told(const gb::CardInfo& info) {
     out["wrong_direction"] = info.wrong_direction;
     out["scales"] = info.scales;
     out["first"] = info.first;
+    out["addresses"] = std::vector<int>(info.addresses().begin(), info.addresses().end());
     out["period"] = to_seconds(info.period);
     return out;
 }
@@ -63,7 +64,7 @@ void bind_grating_bus(py::module_& m) {
              py::arg("world"), py::arg("card"))
         .def(
             "open", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->open(); })); },
-            "Looks whether such a card answers: how it is set; period in s.")
+            "Looks whether such a card answers: how it is set, with the addresses of its own list; period in s.")
         .def(
             "read", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->read(); })); },
             "The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it "

@@ -230,6 +230,14 @@ class Grating(unittest.TestCase):
         self.assertEqual(rack.bus_conflicts(), 0)
         self.assertIn("<svg", rack.frame_picture())
 
+    def test_a_card_knows_the_list_of_scales_that_it_reads(self) -> None:
+        rack = Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 2, 9"\n')
+        about = rack.cards["c1"].driver.open()
+        self.assertEqual((about["scales"], about["first"], about["addresses"]), (3, 5, [5, 2, 9]))
+        with self.assertRaises(motionrack.BadInput) as raised:
+            Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 5"\n')
+        self.assertIn("twice", str(raised.exception))
+
     def test_a_card_that_is_off_has_no_frame_in_time(self) -> None:
         rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
         rack.fault("host", "off")

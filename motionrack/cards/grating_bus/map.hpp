@@ -8,6 +8,7 @@
 //   20h .. 3Fh   counters of what went wrong; each is 16 bits and stays at FFFFh
 //   40h .. 4Fh   the claimed frame: sequence, time, N, CRC
 //  100h .. 2FEh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
+//  400h .. 4FEh  the card's own list: address of its word k at 400h + 2k
 #pragma once
 
 #include <array>
@@ -54,7 +55,7 @@ inline constexpr RegisterInfo registers[] = {
     {"STATUS", 0x04, 16, r, false, "", "frame and faults", status_fields},
     {"STATE", 0x06, 16, r, false, "", "where the sequence is", state_fields},
     {"SCALES", 0x08, 16, r, false, "", "N, scales of a frame", {}},
-    {"FIRST", 0x0A, 16, r, false, "", "address of the first scale", {}},
+    {"FIRST", 0x0A, 16, r, false, "", "address of the first scale of the list", {}},
     {"T1", 0x0C, 16, r, false, "", "wait for the latch, 0.1 ns", {}},
     {"T2", 0x0E, 16, r, false, "", "wait for stable data, 0.1 ns", {}},
     {"T3", 0x10, 16, r, false, "", "wait for the data's latch, 0.1 ns", {}},
@@ -80,6 +81,7 @@ inline constexpr RegisterInfo registers[] = {
     {"CRC_H", 0x50, 16, r, false, "", "claimed: the same, high", {}},
     {"COUNT_L", 0x100, 16, r, false, "", "claimed: count of word 0, low; of word k 4k bytes on", {}},
     {"COUNT_H", 0x102, 16, r, false, "", "claimed: the same, high", {}},
+    {"LIST", 0x400, 16, r, false, "", "address that the card's own list has for word 0; for word k 2k bytes on", {}},
 };
 static_assert(declared<registers_flaw(registers)>());
 
@@ -227,6 +229,8 @@ consteval std::uint32_t decoder_offset(std::string_view name) {
 /// Offset of the first count, of a motion card and of a decoder.
 inline constexpr std::uint32_t counts_at = offset("COUNT_L");
 static_assert(decoder_offset("COUNT_L") == counts_at);
+/// Offset of the first address of the card's own list.
+inline constexpr std::uint32_t list_at = offset("LIST");
 /// A field of a register: field("STATUS", "STALE").
 consteval Field field(std::string_view reg, std::string_view name) {
     return {mask_of(register_named(map::registers, reg), name)};

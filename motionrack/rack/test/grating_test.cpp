@@ -95,10 +95,51 @@ TEST(GratingBusInARack, WhatDoesNotFitIsRefusedWithItsPlace) {
     EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\nscales = 128\nperiod_us = 12\n"),
                 AllOf(HasSubstr("r.toml:3"), HasSubstr("14090.0 ns")));
     EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\nscales = 3\n"),
-                HasSubstr("all cards of a bus take the same"));
+                HasSubstr("all cards of a bus take the same number"));
     EXPECT_THAT(errors("[card.d]\ntype = \"grating_decoder\"\n[card.e]\ntype = \"grating_decoder\"\n"),
                 HasSubstr("two decoders"));
     EXPECT_THAT(errors(std::string(three_cards) + "[wires]\n\"decoder.a4\" = \"estop\"\n"), HasSubstr("decoder.a4"));
+}
+
+TEST(GratingBusInARack, AListOfAddressesIsReadInItsOrder) {
+    const std::string list = "type = \"grating_bus\"\naddresses = \"5, 2, 9\"\n";
+    auto session = open("[card.c1]\n" + list + "[card.c2]\n" + list);
+    turn(*session, 9, 7);
+    turn(*session, 2, 40);
+    ASSERT_TRUE(session->advance(400'000));
+    for (const char* card : {"c1", "c2"}) {
+        EXPECT_EQ(*session->peek(card, "SCALES"), 3);
+        EXPECT_EQ(*session->read(card, 16, gb::list_at), 5u);
+        EXPECT_EQ(*session->read(card, 16, gb::list_at + 4), 9u);
+        EXPECT_FALSE(session->read(card, 16, gb::list_at + 6)) << "there are three scales";
+        EXPECT_EQ(*session->peek(card, "0.COUNT"), 0);
+        EXPECT_EQ(*session->peek(card, "1.COUNT"), 40);
+        EXPECT_EQ(*session->peek(card, "2.COUNT"), 7);
+    }
+}
+
+TEST(GratingBusInARack, AWrongListIsRefusedWithItsPlace) {
+    const auto errors = [](const std::string& keys) {
+        const RackReading reading = read_rack_text("[card.c1]\ntype = \"grating_bus\"\n" + keys, "r.toml");
+        return reading.errors.empty() ? std::string() : reading.errors[0].text();
+    };
+    EXPECT_EQ(errors("addresses = \"5, 2, 9\"\n"), "");
+    EXPECT_EQ(errors("addresses = \"5, 2, 9\"\nscales = 3\n"), "") << "the same, said twice";
+    EXPECT_THAT(errors("addresses = \"5, 2, 5\"\n"), AllOf(HasSubstr("r.toml:3"), HasSubstr("the address 5 twice")));
+    EXPECT_THAT(errors("addresses = \"5 2\"\n"), HasSubstr("no comma"));
+    EXPECT_THAT(errors("addresses = \"5, 2\"\nscales = 3\n"), HasSubstr("leave those two out"));
+    EXPECT_THAT(errors("addresses = \"5, 2\"\nfirst = 1\n"), HasSubstr("leave those two out"));
+    EXPECT_THAT(errors("addresses = \"5, 2\"\n[card.d]\ntype = \"grating_decoder\"\n"),
+                HasSubstr("the scales 5, 2, but the decoder has 4"));
+}
+
+TEST(GratingBusInARack, HostsMayWantOtherScalesAndContendForTheAddress) {
+    auto session = open(
+        "[card.c1]\ntype = \"grating_bus\"\nrole = \"host\"\naddresses = \"1, 2\"\n"
+        "[card.c2]\ntype = \"grating_bus\"\nrole = \"host\"\naddresses = \"2, 1\"\n");
+    ASSERT_TRUE(session->advance(1'000'000));
+    EXPECT_EQ(*session->part("c1.sequence"), -1) << "no frame";
+    EXPECT_GT(*session->peek("c1", "ALIEN"), 0);
 }
 
 constexpr const char* router_with_bus = R"(

@@ -9,7 +9,9 @@
 
 module grating_card #(
     parameter N      = 4,        // scales of a frame
-    parameter FIRST  = 0,        // address of the first one
+    parameter FIRST  = 0,        // address of the first one, without a list
+    parameter LISTED = 0,        // whether LIST is the list of addresses
+    parameter [7*128-1:0] LIST = 0,  // 7 bits a word, word 0 the lowest
     parameter HOST   = 0,
     parameter PERIOD = 20000,
     parameter OFFSET = 0,        // how much later a host's periods begin, at most half a period
@@ -119,7 +121,7 @@ module grating_card #(
                 addr <= 7'h7F;
             end
             if (asks) begin
-                addr <= FIRST + word;
+                addr <= LISTED != 0 ? LIST[7*word[6:0]+:7] : FIRST + word[6:0];
                 read_n <= 0;
             end
             if (next == 4'd4 || next == 4'd10) read_n <= 1;

@@ -7,7 +7,9 @@ module grating_system #(
     parameter CARDS  = 3,
     parameter PERIOD = 20000,
     parameter HOSTS  = 1,
-    parameter APART  = 0
+    parameter APART  = 0,
+    parameter STRIDE = 1,        // a card's list: word k is that of scale (k STRIDE + SHIFT host) mod N
+    parameter SHIFT  = 0
 ) (
     input  logic                clock,
     input  logic                claim,
@@ -24,6 +26,12 @@ module grating_system #(
     output logic                clk_conflict,   // its drivers differ
     output logic                conflict        // those of hold, read_n or addr
 );
+    // The list of host number `host`; slaves have that of host 0.
+    function automatic [7*128-1:0] list_of(input integer host);
+        list_of = 0;
+        for (int k = 0; k < N; k = k + 1) list_of[7*k+:7] = 7'((k * STRIDE + SHIFT * host) % N);
+    endfunction
+
     logic [CARDS-1:0] drives, clks, holds, reads_n;
     logic [6:0]       addrs [0:CARDS-1];
     logic [N-1:0]     a, b;
@@ -47,7 +55,8 @@ module grating_system #(
     grating_decoder #(.N(N)) decoder (.clock(clock), .a(a), .b(b), .hold(hold), .read_n(read_n), .addr(addr),
                                       .data_enable(data_enable), .data(decoder_data), .illegal(illegal));
     for (genvar i = 0; i < CARDS; i = i + 1) begin : slot
-        grating_card #(.N(N), .HOST(i < HOSTS), .PERIOD(PERIOD), .OFFSET(i < HOSTS ? i * APART : 0)) card (
+        grating_card #(.N(N), .LISTED(STRIDE != 1 || SHIFT != 0), .LIST(list_of(i < HOSTS ? i : 0)), .HOST(i < HOSTS),
+                       .PERIOD(PERIOD), .OFFSET(i < HOSTS ? i * APART : 0)) card (
             .clock(clock), .bus_clk(clk), .bus_read_n(read_n), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
             .hold(holds[i]), .read_n(reads_n[i]), .addr(addrs[i]), .claim(claim), .give_back(give_back),
             .word_asked(word_asked), .word_read(words_read[32*i+:32]), .sequence_read(sequences_read[32*i+:32]),

@@ -10,7 +10,9 @@ module grating_system_tb #(
     parameter PERIOD = 20000,
     parameter FRAMES = 3,
     parameter HOSTS  = 1,
-    parameter APART  = 0
+    parameter APART  = 0,
+    parameter STRIDE = 1,
+    parameter SHIFT  = 0
 );
     logic                clock = 0, claim = 0, illegal, clk_conflict, conflict;
     logic [7:0]          word_asked = 0;
@@ -21,7 +23,8 @@ module grating_system_tb #(
     logic [31:0]         frame [0:CARDS*N-1];
     integer              cycle, clk_conflicts, conflicts, i, w, reading;
 
-    grating_system #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD), .HOSTS(HOSTS), .APART(APART)) system (
+    grating_system #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD), .HOSTS(HOSTS), .APART(APART),
+                    .STRIDE(STRIDE), .SHIFT(SHIFT)) system (
         .clock(clock), .claim(claim), .give_back(1'b0), .word_asked(word_asked), .words_read(words),
         .sequences_read(sequences), .times_read(times), .crcs_read(crcs), .claimed(claimed), .frame_done(frame_done),
         .states(states), .illegal(illegal), .clk_conflict(clk_conflict), .conflict(conflict));

@@ -35,12 +35,18 @@ Result<CardInfo> GratingCard::open() {
     info.checks = CHECKS.test(role);
     info.wrong_direction = DIRECTION.test(port_.read(offset("STATUS")));
     info.scales = port_.read(offset("SCALES"));
+    if (info.scales < 1 || info.scales > most_scales)
+        return fail(Trouble::refused,
+                    fmt::format("The card says that it reads {} scales, but a frame has 1 to {}. Look at its address.",
+                                info.scales, most_scales));
     info.first = port_.read(offset("FIRST"));
     info.timing.t1 = Duration{port_.read(offset("T1"))};
     info.timing.t2 = Duration{port_.read(offset("T2"))};
     info.timing.t3 = Duration{port_.read(offset("T3"))};
     info.timing.clock = Duration{port_.read(offset("CLOCK"))};
     info.period = Duration{read32(offset("PERIOD_L"))};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(info.scales); ++k)
+        info.list[k] = static_cast<std::uint8_t>(port_.read(list_at + 2 * static_cast<std::uint32_t>(k)));
     return info;
 }
 

@@ -18,11 +18,14 @@ namespace motionrack::grating_bus {
 struct CardInfo {
     bool host = false;
     bool checks = false;
-    bool wrong_direction = false;  ///< a level shifter does not fit the role
-    int scales = 0;                ///< N
-    int first = 0;                 ///< address of the first scale
+    bool wrong_direction = false;                  ///< a level shifter does not fit the role
+    int scales = 0;                                ///< N
+    int first = 0;                                 ///< address of the first scale
+    std::array<std::uint8_t, most_scales> list{};  ///< addresses of the card's own list
     Timing timing;
     Duration period{};
+    /// The card's own list: address of the scale of each word.
+    std::span<const std::uint8_t> addresses() const { return {list.data(), static_cast<std::size_t>(scales)}; }
 };
 
 /// What went wrong on the bus since the last clear_errors(), each at most 65,535.

@@ -72,8 +72,8 @@ void Bus::begin() {
             card->report(BusCondition::wrong_direction, card->is_host(),
                          (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
         if (!alike_ || card->is_remote()) continue;
-        alike_ = !s.wrong_direction() && s.scales == host().scales && s.first == host().first &&
-                 s.timing == host().timing && check(s, decoders_[0]->settings()).has_value();
+        alike_ = !s.wrong_direction() && s.same_list(host()) && s.timing == host().timing &&
+                 check(s, decoders_[0]->settings()).has_value();
     }
 }
 
@@ -112,8 +112,10 @@ void Bus::settle(Instant now) {
         if ((begun >> i & 1) == 0 || (state_.told >> i & 1) != 0) continue;
         state_.told |= 1u << i;
         const Conflict& conflict = state_.lines.conflict(state_.lines.all_conflicts() - 1);
+        const int high = std::countr_zero(conflict.high);
+        const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // one may drive both, bit by bit
         kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::conflict), static_cast<std::int64_t>(i),
-                       std::countr_zero(conflict.high) * most_drivers + std::countr_zero(conflict.low));
+                       high * most_drivers + std::countr_zero(others != 0 ? others : conflict.low));
     }
     show();
 }

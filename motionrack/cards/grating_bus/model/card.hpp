@@ -20,6 +20,9 @@ namespace motionrack::grating_bus {
 class Bus;
 class Card;
 
+/// Counts of all scales of a decoder, by their addresses.
+using Latched = std::array<std::uint32_t, most_scales>;
+
 /// How much later pulse `n` of a host comes, 0 .. most, that has this seed: the same on every machine.
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most);
 
@@ -137,14 +140,14 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     /// A pulse or an edge: sequence and what was missed.
     void note_edge(Instant now);
     void begin_frame(Instant now);
-    void put_words(const std::uint32_t* counts, int words);
+    void put_words(const Latched& latched, int words);
     void publish(Instant now, const Frame* like);
     /// The frame under way was bad: nobody gets it. `why`: bits of BadFrame.
     void give_up(std::uint32_t sequence, std::uint8_t why);
     /// The current buffer is whole, and its age counts from `since`.
     void hand_out(Instant now, Instant since);
     /// Takes up a frame that began at `start` where it is at `now`.
-    void take_up(Instant start, const std::uint32_t* counts, Instant now);
+    void take_up(Instant start, const Latched& latched, Instant now);
 
     void enter(State state, Instant now);
     void pulse(Instant now);

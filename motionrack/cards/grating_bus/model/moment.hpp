@@ -4,6 +4,7 @@
 
 #include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
+#include <motionrack/cards/grating_bus/model/settings.hpp>
 
 namespace motionrack::grating_bus {
 
@@ -66,12 +67,13 @@ constexpr Moment moment_of(const Timing& timing, int words, Duration elapsed) {
 struct Outputs {
     std::uint32_t hold, read_n, addr;
 };
-constexpr Outputs outputs_of(const Moment& moment, int first) {
+inline Outputs outputs_of(const Moment& moment, const CardSettings& settings) {
     const State s = moment.state;
     if (s == State::S0) return {0, 1, rest_of(Line::addr)};
     if (s == State::S1) return {1, 1, rest_of(Line::addr)};
     const bool reads = s == State::S2 || s == State::S3 || s == State::S8 || s == State::S9;
-    return {1, reads ? 0u : 1u, static_cast<std::uint32_t>(first + (s == State::S7 ? moment.word - 1 : moment.word))};
+    const int word = s == State::S7 ? moment.word - 1 : moment.word;
+    return {1, reads ? 0u : 1u, static_cast<std::uint32_t>(settings.address(word))};
 }
 
 static_assert(moment_of({}, 4, nanoseconds(50)).state == State::S3 &&

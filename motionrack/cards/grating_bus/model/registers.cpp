@@ -38,6 +38,10 @@ constexpr bool is_count(std::uint32_t at) {
     return at >= counts_at && at < counts_at + 4 * most_scales && at % 2 == 0;
 }
 
+constexpr bool is_list(std::uint32_t at) {
+    return at >= list_at && at < list_at + 2 * most_scales && at % 2 == 0;
+}
+
 std::uint16_t frame_word(const Frame& frame, std::uint32_t at) {
     if (is_count(at)) {
         const std::uint32_t k = (at - counts_at) / 4;
@@ -78,6 +82,10 @@ std::uint16_t Card::peek(std::uint32_t at) const {
     if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0)
         return state_.counters[(at - offset("BROKEN")) / 2];
     const CardSettings& s = settings_;
+    if (is_list(at)) {
+        const int k = static_cast<int>(at - list_at) / 2;
+        return static_cast<std::uint16_t>(k < s.scales ? s.address(k) : 0);
+    }
     const Moment m = moment();
     switch (at) {
         case offset("SIGNATURE"):
@@ -97,7 +105,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
         case offset("SCALES"):
             return static_cast<std::uint16_t>(s.scales);
         case offset("FIRST"):
-            return static_cast<std::uint16_t>(s.first);
+            return static_cast<std::uint16_t>(s.address(0));
         case offset("T1"):
             return ticks(s.timing.t1);
         case offset("T2"):
@@ -120,7 +128,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
 }
 
 std::uint16_t Card::read(std::uint32_t at) {
-    bool known = is_count(at);
+    bool known = is_count(at) || is_list(at);
     for (const RegisterInfo& reg : map::registers) known = known || (reg.access == Access::read && reg.offset == at);
     if (!known) report(BusCondition::no_register, at, -1);
     return peek(at);

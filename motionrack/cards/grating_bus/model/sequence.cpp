@@ -31,7 +31,7 @@ void Card::sample(const Lines& lines, Instant now) {
     const bool clock_wrong = is_host() && lines.level(Line::clk) != state_.clk;
     if (takes && read_off)
         spoil(missed_words, bad_missed);
-    else if (takes && lines.level(Line::addr) != static_cast<std::uint32_t>(settings_.first + state_.word))
+    else if (takes && lines.level(Line::addr) != static_cast<std::uint32_t>(settings_.address(state_.word)))
         spoil(alien, bad_alien);
     else if (takes ? lines.level(Line::hold) == 0 || clock_wrong : !read_off || clock_wrong)
         spoil(line_faults, bad_lines);
@@ -142,7 +142,7 @@ void Card::enter(State state, Instant now) {
             break;
         case State::S2:
         case State::S8:
-            state_.addr = static_cast<std::uint32_t>(settings_.first + state_.word);
+            state_.addr = static_cast<std::uint32_t>(settings_.address(state_.word));
             state_.read_n = 0;
             break;
         case State::S4:
@@ -175,8 +175,11 @@ void Card::drive(Lines& lines, int driver) const {
 
 // ---- frames
 
-void Card::put_words(const std::uint32_t* counts, int words) {
-    std::copy_n(counts, words, state_.buffers.current().counts.begin());
+/// The first `words` words from what the decoder has latched.
+void Card::put_words(const Latched& latched, int words) {
+    Frame& frame = state_.buffers.current();
+    for (int k = 0; k < words; ++k)
+        frame.counts[static_cast<std::size_t>(k)] = latched[static_cast<std::size_t>(settings_.address(k))];
 }
 
 /// `like`: a frame with the same counts whose CRC is known; may be nullptr.
@@ -236,19 +239,19 @@ void Card::check_stale(Instant now) {
 
 // ---- whole frames
 
-void Card::take_up(Instant start, const std::uint32_t* counts, Instant now) {
+void Card::take_up(Instant start, const Latched& latched, Instant now) {
     const Moment m = moment_of(settings_.timing, settings_.scales, now - start);
     if (m.state == State::S0 || is_remote()) return;
     if (m.state != State::S12) {
         begin_frame(start);
         const bool sampled =
             m.state != State::S1 && m.state != State::S2 && m.state != State::S7 && m.state != State::S8;
-        put_words(counts, m.word + (sampled ? 1 : 0));
+        put_words(latched, m.word + (sampled ? 1 : 0));
     }
     state_.fsm = m.state;
     state_.word = m.word;
     state_.state_ends = start + m.until;
-    const Outputs out = outputs_of(m, settings_.first);
+    const Outputs out = outputs_of(m, settings_);
     state_.hold = out.hold, state_.read_n = out.read_n, state_.addr = out.addr;
 }
 

@@ -1,6 +1,8 @@
 // Ranges of the settings, and what does not fit together.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <motionrack/cards/grating_bus/model/settings.hpp>
 
 namespace motionrack::grating_bus {
@@ -24,11 +26,79 @@ Result<void> within(const char* name, int value, int least, int most) {
 
 constexpr Duration least_wait{1}, most_wait = microseconds(6);
 
+/// Each address in range and only once.
+Result<void> check_list(const std::vector<int>& addresses) {
+    if (addresses.size() > most_scales)
+        return fail(Trouble::bad_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
+                                                    addresses.size(), most_scales));
+    for (auto at = addresses.begin(); at != addresses.end(); ++at) {
+        if (*at < 0 || *at >= most_scales)
+            return fail(Trouble::bad_input,
+                        fmt::format("The list has the address {}, but an address is 0 to {}.", *at, most_scales - 1));
+        if (std::find(addresses.begin(), at, *at) != at)
+            return fail(Trouble::bad_input,
+                        fmt::format("The list has the address {} twice; a frame reads each scale once.", *at));
+    }
+    return {};
+}
+
+/// The scales of a card in a sentence.
+std::string scales_text(const CardSettings& card) {
+    if (!card.addresses.empty()) return fmt::format("the scales {}", fmt::join(card.addresses, ", "));
+    return fmt::format("the scales {} to {}", card.first, card.first + card.scales - 1);
+}
+
 }  // namespace
+
+bool CardSettings::same_list(const CardSettings& other) const {
+    if (scales != other.scales) return false;
+    for (int k = 0; k < scales; ++k)
+        if (address(k) != other.address(k)) return false;
+    return true;
+}
+
+int CardSettings::last_address() const {
+    return addresses.empty() ? first + scales - 1 : *std::max_element(addresses.begin(), addresses.end());
+}
+
+Result<std::vector<int>> addresses_from_text(std::string_view text) {
+    std::vector<int> out;
+    const char *at = text.data(), *const end = at + text.size();
+    const auto skip_blanks = [&] {
+        while (at != end && *at == ' ') ++at;
+    };
+    for (;;) {
+        skip_blanks();
+        int address = -1;
+        const auto [behind, bad] = std::from_chars(at, end, address);
+        if (bad != std::errc())
+            return fail(Trouble::bad_input,
+                        fmt::format("Character {} of the list begins no whole number; a list is like "
+                                    "\"5, 2, 9\".",
+                                    at - text.data() + 1));
+        out.push_back(address);
+        at = behind;
+        skip_blanks();
+        if (at == end) break;
+        if (*at != ',')
+            return fail(
+                Trouble::bad_input,
+                fmt::format("Character {} of the list is no comma; a list is like \"5, 2, 9\".", at - text.data() + 1));
+        ++at;
+    }
+    MOTIONRACK_CHECK(check_list(out));
+    return out;
+}
 
 Result<void> check(const CardSettings& s) {
     MOTIONRACK_CHECK(within("The number of scales", s.scales, 1, most_scales));
-    MOTIONRACK_CHECK(within("The address of the first scale", s.first, 0, most_scales - s.scales));
+    if (s.addresses.empty()) {
+        MOTIONRACK_CHECK(within("The address of the first scale", s.first, 0, most_scales - s.scales));
+    } else if (s.addresses.size() != static_cast<std::size_t>(s.scales)) {
+        return fail(Trouble::refused,
+                    fmt::format("The list has {} addresses, but a frame has {} scales.", s.addresses.size(), s.scales));
+    }
+    MOTIONRACK_CHECK(check_list(s.addresses));
     MOTIONRACK_CHECK(within("T1", s.timing.t1, least_wait, most_wait));
     MOTIONRACK_CHECK(within("T2", s.timing.t2, least_wait, most_wait));
     MOTIONRACK_CHECK(within("T3", s.timing.t3, least_wait, most_wait));
@@ -52,10 +122,9 @@ Result<void> check(const DecoderSettings& s) {
 }
 
 Result<void> check(const CardSettings& card, const DecoderSettings& decoder) {
-    if (card.first + card.scales > decoder.scales)
-        return fail(Trouble::refused,
-                    fmt::format("The card reads the scales {} to {}, but the decoder has {} (0 to {}).", card.first,
-                                card.first + card.scales - 1, decoder.scales, decoder.scales - 1));
+    if (card.last_address() >= decoder.scales)
+        return fail(Trouble::refused, fmt::format("The card reads {}, but the decoder has {} (0 to {}).",
+                                                  scales_text(card), decoder.scales, decoder.scales - 1));
     if (decoder.latch > card.timing.t1)
         return fail(Trouble::refused,
                     fmt::format("The decoder needs {:.1f} ns to latch, but the card waits T1 = {:.1f} ns only.",

@@ -5,6 +5,8 @@
 #include <motionrack/base/result.hpp>
 #include <motionrack/cards/grating_bus/frame.hpp>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 namespace motionrack::grating_bus {
 
@@ -16,15 +18,22 @@ enum class Shifter : std::uint8_t { as_role, out, in };
 /// Of a motion card.
 struct CardSettings {
     Role role = Role::slave;
-    int scales = 4;                              ///< N, 1 .. 128: scales of a frame
-    int first = 0;                               ///< 0 .. 128 - N: address of the first one
-    Timing timing;                               ///< waits and clock, 0.1 ns .. 6 us each
-    Duration period = microseconds(200);         ///< of the frames, 1 us .. 100 ms
-    Duration offset{0};                          ///< host: its first pulse, 0 .. period
+    int scales = 4;                       ///< N, 1 .. 128: scales of a frame
+    int first = 0;                        ///< 0 .. 128 - N: address of the first one, without a list
+    std::vector<int> addresses;           ///< the list: 0 .. 127 each, N of them, each once; empty: from `first` on
+    Timing timing;                        ///< waits and clock, 0.1 ns .. 6 us each
+    Duration period = microseconds(200);  ///< of the frames, 1 us .. 100 ms
+    Duration offset{0};                   ///< host: its first pulse, 0 .. period
     Shifter clock_shifter = Shifter::as_role;    ///< of clk, hold and read_n
     Shifter address_shifter = Shifter::as_role;  ///< of addr
     bool checks = true;                          ///< frames whose lines are not as they should be are not published
     std::uint32_t seed = 1;                      ///< of jitter
+
+    /// Of the scale of word `k` (0 .. N - 1).
+    int address(int k) const { return addresses.empty() ? first + k : addresses[static_cast<std::size_t>(k)]; }
+    bool same_list(const CardSettings& other) const;
+    /// The greatest address of the list.
+    int last_address() const;
 
     bool clock_out() const {
         return clock_shifter == Shifter::as_role ? role == Role::host : clock_shifter == Shifter::out;
@@ -43,6 +52,10 @@ struct DecoderSettings {
     Duration latch = nanoseconds(10);   ///< from HOLD to valid counts, 0 .. 6 us
     Duration output = nanoseconds(20);  ///< from the address to valid data, 0.1 ns .. 6 us
 };
+
+/// The addresses of a list as a rack file has it: "5, 2, 9". Errors: bad_input with what is wrong: no list of whole
+/// numbers with commas between them, an address beyond 127, more than 128 of them, one that is there twice.
+Result<std::vector<int>> addresses_from_text(std::string_view text);
 
 /// Errors: refused, with the setting, its value and its range; so is a frame that does not fit into its period, with
 /// its time.

@@ -41,11 +41,11 @@ void Bus::publish_span(Instant now) {
     for (Card* card : cards_) {
         if (card->is_remote()) continue;
         card->begin_frame(state_.start);
-        card->put_words(&decoder.latched[static_cast<std::size_t>(host().first)], host().scales);
+        card->put_words(decoder.latched, host().scales);
         card->publish(now, like);
         like = card->last();
     }
-    decoder.out = decoder.latched[static_cast<std::size_t>(host().first + host().scales - 1)];
+    decoder.out = decoder.latched[static_cast<std::size_t>(host().address(host().scales - 1))];
     state_.published = 1;
 }
 
@@ -55,14 +55,15 @@ Bus::Output Bus::span_output(Instant now) const {
     const Instant first = state_.start + timing.t1 + decoder.settings().output;  // of word 0
     if (now < first) return {decoder.state_.out, first};
     const auto words = std::min<std::int64_t>(host().scales, (now - first) / timing.word_time() + 1);
-    const std::uint32_t out = decoder.state_.latched[static_cast<std::size_t>(host().first + words - 1)];
+    const std::uint32_t out =
+        decoder.state_.latched[static_cast<std::size_t>(host().address(static_cast<int>(words) - 1))];
     return {out, words < host().scales ? first + words * timing.word_time() : never};
 }
 
 std::uint32_t Bus::span_level(Line line, Instant now) const {
     const Duration elapsed = now - state_.start;
     if (line == Line::clk) return elapsed < host().period / 2;
-    const Outputs outputs = outputs_of(moment_of(host().timing, host().scales, elapsed), host().first);
+    const Outputs outputs = outputs_of(moment_of(host().timing, host().scales, elapsed), host());
     if (line == Line::hold) return outputs.hold;
     if (line == Line::read_n) return outputs.read_n;
     if (line == Line::addr) return outputs.addr;
@@ -74,7 +75,7 @@ void Bus::interrupt_span(Instant now) {
     if (state_.published == 0 && now >= state_.done) publish_span(now);
     Decoder& decoder = *decoders_[0];
     const Output output = span_output(now);
-    const Outputs lines = outputs_of(moment_of(host().timing, host().scales, now - state_.start), host().first);
+    const Outputs lines = outputs_of(moment_of(host().timing, host().scales, now - state_.start), host());
     decoder.state_.out = output.out;
     decoder.state_.valid = state_.start + decoder.settings().latch;
     const Duration since = std::max(Duration{0}, now - state_.start - host().timing.t1);  // the first address
@@ -90,7 +91,7 @@ void Bus::interrupt_span(Instant now) {
     first.clk = state_.clk_was;
     first.fall_at = state_.clk_was != 0 ? state_.start + host().period / 2 : never;
     for (std::size_t i = 0; i < cards_.size(); ++i) {
-        cards_[i]->take_up(state_.start, &decoder.state_.latched[static_cast<std::size_t>(host().first)], now);
+        cards_[i]->take_up(state_.start, decoder.state_.latched, now);
         cards_[i]->drive(state_.lines, card_driver_[i]);
     }
     if (lines.read_n == 0)

@@ -74,16 +74,6 @@ TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
     }
 }
 
-TEST(GratingBus, SevenLinesAddress128Scales) {
-    Crate crate(crew(1, 128), 128);
-    EXPECT_NE(crate.kernel.find_wire("bus.addr6"), sim::WireId::none);
-    EXPECT_EQ(crate.kernel.find_wire("bus.addr7"), sim::WireId::none);
-    EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), 0x7F) << "at rest";
-    crate.run(2 * period);
-    expect_true_frames(crate, 2, 128);
-    EXPECT_FALSE(check(host_settings(129)));
-}
-
 TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusSaysWho) {
     std::vector<CardSettings> settings(3, host_settings());
     settings[1].offset = nanoseconds(37);

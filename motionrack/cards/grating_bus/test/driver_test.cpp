@@ -40,8 +40,20 @@ TEST(GratingCardLibrary, KnowsHowTheCardIsSet) {
     EXPECT_FALSE(host->wrong_direction);
     EXPECT_TRUE(slave->wrong_direction);
     EXPECT_EQ(host->scales, 6);
+    EXPECT_EQ(host->addresses().size(), 6u);
+    EXPECT_EQ(host->addresses()[5], 5);
     EXPECT_EQ(host->timing, Timing{});
     EXPECT_EQ(host->period, driver_period);
+}
+
+TEST(GratingCardLibrary, KnowsTheListOfTheCard) {
+    std::vector<CardSettings> settings = crew(1, 3);
+    for (CardSettings& s : settings) s.addresses = {5, 2, 9};
+    Bench bench(settings, 10);
+    const auto slave = bench.libraries[1]->open();
+    ASSERT_TRUE(slave);
+    EXPECT_EQ(slave->first, 5);
+    EXPECT_EQ(std::vector<int>(slave->addresses().begin(), slave->addresses().end()), (std::vector<int>{5, 2, 9}));
 }
 
 TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {

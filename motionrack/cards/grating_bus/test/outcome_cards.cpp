@@ -50,7 +50,7 @@ class Changes final : public sim::Kernel::WireObserver {
 grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t seed) {
     grating_bus::CardSettings out;
     out.role = from.host ? Role::host : Role::slave;
-    out.scales = from.words, out.first = from.first;
+    out.scales = from.words, out.first = from.first, out.addresses = from.list;
     out.timing = {Duration{from.t1}, Duration{from.t2}, Duration{from.t3}, Duration{from.clock}};
     out.period = Duration{from.period}, out.offset = Duration{from.offset};
     out.clock_shifter = from.clock_out ? Shifter::out : Shifter::in;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 #include <motionrack/cards/grating_bus/test/random_bus.hpp>
+#include <numeric>
 
 namespace motionrack::grating_bus::twin {
 
@@ -45,12 +46,22 @@ void Maker::set(CardSettings& card, const Timing& timing) {
     card.clock = timing.clock.count();
 }
 
+/// So many addresses, each once.
+std::vector<int> Maker::list(int words) {
+    std::vector<int> all(static_cast<std::size_t>(words + below(8)));
+    std::iota(all.begin(), all.end(), 0);
+    std::shuffle(all.begin(), all.end(), random_);
+    all.resize(static_cast<std::size_t>(words));
+    return all;
+}
+
 void Maker::add_cards() {
     const std::int64_t count = 1 + below(one_in(5) ? 11 : 4);
     const bool alike = healthy_ || !one_in(3);
     const Timing common = timing();
     const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)),
               first = one_in(3) ? static_cast<int>(below(6)) : 0;
+    const std::vector<int> common_list = one_in(3) ? list(words) : std::vector<int>();
     Ticks longest = 0;
     for (std::int64_t i = 0; i < count; ++i) {
         CardSettings card;
@@ -63,6 +74,10 @@ void Maker::add_cards() {
         set(card, own);
         card.words = alike || one_in(2) ? words : static_cast<int>(1 + below(6));
         card.first = alike || one_in(2) ? first : static_cast<int>(below(4));
+        if (card.words == words && (alike || one_in(2)))
+            card.list = common_list;
+        else if (one_in(3))
+            card.list = list(card.words);
         longest = std::max(longest, own.frame_time(card.words).count());
         const auto seed = static_cast<std::uint32_t>(random_());
         card.jitter = [seed](std::int64_t n, Ticks most) { return scatter(seed, n, most); };
@@ -80,7 +95,8 @@ void Maker::add_cards() {
 void Maker::add_decoder() {
     int scales = 1 + static_cast<int>(below(8));
     for (const CardSettings& card : program_.cards)
-        if (healthy_ || !one_in(8)) scales = std::max(scales, card.first + card.words);
+        if (healthy_ || !one_in(8))
+            for (int k = 0; k < card.words; ++k) scales = std::max(scales, 1 + static_cast<int>(card.address(k)));
     program_.decoder.scales = scales;
     program_.decoder.latch = one_in(8) ? 0 : time(1, 12);
     program_.decoder.output = time(1, 25);
@@ -218,6 +234,7 @@ std::string text_of(const Program& program) {
         out += card.host ? "host " : "slave";
         add("clock_out", card.clock_out), add("address_out", card.address_out), add("checks", card.checks),
             add("first", card.first);
+        for (const int address : card.list) add("listed", address);
         add("words", card.words), add("t1", card.t1), add("t2", card.t2), add("t3", card.t3), add("t", card.clock);
         add("period", card.period), add("offset", card.offset);
         out += "\n";

@@ -49,6 +49,7 @@ class Maker {
     Timing timing();
     void set(CardSettings& card, const Timing& timing);
     void add_cards();
+    std::vector<int> list(int words);
     void add_decoder();
     Ticks instant();
     Op op();

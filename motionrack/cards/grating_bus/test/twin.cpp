@@ -200,8 +200,7 @@ void Twin::enter(Card& card, int state) {
             break;
         case 2:
         case 8:
-            if (drives)
-                card.read_pin = 0, card.address_pin = static_cast<std::uint32_t>(card.settings.first + card.word);
+            if (drives) card.read_pin = 0, card.address_pin = card.settings.address(card.word);
             break;
         case 3:
         case 9:
@@ -236,7 +235,7 @@ void Twin::sample(Card& card) {
     if (!card.settings.checks) return;
     if (before_[read_n] != 0)
         bad_word(card, card.counters.missed_words);
-    else if (before_[addr] != static_cast<std::uint32_t>(card.settings.first + card.word))
+    else if (before_[addr] != card.settings.address(card.word))
         bad_word(card, card.counters.alien);
     else if (before_[hold] != 1 || (card.settings.host && before_[clk] != (card.own_clock_before ? 1u : 0u)))
         bad_word(card, card.counters.lines);

@@ -27,9 +27,14 @@ using Levels = std::array<std::uint32_t, line_count>;
 struct CardSettings {
     bool host = false, clock_out = false, address_out = false, checks = true;
     int first = 0, words = 1;
+    std::vector<int> list;  ///< addresses of the words; empty: from `first` on
     Ticks t1 = 200, t2 = 300, t3 = 300, clock = 100, period = 2'000'000, offset = 0;
     /// How much later pulse n comes, at most `most` (the fault `jitter`).
     std::function<Ticks(std::int64_t n, Ticks most)> jitter;
+
+    std::uint32_t address(int word) const {
+        return static_cast<std::uint32_t>(list.empty() ? first + word : list[static_cast<std::size_t>(word)]);
+    }
 };
 
 struct DecoderSettings {

@@ -23,6 +23,7 @@ const std::string folder = source_dir() + "/tests/verilog/grating/";
 
 struct System {
     int words = 4, cards = 3, period = 2000, frames = 4, hosts = 1, apart = 0;  ///< period and apart in clocks
+    int stride = 1, shift = 0;  ///< word k of host h is that of scale (k stride + h shift) mod words
 };
 
 /// What both show, as text: "card clock state" and "card sequence time crc counts..".
@@ -47,6 +48,7 @@ Shown run_verilog(const System& system) {
     parameter("N", system.words), parameter("CARDS", system.cards), parameter("PERIOD", system.period),
         parameter("FRAMES", system.frames);
     parameter("HOSTS", system.hosts), parameter("APART", system.apart);
+    parameter("STRIDE", system.stride), parameter("SHIFT", system.shift);
     for (const char* file : {"scales", "decoder", "card", "system", "system_tb"})
         command += " " + folder + "grating_" + file + ".sv";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -90,11 +92,13 @@ Shown run_twin(const System& system) {
     card.checks = false;
     card.period = system.period * clock_ticks;
     card.offset = first_s1 * clock_ticks;
+    for (int k = 0; k < system.words; ++k) card.list.push_back(k * system.stride % system.words);
     std::vector<CardSettings> cards(static_cast<std::size_t>(system.cards), card);
     for (int i = 0; i < system.hosts; ++i) {
         CardSettings& host = cards[static_cast<std::size_t>(i)];
         host.host = host.clock_out = host.address_out = true;
         host.offset += i * system.apart * clock_ticks;
+        for (int& address : host.list) address = (address + i * system.shift) % system.words;
     }
     DecoderSettings decoder;
     decoder.scales = system.words;
@@ -170,6 +174,12 @@ TEST(GratingVerilog, ThreeHostsReadTheSameWrongFramesAsOnTheTwin) {
     std::vector<System> systems;
     for (const int apart : {1, 2, 3, 4, 5, 7, 9, 10, 11, 13, 20, 31, 44}) systems.push_back({4, 5, 500, 3, 3, apart});
     EXPECT_GT(compare(systems), 50u) << "hosts beside each other read different frames";
+}
+
+TEST(GratingVerilog, ReadsAnyListOfAddressesAndHostsWithOtherListsContend) {
+    if (no_referee()) GTEST_SKIP() << no_iverilog;
+    EXPECT_EQ(compare({{8, 3, 2000, 4, 1, 0, 3}, {5, 3, 2000, 4, 1, 0, 2}}), 0u);
+    compare({{4, 4, 500, 3, 2, 0, 1, 1}, {8, 4, 1000, 3, 2, 0, 3, 2}});
 }
 
 TEST(GratingVerilog, IsAcceptedByVerilatorToo) {

@@ -1,0 +1,109 @@
+// Addresses: seven lines, lists of scales, and who gives and who takes them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rig.hpp"
+
+namespace motionrack::grating_bus {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr Duration period = microseconds(200);
+
+TEST(GratingBus, SevenLinesAddress128Scales) {
+    Crate crate(crew(1, 128), 128);
+    EXPECT_NE(crate.kernel.find_wire("bus.addr6"), sim::WireId::none);
+    EXPECT_EQ(crate.kernel.find_wire("bus.addr7"), sim::WireId::none);
+    EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), 0x7F) << "at rest";
+    crate.run(2 * period - nanoseconds(1));
+    for (const std::size_t card : {0, 1}) {
+        ASSERT_EQ(crate.heard(card).size(), 2u);
+        for (int k = 0; k < 128; ++k)
+            ASSERT_EQ(crate.heard(card)[1].frame.counts[static_cast<std::size_t>(k)],
+                      static_cast<std::uint32_t>(crate.truth(k, crate.heard(card)[1].frame.instant())));
+    }
+    EXPECT_FALSE(check(host_settings(129)));
+}
+
+TEST(GratingBus, AnyListOfAddressesIsReadInItsOrder) {
+    const std::vector<int> list = {5, 2, 9, 127};
+    for (const bool watched : {false, true}) {
+        std::vector<CardSettings> settings = crew(2);
+        for (CardSettings& s : settings) s.addresses = list;
+        Crate crate(settings, 128);
+        if (watched) crate.watch_wires();
+        crate.run(period + nanoseconds(20) + Timing{}.word_time());
+        for (const int address : {2, 9, 127}) {
+            EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), address);
+            crate.run(Timing{}.word_time());
+        }
+        EXPECT_EQ(crate.cards[2]->peek(list_at), 5);
+        EXPECT_EQ(crate.cards[2]->peek(list_at + 6), 127);
+        EXPECT_EQ(crate.cards[2]->peek(offset("FIRST")), 5);
+        crate.run(10 * period);
+        for (std::size_t card = 0; card < 3; ++card) {
+            ASSERT_GE(crate.heard(card).size(), 11u);
+            for (const Heard& heard : crate.heard(card))
+                for (std::size_t k = 0; k < list.size(); ++k)
+                    ASSERT_EQ(heard.frame.counts[k],
+                              static_cast<std::uint32_t>(crate.truth(list[k], heard.frame.instant())));
+        }
+        EXPECT_TRUE(crate.sentences().empty());
+    }
+}
+
+TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
+    std::vector<CardSettings> settings(2, host_settings(2));
+    settings[0].addresses = {1, 2}, settings[1].addresses = {2, 1};
+    for (CardSettings& s : settings) s.checks = false;
+    Crate crate(settings);
+    crate.run(10 * period - nanoseconds(1));
+    for (const Line line : {Line::clk, Line::hold, Line::read_n})
+        EXPECT_EQ(crate.bus.lines().conflicts(line), 0u) << "their clocks are one";
+    EXPECT_EQ(crate.bus.lines().conflicts(Line::addr), 10u);
+    const Conflict& first = crate.bus.lines().conflict(0);
+    EXPECT_EQ(first.begin, nanoseconds(20)) << "with the first address";
+    EXPECT_THAT(crate.sentences(), Contains(HasSubstr("two cards drive addr at once, c0 high and c1 low")));
+    for (const Heard& heard : crate.heard(0))
+        for (const std::size_t k : {0, 1})
+            EXPECT_EQ(heard.frame.counts[k], static_cast<std::uint32_t>(crate.truth(0, heard.frame.instant())))
+                << "1 and 2 give 0: a scale that neither wants";
+    for (CardSettings& s : settings) s.checks = true;
+    Crate careful(settings);
+    careful.run(10 * period);
+    EXPECT_TRUE(careful.heard(0).empty() && careful.heard(1).empty());
+    EXPECT_GE(careful.cards[0]->counter(Card::alien), 18);
+}
+
+TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsPlace) {
+    EXPECT_EQ(*addresses_from_text("5, 2, 9"), (std::vector<int>{5, 2, 9}));
+    EXPECT_EQ(*addresses_from_text(" 127 ,0 "), (std::vector<int>{127, 0}));
+    const auto wrong = [](std::string_view text) { return addresses_from_text(text).error().message; };
+    EXPECT_THAT(wrong(""), HasSubstr("Character 1 of the list begins no whole number"));
+    EXPECT_THAT(wrong("5, 2,"), HasSubstr("Character 6 of the list begins no whole number"));
+    EXPECT_THAT(wrong("5 2"), HasSubstr("Character 3 of the list is no comma"));
+    EXPECT_THAT(wrong("5; 2"), HasSubstr("Character 2 of the list is no comma"));
+    EXPECT_THAT(wrong("3, 128"), HasSubstr("the address 128, but an address is 0 to 127"));
+    EXPECT_THAT(wrong("-1"), HasSubstr("the address -1, but"));
+    EXPECT_THAT(wrong("99999999999"), HasSubstr("Character 1"));
+    EXPECT_THAT(wrong("3, 4, 3"), HasSubstr("the address 3 twice"));
+    std::string many = "0";
+    for (int n = 1; n <= 128; ++n) many += "," + std::to_string(n);
+    EXPECT_THAT(wrong(many), HasSubstr("129 addresses, but 128 are the most"));
+    CardSettings s = host_settings(3);
+    s.addresses = {5, 2, 9};
+    EXPECT_TRUE(check(s));
+    DecoderSettings nine;
+    nine.scales = 9;
+    EXPECT_THAT(check(s, nine).error().message, HasSubstr("the scales 5, 2, 9, but the decoder has 9 (0 to 8)"));
+    s.scales = 4;
+    EXPECT_THAT(check(s).error().message, HasSubstr("3 addresses, but a frame has 4 scales"));
+    s = host_settings(2);
+    s.addresses = {4, 4};
+    EXPECT_THAT(check(s).error().message, HasSubstr("twice"));
+}
+
+}  // namespace
+}  // namespace motionrack::grating_bus
