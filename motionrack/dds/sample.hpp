@@ -1,9 +1,9 @@
 // A sample: one frame of a grating bus as a publisher sends it, with who sent it and how fast frames follow each other.
 //
-//   format | source id, host, process | period, pace | the frame: time, sequence, N, counts, CRC-32 | check
+//   format | source id, host, process | period, pace | the frame: time, sequence, N, counts, addresses, CRC-32 | check
 //
-// The frame's CRC is the card's; `check` is the CRC-32 of all that stands before it but the counts, which the frame's
-// CRC covers.
+// The frame's CRC is the card's; `check` is the CRC-32 of all that stands before it but the counts and addresses, which
+// the frame's CRC covers.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ Source new_source();
 
 inline constexpr std::uint32_t wire_format = 0x4D524702;  ///< "MRG" and the version of sample.idl
 
-/// Trivially copyable; counts beyond the frame's `words` mean nothing.
+/// Trivially copyable; counts and addresses beyond the frame's `words` mean nothing.
 struct Sample {
     std::uint32_t format = wire_format;
     Source source;

@@ -20,6 +20,8 @@ void WireBuffer::put(const Sample& sample) {
     wire_.sequence_number = sample.frame.sequence;
     wire_.counts._length = sample.frame.words;
     std::copy_n(sample.frame.counts.begin(), sample.frame.words, wire_.counts._buffer);
+    wire_.addresses._length = sample.frame.words;
+    std::copy_n(sample.frame.addresses.begin(), sample.frame.words, wire_.addresses._buffer);
     wire_.crc = sample.frame.crc;
     wire_.check = sample.check;
 }
@@ -34,9 +36,11 @@ void WireBuffer::get(Sample& sample) const {
     sample.pace = wire_.pace;
     sample.frame.time = wire_.time;
     sample.frame.sequence = wire_.sequence_number;
-    // The engine refuses longer sequences; a shorter copy would only be a wrong CRC.
-    sample.frame.words = std::min<std::uint32_t>(wire_.counts._length, grating_bus::most_scales);
+    // The engine refuses longer sequences; a shorter copy, or one with too few addresses, would only be a wrong CRC.
+    sample.frame.words =
+        std::min({wire_.counts._length, wire_.addresses._length, static_cast<std::uint32_t>(grating_bus::most_scales)});
     std::copy_n(wire_.counts._buffer, sample.frame.words, sample.frame.counts.begin());
+    std::copy_n(wire_.addresses._buffer, sample.frame.words, sample.frame.addresses.begin());
     sample.frame.crc = wire_.crc;
     sample.check = wire_.check;
 }

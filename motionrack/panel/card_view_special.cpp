@@ -84,8 +84,11 @@ Result<json> frames_now(operate::Machine& machine) {
             card["skew_ns"] = first != nullptr ? to_seconds(row.frame->instant() - first->instant()) * 1e9 : 0;
             card["scales"] = positions.size();
             card["positions"] = json::array();
-            for (std::size_t k = 0; k < positions.size() && k < shown_scales; ++k)
+            card["addresses"] = json::array();
+            for (std::size_t k = 0; k < positions.size() && k < shown_scales; ++k) {
                 card["positions"].push_back(static_cast<std::int32_t>(positions[k]));
+                card["addresses"].push_back(row.frame->addresses[k]);
+            }
         }
         cards.push_back(std::move(card));
     }

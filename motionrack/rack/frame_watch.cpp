@@ -27,10 +27,12 @@ void FrameWatch::began(const gb::Card& card, Instant now) {
     for (int n = 0; n < decoder.settings().scales; ++n) own.truth[static_cast<std::size_t>(n)] = decoder.count(n, now);
 }
 
-/// Whether a count of the frame is not that of its scale when the frame began.
+/// Whether a count of the frame is not that of its scale when the frame began. A host's scales are those that it wants,
+/// a slave's those that were addressed.
 bool FrameWatch::untrue(const Watched& own, const gb::Frame& frame) {
     for (std::uint32_t k = 0; k < frame.words; ++k) {
-        const int address = own.card->settings().address(static_cast<int>(k));
+        const int address =
+            own.card->is_host() ? own.card->settings().address(static_cast<int>(k)) : int{frame.addresses[k]};
         if (frame.counts[k] != own.truth[static_cast<std::size_t>(address)]) return true;
     }
     return false;

@@ -49,11 +49,11 @@ class Member : public Card {
             if (reg.name == name && reg.access != Access::write) return device.peek(reg.offset);
         return no_such_value(*this, name, more);
     }
-    /// The number in front of ".COUNT", if it is one below `scales`; else -1.
-    static int scale_of(std::string_view name, int scales) {
+    /// The number in front of `of`, if it is one below `scales`; else -1.
+    static int scale_of(std::string_view name, int scales, std::string_view of = ".COUNT") {
         int n = -1;
         const auto [end, bad] = std::from_chars(name.data(), name.data() + name.size(), n);
-        const bool whole = bad == std::errc() && std::string_view(end, name.data() + name.size()) == ".COUNT";
+        const bool whole = bad == std::errc() && std::string_view(end, name.data() + name.size()) == of;
         return whole && n >= 0 && n < scales ? n : -1;
     }
 
@@ -86,8 +86,9 @@ class GratingCard final : public Member {
     sim::RegisterDevice* registers() override { return &card_; }
     bool in_window(std::uint32_t offset) const override {
         const auto words = static_cast<std::uint32_t>(card_.settings().scales);
-        return in_counts(offset, card_.settings().scales) ||
-               (offset >= gb::list_at && offset < gb::list_at + 2 * words);
+        for (const std::uint32_t begin : {gb::addresses_at, gb::list_at})
+            if (offset >= begin && offset < begin + 2 * words) return true;
+        return in_counts(offset, card_.settings().scales);
     }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
     void bus_write(int, std::uint32_t address, std::uint32_t value) override {
@@ -95,15 +96,18 @@ class GratingCard final : public Member {
     }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
-        static constexpr std::string_view more[] = {"0.COUNT ..", "SEQUENCE", "TIME"};
+        static constexpr std::string_view more[] = {"0.COUNT ..", "0.ADDRESS ..", "SEQUENCE", "TIME"};
         const gb::Frame* frame = card_.last();
         if (name == "SEQUENCE") return frame ? frame->sequence : 0;
         if (name == "TIME") return frame ? frame->time : 0;
         if (const int n = scale_of(name, card_.settings().scales); n >= 0) return count(n);
+        if (const int n = scale_of(name, card_.settings().scales, ".ADDRESS"); n >= 0)
+            return frame ? frame->addresses[static_cast<std::size_t>(n)] : 0;
         return register_value(card_, name, more);
     }
     std::vector<std::string> value_names() const override {
         std::vector<std::string> out = scale_values(card_.settings().scales);
+        for (int n = 0; n < card_.settings().scales; ++n) out.push_back(std::to_string(n) + ".ADDRESS");
         out.insert(out.end(), {"SEQUENCE", "TIME"});
         return out;
     }

@@ -220,8 +220,7 @@ void Rack::build_stages() {
                          stage.motor->drive_wire(), false);
         if (config.servo) {
             stage.processor = &processor_of(config.card);
-            stage.processor->add(static_cast<int>(config.output), StagePlan(config),
-                                 loop_settings(config, wanted_scales(config_.card(config.card)->grating_bus)),
+            stage.processor->add(static_cast<int>(config.output), StagePlan(config), loop_settings(config),
                                  from_seconds(config.servo->compute_us * 1e-6), stage.scale->count(Instant{0}));
         }
         stages_.push_back(std::move(stage));

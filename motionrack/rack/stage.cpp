@@ -84,11 +84,11 @@ parts::LinearScaleSettings scale_settings(const RackStage& stage) {
     return out;
 }
 
-gb::ServoSettings loop_settings(const RackStage& stage, const std::vector<int>& wanted) {
+gb::ServoSettings loop_settings(const RackStage& stage) {
     const RackStageServo& s = *stage.servo;
     const double um = 1e-3;  // a nm in um
     gb::ServoSettings out;
-    out.word = static_cast<std::uint64_t>(std::find(wanted.begin(), wanted.end(), stage.input) - wanted.begin());
+    out.scale = static_cast<std::uint64_t>(stage.input);
     out.nm_per_count =
         stage.scale.pitch_um * 1e3 / static_cast<double>(stage.scale.interpolation) * (stage.scale.reversed ? -1 : 1);
     out.zero_nm = stage.scale.zero_mm * nm_per_mm;

@@ -118,7 +118,7 @@ struct RunningStage {
 parts::LinearStageSettings motor_settings(const RackStage& stage);
 parts::LinearScaleSettings scale_settings(const RackStage& stage);
 /// Of a card whose first scale is `first`.
-grating_bus::ServoSettings loop_settings(const RackStage& stage, const std::vector<int>& wanted);
+grating_bus::ServoSettings loop_settings(const RackStage& stage);
 /// "stage step_x: at 0.1 s its loop was opened ..." `stage`: the one at the output.
 std::string describe_loop(const sim::Condition& condition, const RackStage& stage);
 /// What of a stage's profile cannot be; empty if it can.

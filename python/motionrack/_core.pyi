@@ -432,6 +432,8 @@ class GratingCard:
         """The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it is stale, or its CRC is wrong."""
     def wait(self, timeout: float) -> tuple[int, int, npt.NDArray[np.int64]]:
         """Waits for a frame that was not read yet, and reads it; Timeout after timeout s."""
+    def addresses(self) -> list[int]:
+        """Which scales the frame read last has: the address of each word, as the host gave it; empty before the first."""
     def stale(self) -> bool:
         """Whether the frame published last is two periods old."""
     def errors(self) -> dict[str, Any]:
@@ -439,7 +441,7 @@ class GratingCard:
     def clear_errors(self) -> None:
         """Clears those counters."""
     def set_position(self, scale: int, count: int) -> None:
-        """From now on scale 0 to 127 of the frame counts from there on, where the next reading's low 32 bits allow it."""
+        """From now on the scale with that address, 0 to 127, counts from there on, where the next reading's low 32 bits allow it."""
 
 def bus_conflicts(world: World) -> int:
     """Conflicts on all lines of the grating bus so far."""

@@ -51,9 +51,7 @@ gb::Card& model(World& world, const std::string& card) {
     return *found;
 }
 
-}  // namespace
-
-void bind_grating_bus(py::module_& m) {
+void bind_card(py::module_& m) {
     py::class_<Grating>(m, "GratingCard",
                         "The function library of a motion card on a grating bus: the positions of one instant.")
         .def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
@@ -82,6 +80,14 @@ void bind_grating_bus(py::module_& m) {
                 }
             },
             py::arg("timeout"), "Waits for a frame that was not read yet, and reads it; Timeout after timeout s.")
+        .def(
+            "addresses",
+            [](Grating& self) {
+                const auto addresses = self.driver->addresses();
+                return std::vector<int>(addresses.begin(), addresses.end());
+            },
+            "Which scales the frame read last has: the address of each word, as the host gave it; empty before the "
+            "first.")
         .def("stale", call<gb::GratingCard>(&gb::GratingCard::stale),
              "Whether the frame published last is two periods old.")
         .def(
@@ -96,8 +102,12 @@ void bind_grating_bus(py::module_& m) {
                 self.driver->set_position(scale, count);
             },
             py::arg("scale"), py::arg("count"),
-            "From now on scale 0 to 127 of the frame counts from there on, where the next reading's low 32 bits allow "
-            "it.");
+            "From now on the scale with that address, 0 to 127, counts from there on, where the next reading's low 32 "
+            "bits "
+            "allow it.");
+}
+
+void bind_bus(py::module_& m) {
     m.def(
         "bus_conflicts",
         [](World& world) {
@@ -120,6 +130,13 @@ void bind_grating_bus(py::module_& m) {
             return looking(world, [&] { return value_of(rack::frame_picture(world.config(), frame)); });
         },
         py::arg("world"), py::arg("frame"), "One frame of the rack as waves (SVG); a rack of its own is run for it.");
+}
+
+}  // namespace
+
+void bind_grating_bus(py::module_& m) {
+    bind_card(m);
+    bind_bus(m);
 }
 
 }  // namespace motionrack::python

@@ -238,6 +238,18 @@ class Grating(unittest.TestCase):
             Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 5"\n')
         self.assertIn("twice", str(raised.exception))
 
+    def test_a_slave_tells_which_scales_its_host_has_addressed(self) -> None:
+        rack = Rack.from_text(
+            '[card.c1]\ntype = "grating_bus"\naddresses = "5, 2, 9"\n'
+            '[card.c2]\ntype = "grating_bus"\nscales = 3\n[card.d]\ntype = "grating_decoder"\nscales = 10\n'
+        )
+        slave = rack.cards["c2"].driver
+        self.assertEqual(slave.addresses(), [])
+        slave.wait(0.001)
+        self.assertEqual(slave.addresses(), [5, 2, 9])
+        self.assertEqual(slave.errors()["alien"], 3)
+        self.assertEqual(rack.peek("c2.1.ADDRESS"), 2)
+
     def test_a_card_that_is_off_has_no_frame_in_time(self) -> None:
         rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
         rack.fault("host", "off")

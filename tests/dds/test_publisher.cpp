@@ -25,7 +25,10 @@ class Counting final : public dds::FrameSource {
         frame.sequence = number_;
         frame.time = (milliseconds(1) + std::int64_t{number_} * period_).count();
         frame.words = scales_;
-        for (std::uint32_t k = 0; k < scales_; ++k) frame.counts[k] = offset_ + number_ * 1000 + k;
+        for (std::uint32_t k = 0; k < scales_; ++k) {
+            frame.counts[k] = offset_ + number_ * 1000 + k;
+            frame.addresses[k] = static_cast<std::uint8_t>(k);
+        }
         frame.crc = crc_of(frame);
         ++number_;
         return true;

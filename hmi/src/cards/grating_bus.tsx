@@ -22,6 +22,7 @@ interface BusCard {
   frame?: number;
   skew_ns?: number;
   positions?: number[];
+  addresses?: number[];
 }
 interface Bus {
   name: string;
@@ -59,7 +60,7 @@ function Table({ bus }: { bus: Bus }): JSX.Element {
               ))}
               {Array.from({ length: scales }, (_, i) => (
                 <th key={i} scope="col">
-                  Scale {i}
+                  Scale {bus.cards[0]?.addresses?.[i] ?? i}
                 </th>
               ))}
               <th scope="col">Agrees</th>

@@ -1,9 +1,9 @@
 // The frame: what all cards of a grating bus hold of one instant, and how long it takes to read it.
 //
-//   0          4        12   14
-//   +----------+--------+----+----------+---- - -+----------+
-//   | sequence | time   | N  | count 0  |        | CRC-32   |      low bytes first
-//   +----------+--------+----+----------+---- - -+----------+      the CRC is that of all bytes before it
+//   0          4        12   14          15        19
+//   +----------+--------+----+-----------+---------+---- - -+----------+
+//   | sequence | time   | N  | address 0 | count 0 |        | CRC-32   |   low bytes first
+//   +----------+--------+----+-----------+---------+---- - -+----------+   the CRC is that of all bytes before it
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <optional>
 #include <span>
 
 namespace motionrack::grating_bus {
 
 inline constexpr int most_scales = 128;  ///< seven lines of addr
 
-/// Positions of one instant. Trivially copyable; counts beyond `words` mean nothing.
+/// Positions of one instant. Trivially copyable; counts and addresses beyond `words` mean nothing.
 struct Frame {
     std::int64_t time = 0;       ///< of HOLD, ticks of 0.1 ns since the start of the card
     std::uint32_t sequence = 0;  ///< counts the periods of the bus, wraps
@@ -25,6 +26,7 @@ struct Frame {
     std::uint32_t words = 0;     ///< N, 1 .. 128
     std::uint32_t reserved = 0;  ///< always 0: there is no padding
     std::array<std::uint32_t, most_scales> counts{};
+    std::array<std::uint8_t, most_scales> addresses{};  ///< of the scale that each word is of, 0 .. 127
 
     Instant instant() const { return Instant{time}; }
     std::span<const std::uint32_t> positions() const { return {counts.data(), words}; }
@@ -32,10 +34,12 @@ struct Frame {
 
 /// CRC-32 of a frame's content.
 std::uint32_t crc_of(const Frame& frame);
-/// Whether the CRC is that of the content and there are 1 to 128 words.
+/// Whether the CRC is that of the content, there are 1 to 128 words, and each has an address of 0 to 127.
 bool sound(const Frame& frame);
 /// Same content, sequence and time included.
 bool same(const Frame& a, const Frame& b);
+/// The word of the scale with this address; nothing if the frame has none of it.
+std::optional<std::uint32_t> word_of(const Frame& frame, std::uint64_t address);
 
 /// `now`, extended to 64 bits: the count next to `before` that has these low 32 bits. Right while a scale moves less
 /// than 2^31 counts between two frames.

@@ -8,6 +8,7 @@
 //   20h .. 3Fh   counters of what went wrong; each is 16 bits and stays at FFFFh
 //   40h .. 4Fh   the claimed frame: sequence, time, N, CRC
 //  100h .. 2FEh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
+//  300h .. 3FEh  the claimed frame: address of the scale of its word k at 300h + 2k
 //  400h .. 4FEh  the card's own list: address of its word k at 400h + 2k
 #pragma once
 
@@ -66,7 +67,7 @@ inline constexpr RegisterInfo registers[] = {
     {"FRAMES_H", 0x1A, 16, r, false, "", "the same, high", {}},
     {"BROKEN", 0x20, 16, r, false, "", "bad frames, which were not published", {}},
     {"MISSED_WORDS", 0x22, 16, r, false, "", "words whose read_n was 1", {}},
-    {"ALIEN", 0x24, 16, r, false, "", "words with another address than the card's own list has", {}},
+    {"ALIEN", 0x24, 16, r, false, "", "words with another address than the card's own list has there", {}},
     {"LINES", 0x26, 16, r, false, "", "words at which clk, hold or read_n was not as it should be", {}},
     {"MISSED_EDGES", 0x28, 16, r, false, "", "edges of clk that must have been there and were not seen", {}},
     {"OVERRUN", 0x2A, 16, r, false, "", "pulses or edges that came while a frame was being read", {}},
@@ -81,6 +82,7 @@ inline constexpr RegisterInfo registers[] = {
     {"CRC_H", 0x50, 16, r, false, "", "claimed: the same, high", {}},
     {"COUNT_L", 0x100, 16, r, false, "", "claimed: count of word 0, low; of word k 4k bytes on", {}},
     {"COUNT_H", 0x102, 16, r, false, "", "claimed: the same, high", {}},
+    {"ADDRESS", 0x300, 16, r, false, "", "claimed: address of the scale of word 0; of word k 2k bytes on", {}},
     {"LIST", 0x400, 16, r, false, "", "address that the card's own list has for word 0; for word k 2k bytes on", {}},
 };
 static_assert(declared<registers_flaw(registers)>());
@@ -88,13 +90,13 @@ static_assert(declared<registers_flaw(registers)>());
 inline constexpr StateInfo states[] = {
     {"S0", "idle, waits for the pulse of the period (a slave: for the edge of clk)"},
     {"S1", "waits T1 until the decoder has latched its counts"},
-    {"S2", "the first address is on the bus, waits T2 for stable data"},
+    {"S2", "READ low, then the first address is on the bus; waits T2 for stable data"},
     {"S3", "latches the data, waits T3"},
     {"S4", "read_n is high again"},
     {"S5", "all scales read?"},
     {"S6", "no, one more"},
     {"S7", "waits T1"},
-    {"S8", "the next address is on the bus, waits T2"},
+    {"S8", "READ low, then the next address is on the bus; waits T2"},
     {"S9", "latches the data, waits T3"},
     {"S10", "read_n is high again"},
     {"S11", "all scales are read"},
@@ -229,6 +231,8 @@ consteval std::uint32_t decoder_offset(std::string_view name) {
 /// Offset of the first count, of a motion card and of a decoder.
 inline constexpr std::uint32_t counts_at = offset("COUNT_L");
 static_assert(decoder_offset("COUNT_L") == counts_at);
+/// Offset of the first address of the claimed frame.
+inline constexpr std::uint32_t addresses_at = offset("ADDRESS");
 /// Offset of the first address of the card's own list.
 inline constexpr std::uint32_t list_at = offset("LIST");
 /// A field of a register: field("STATUS", "STALE").

@@ -195,6 +195,7 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
         return verdict;
     };
     EXPECT_EQ(damaged([](Sample& s) { s.frame.counts[2] ^= 1; }), Verdict::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.addresses[2] ^= 1; }), Verdict::wrong_crc);
     EXPECT_EQ(damaged([](Sample& s) { s.frame.sequence ^= 1; }), Verdict::wrong_crc);
     EXPECT_EQ(damaged([](Sample& s) { s.frame.crc ^= 1; }), Verdict::wrong_crc);
     EXPECT_EQ(damaged([](Sample& s) { s.source.id[0] ^= 1; }), Verdict::wrong_crc);

@@ -28,7 +28,10 @@ inline Sample sample_of(const Source& source, std::uint32_t number, std::uint32_
     out.frame.sequence = number;
     out.frame.time = (milliseconds(1) + std::int64_t{number} * period).count();
     out.frame.words = words;
-    for (std::uint32_t i = 0; i < words; ++i) out.frame.counts[i] = number * 1000 + i;
+    for (std::uint32_t i = 0; i < words; ++i) {
+        out.frame.counts[i] = number * 1000 + i;
+        out.frame.addresses[i] = static_cast<std::uint8_t>(i);
+    }
     seal(out);
     return out;
 }

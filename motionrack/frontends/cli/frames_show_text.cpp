@@ -28,6 +28,17 @@ std::string drivers_of(const gb::Bus& bus, std::uint64_t bits) {
     return out;
 }
 
+/// Of a column: the scale, if all cards have the same one there.
+std::string column_text(const std::vector<rack::FrameRow>& rows, std::size_t k) {
+    int address = -1;
+    for (const rack::FrameRow& row : rows) {
+        if (!row.frame || k >= row.frame->words) continue;
+        if (address >= 0 && address != row.frame->addresses[k]) return fmt::format("word {}", k);
+        address = row.frame->addresses[k];
+    }
+    return fmt::format("scale {}", address);
+}
+
 }  // namespace
 
 std::string frames_table(const rack::FrameWatch& watch, Instant now) {
@@ -43,8 +54,8 @@ std::string frames_table(const rack::FrameWatch& watch, Instant now) {
         "age us", "frames", "bad", "unlike", "untrue", "state");
     auto end = std::back_inserter(out);
     const std::size_t shown = std::min(scales, most_scales_shown);
-    for (std::size_t k = 0; k < shown; ++k) fmt::format_to(end, " {:>12}", fmt::format("scale {}", k));
-    out += scales > shown ? fmt::format(" .. {}\n", scales - 1) : "\n";
+    for (std::size_t k = 0; k < shown; ++k) fmt::format_to(end, " {:>12}", column_text(rows, k));
+    out += scales > shown ? fmt::format(" .. {} more\n", scales - shown) : "\n";
     for (const rack::FrameRow& row : rows) {
         fmt::format_to(end, "{:<{}} {:<6} {:>9} {:>10.1f} {:>9} {:>7} {:>7} {:>7}  {:<8}", row.card, width, row.role,
                        row.frame ? std::to_string(row.frame->sequence) : "-", row.age_us, row.frames, row.broken,
@@ -85,6 +96,8 @@ std::string frames_json(const rack::FrameWatch& watch, Instant now) {
             nlohmann::ordered_json counts = nlohmann::ordered_json::array();
             for (const std::uint32_t count : row.frame->positions()) counts.push_back(static_cast<std::int32_t>(count));
             card["counts"] = std::move(counts);
+            card["addresses"] =
+                std::vector<int>(row.frame->addresses.begin(), row.frame->addresses.begin() + row.frame->words);
         }
         cards.push_back(std::move(card));
     }

@@ -118,6 +118,26 @@ TEST(GratingBusInARack, AListOfAddressesIsReadInItsOrder) {
     }
 }
 
+TEST(GratingBusInARack, ASlaveHoldsTheScalesThatItsHostAddresses) {
+    const RackReading reading = read_rack_text(
+        "[card.c1]\ntype = \"grating_bus\"\naddresses = \"5, 2, 9\"\n"
+        "[card.c2]\ntype = \"grating_bus\"\nscales = 3\n[card.d]\ntype = \"grating_decoder\"\nscales = 10\n");
+    ASSERT_TRUE(reading.config) << reading.errors[0].text();
+    Rack rack(*reading.config);
+    FrameWatch watch(rack);
+    rack.start();
+    while (rack.kernel().run_until(milliseconds(1)) == sim::RunEnd::broken) {
+    }
+    for (const FrameRow& row : watch.rows()) {
+        EXPECT_GE(row.frames, 5u);
+        EXPECT_EQ(row.untrue + row.unlike + row.broken, 0u);
+        EXPECT_TRUE(row.agrees);
+        EXPECT_EQ(row.frame->addresses[2], 9);
+    }
+    EXPECT_EQ(*rack.card("c2")->inspect("1.ADDRESS"), 2);
+    EXPECT_FALSE(rack.card("c2")->inspect("3.ADDRESS"));
+}
+
 TEST(GratingBusInARack, AWrongListIsRefusedWithItsPlace) {
     const auto errors = [](const std::string& keys) {
         const RackReading reading = read_rack_text("[card.c1]\ntype = \"grating_bus\"\n" + keys, "r.toml");

@@ -24,6 +24,7 @@ module grating_card #(
     // The bus.
     input  logic        bus_clk,
     input  logic        bus_read_n,
+    input  logic [6:0]  bus_addr,
     input  logic [31:0] bus_data,
     output logic        drives,  // both shifters' direction
     output logic        clk,
@@ -33,8 +34,9 @@ module grating_card #(
     // The processor.
     input  logic        claim,
     input  logic        give_back,
-    input  logic [7:0]  word_asked,
+    input  logic [6:0]  word_asked,
     output logic [31:0] word_read,
+    output logic [6:0]  address_read,  // of the scale of that word
     output logic [31:0] sequence_read,
     output logic [63:0] time_read,
     output logic [31:0] crc_read,
@@ -108,38 +110,43 @@ module grating_card #(
     // ---- what the host drives -----------------------------------------------------------------------------------------------------
     assign drives = HOST != 0;
     assign clk = own_clk;
+    // The address comes only if READ is seen low, in the clock in which it was pulled low; else it stays as it was.
+    //   read_n ~~~~\________________/~~~~
+    //   looks  ____/~~\__________________
+    //   addr   7F  X first
+    logic [6:0] given = 7'h7F;
+    logic       looks = 0;
+    wire  [6:0] wanted = LISTED != 0 ? LIST[7*word[6:0]+:7] : FIRST + word[6:0];
+
     initial begin
         hold = 0;
         read_n = 1;
-        addr = 7'h7F;
     end
+    assign addr = looks && !bus_read_n ? wanted : given;
     always_ff @(posedge clock)
-        if (HOST != 0 && enters) begin
-            if (next == 4'd1) hold <= 1;
-            if (next == 4'd0) begin
-                hold <= 0;
-                addr <= 7'h7F;
-            end
-            if (asks) begin
-                addr <= LISTED != 0 ? LIST[7*word[6:0]+:7] : FIRST + word[6:0];
-                read_n <= 0;
-            end
-            if (next == 4'd4 || next == 4'd10) read_n <= 1;
+        if (HOST != 0) begin
+            looks <= asks;
+            given <= enters && next == 4'd0 ? 7'h7F : addr;
+            if (enters && next == 4'd1) hold <= 1;
+            if (enters && next == 4'd0) hold <= 0;
+            if (asks) read_n <= 0;
+            if (enters && (next == 4'd4 || next == 4'd10)) read_n <= 1;
         end
 
     // ---- the frame: two buffers, the processor's and the logic's -------------------------------------------------------------------
-    logic [31:0] memory [0:511];
+    logic [38:0] memory [0:255];  // of each word the address and the count
     logic [31:0] sequence_of [0:1];
     logic [63:0] time_of [0:1];
     logic [31:0] crc_of [0:1];
-    logic [31:0] crc = 0, sequence_number = 0, caught = 0;
+    logic [31:0] crc = 0, sequence_number = 0;
+    logic [38:0] caught = 0;
     logic [2:0]  header = 0;     // part of the header that goes into the CRC next; 4: none
     logic        filling = 0, published = 0, any = 0, owned = 0, caught_new = 0, started = 0;
     integer      i;
 
     initial begin
         claimed = 0;
-        for (i = 0; i < 512; i = i + 1) memory[i] = 0;
+        for (i = 0; i < 256; i = i + 1) memory[i] = 0;
         for (i = 0; i < 2; i = i + 1) begin
             sequence_of[i] = 0;
             time_of[i] = 0;
@@ -171,12 +178,12 @@ module grating_card #(
             if (header == 2) crc <= crc_word(crc, time_of[filling][63:32]);
             if (header == 3) crc <= crc_half(crc, N);
         end else if (caught_new)
-            crc <= crc_word(crc, caught);
+            crc <= crc_word(crc_byte(crc, {1'b0, caught[38:32]}), caught[31:0]);
 
         // The word is caught with the strobe and written a clock later.
-        if (samples) caught <= bus_read_n ? memory[{filling, word}] : bus_data;
+        if (samples) caught <= bus_read_n ? memory[{filling, word[6:0]}] : {bus_addr, bus_data};
         if (caught_new) begin
-            memory[{filling, word}] <= caught;
+            memory[{filling, word[6:0]}] <= caught;
             word <= word + 8'd1;
         end
         if (enters && next == 4'd12) begin
@@ -191,7 +198,7 @@ module grating_card #(
         if (give_back) claimed <= 0;
     end
     assign frame_done = state == 4'd12;
-    assign word_read = memory[{owned, word_asked}];
+    assign {address_read, word_read} = memory[{owned, word_asked}];
     assign sequence_read = sequence_of[owned];
     assign time_read = time_of[owned];
     assign crc_read = crc_of[owned];

@@ -14,8 +14,9 @@ module grating_system #(
     input  logic                clock,
     input  logic                claim,
     input  logic                give_back,
-    input  logic [7:0]          word_asked,
+    input  logic [6:0]          word_asked,
     output logic [CARDS*32-1:0] words_read,
+    output logic [CARDS*7-1:0]  addresses_read,
     output logic [CARDS*32-1:0] sequences_read,
     output logic [CARDS*64-1:0] times_read,
     output logic [CARDS*32-1:0] crcs_read,
@@ -57,9 +58,9 @@ module grating_system #(
     for (genvar i = 0; i < CARDS; i = i + 1) begin : slot
         grating_card #(.N(N), .LISTED(STRIDE != 1 || SHIFT != 0), .LIST(list_of(i < HOSTS ? i : 0)), .HOST(i < HOSTS),
                        .PERIOD(PERIOD), .OFFSET(i < HOSTS ? i * APART : 0)) card (
-            .clock(clock), .bus_clk(clk), .bus_read_n(read_n), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
+            .clock(clock), .bus_clk(clk), .bus_read_n(read_n), .bus_addr(addr), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
             .hold(holds[i]), .read_n(reads_n[i]), .addr(addrs[i]), .claim(claim), .give_back(give_back),
-            .word_asked(word_asked), .word_read(words_read[32*i+:32]), .sequence_read(sequences_read[32*i+:32]),
+            .word_asked(word_asked), .word_read(words_read[32*i+:32]), .address_read(addresses_read[7*i+:7]), .sequence_read(sequences_read[32*i+:32]),
             .time_read(times_read[64*i+:64]), .crc_read(crcs_read[32*i+:32]), .claimed(claimed[i]),
             .frame_done(frame_done[i]), .state(states[4*i+:4]));
     end

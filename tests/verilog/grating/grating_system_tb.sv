@@ -1,6 +1,6 @@
 // Runs grating_system for FRAMES periods and prints what each card does:
 //   state CARD CLOCK STATE                          a state was entered
-//   frame CARD SEQUENCE TIME CRC COUNT ..           the claimed frame, after those of all cards were complete
+//   frame CARD SEQUENCE TIME CRC ADDRESS COUNT ..           the claimed frame, after those of all cards were complete
 //   end CLOCK CONFLICTS CONFLICTS ILLEGAL           clocks with a conflict on clk, on the others; whether a scale was too fast
 `timescale 1ns / 1ns
 
@@ -15,9 +15,11 @@ module grating_system_tb #(
     parameter SHIFT  = 0
 );
     logic                clock = 0, claim = 0, illegal, clk_conflict, conflict;
-    logic [7:0]          word_asked = 0;
+    logic [6:0]          word_asked = 0;
     logic [CARDS*32-1:0] words, sequences, crcs;
     logic [CARDS*64-1:0] times;
+    logic [CARDS*7-1:0]  addresses;
+    logic [6:0]          address [0:CARDS*N-1];
     logic [CARDS-1:0]    claimed, frame_done, done;
     logic [CARDS*4-1:0]  states, was;
     logic [31:0]         frame [0:CARDS*N-1];
@@ -25,7 +27,7 @@ module grating_system_tb #(
 
     grating_system #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD), .HOSTS(HOSTS), .APART(APART),
                     .STRIDE(STRIDE), .SHIFT(SHIFT)) system (
-        .clock(clock), .claim(claim), .give_back(1'b0), .word_asked(word_asked), .words_read(words),
+        .clock(clock), .claim(claim), .give_back(1'b0), .word_asked(word_asked), .words_read(words), .addresses_read(addresses),
         .sequences_read(sequences), .times_read(times), .crcs_read(crcs), .claimed(claimed), .frame_done(frame_done),
         .states(states), .illegal(illegal), .clk_conflict(clk_conflict), .conflict(conflict));
 
@@ -46,17 +48,20 @@ module grating_system_tb #(
             done = done | frame_done;
             claim = &done;
             if (reading >= 0) begin
-                for (i = 0; i < CARDS; i = i + 1) frame[i*N+reading] = words[32*i+:32];
+                for (i = 0; i < CARDS; i = i + 1) begin
+                    frame[i*N+reading] = words[32*i+:32];
+                    address[i*N+reading] = addresses[7*i+:7];
+                end
                 reading = reading + 1;
                 if (reading == N) begin
                     for (i = 0; i < CARDS; i = i + 1) begin
                         $write("frame %0d %0d %0d %0d", i, sequences[32*i+:32], times[64*i+:64], crcs[32*i+:32]);
-                        for (w = 0; w < N; w = w + 1) $write(" %0d", frame[i*N+w]);
+                        for (w = 0; w < N; w = w + 1) $write(" %0d %0d", address[i*N+w], frame[i*N+w]);
                         $write("\n");
                     end
                     reading = -1;
                 end
-                word_asked = reading < 0 ? 8'd0 : reading;
+                word_asked = reading < 0 ? 7'd0 : reading[6:0];
             end
             if (claim) begin
                 reading = -2;

@@ -70,14 +70,21 @@ Result<Reading> GratingCard::take() {
     }
     frame.time = static_cast<std::int64_t>(time);
     frame.crc = read32(offset("CRC_L"));
-    for (std::uint32_t k = 0; k < frame.words; ++k) frame.counts[k] = read32(counts_at + 4 * k);
+    for (std::uint32_t k = 0; k < frame.words; ++k) {
+        frame.counts[k] = read32(counts_at + 4 * k);
+        frame.addresses[k] = static_cast<std::uint8_t>(port_.read(addresses_at + 2 * k));
+    }
     if (!sound(frame))
         return fail(
             Trouble::refused,
             fmt::format("Frame {} has the CRC {:08X}h, but its content gives {:08X}h; its positions were not used.",
                         frame.sequence, frame.crc, crc_of(frame)));
-    for (std::uint32_t k = 0; k < frame.words; ++k)
-        before_[k] = out.positions[k] = unwrapped(before_[k], frame.counts[k]);
+    for (std::uint32_t k = 0; k < frame.words; ++k) {
+        std::int64_t& before = before_[frame.addresses[k]];
+        before = out.positions[k] = unwrapped(before, frame.counts[k]);
+    }
+    addresses_ = frame.addresses;
+    words_ = frame.words;
     return out;
 }
 

@@ -43,6 +43,8 @@ struct Reading {
     Frame frame;
     std::array<std::int64_t, most_scales> positions{};  ///< counts, extended beyond 32 bits from reading to reading
     std::span<const std::int64_t> counts() const { return {positions.data(), frame.words}; }
+    /// Address of the scale of each word, 0 .. 127: those that the host addressed.
+    std::span<const std::uint8_t> addresses() const { return {frame.addresses.data(), frame.words}; }
 };
 
 class GratingCard {
@@ -58,9 +60,12 @@ class GratingCard {
     /// Waits for a frame that was not read yet, and reads it. Errors: refused after `timeout`, stopped where the user
     /// asked to stop, and those of read().
     Result<Reading> wait(Duration timeout);
-    /// From now on scale `n` (0 .. 127) of the frame counts from `count` on where the next reading's low 32 bits allow
-    /// it.
+    /// From now on the scale with the address `n` (0 .. 127) counts from `count` on where the next reading's low 32
+    /// bits allow it.
     void set_position(int n, std::int64_t count) { before_[static_cast<std::size_t>(n)] = count; }
+
+    /// Of the frame read last, the address of the scale of each word; empty before the first.
+    std::span<const std::uint8_t> addresses() const { return {addresses_.data(), words_}; }
 
     bool stale();
     CardErrors errors();
@@ -72,7 +77,9 @@ class GratingCard {
 
     RegisterPort& port_;
     Interrupt& interrupt_;
-    std::array<std::int64_t, most_scales> before_{};
+    std::array<std::int64_t, most_scales> before_{};  // of each scale by its address
+    std::array<std::uint8_t, most_scales> addresses_{};
+    std::uint32_t words_ = 0;
 };
 
 }  // namespace motionrack::grating_bus

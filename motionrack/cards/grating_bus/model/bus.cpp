@@ -100,6 +100,7 @@ void Bus::step(Instant now) {
 
 void Bus::settle(Instant now) {
     drive();
+    if (give_addresses()) drive();
     if (state_.lines.level(Line::clk) != 0 && state_.clk_was == 0) {
         for (Card* card : cards_) card->clock_rose(now);
         drive();  // what was in reset may drive again
@@ -123,6 +124,20 @@ void Bus::settle(Instant now) {
 void Bus::drive() {
     for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->drive(state_.lines, card_driver_[i]);
     state_.lines.settle();
+}
+
+bool Bus::give_addresses() {
+    bool looked = false;
+    for (Card* card : cards_) {
+        Card::Data& s = card->state_;
+        if (s.asks == 0) continue;
+        s.asks = 0;
+        if (!card->is_host()) continue;
+        looked = true;
+        if (state_.lines.level(Line::read_n) == 0)
+            s.addr = static_cast<std::uint32_t>(card->settings().address(s.word));
+    }
+    return looked;
 }
 
 void Bus::look_again(Instant now) {

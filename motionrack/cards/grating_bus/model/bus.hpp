@@ -88,6 +88,8 @@ class Bus final : public sim::Device {
     void settle(Instant now);
     /// All cards put on the lines what they drive.
     void drive();
+    /// Hosts that have just pulled READ low look at it, and give their address if it is low. Whether one looked.
+    bool give_addresses();
     void schedule();
     void show();
     const CardSettings& host() const { return cards_[static_cast<std::size_t>(host_)]->settings(); }

@@ -23,6 +23,22 @@ class Card;
 /// Counts of all scales of a decoder, by their addresses.
 using Latched = std::array<std::uint32_t, most_scales>;
 
+/// Which addresses a frame has.
+class TakenAddresses {
+  public:
+    /// Whether the frame did not have it yet.
+    bool add(std::uint32_t address) {
+        std::uint32_t& word = bits_[address / 32];
+        const std::uint32_t bit = 1u << address % 32;
+        const bool fresh = (word & bit) == 0;
+        word |= bit;
+        return fresh;
+    }
+
+  private:
+    std::array<std::uint32_t, most_scales / 32> bits_{};
+};
+
 /// How much later pulse `n` of a host comes, 0 .. most, that has this seed: the same on every machine.
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most);
 
@@ -110,6 +126,11 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         std::uint32_t published_sequence = 0;
         std::uint32_t any = 0;       // one was published
         std::uint32_t bad_word = 0;  // the word under way was counted as bad
+        std::uint32_t asks = 0;      // a host pulls READ low and has not yet looked at it
+        std::uint16_t other =
+            0;  // of the frame under way: 1 + the first word whose scale is not that of the card's list
+        std::uint16_t was_other = 0;  // of the frame published last
+        TakenAddresses taken;         // by a slave's frame under way
         // counters
         std::uint32_t frames = 0;
         std::array<std::uint16_t, counter_count> counters{};

@@ -53,6 +53,12 @@ std::string what_happened(const sim::Condition& c) {
         case BusCondition::no_register:
             if (c.b < 0) return fmt::format("a read from {:02X}h, where there is no register, gave FFFFh", c.a);
             return fmt::format("{:04X}h was written to {:02X}h, which takes nothing; nothing was changed", c.b, c.a);
+        case BusCondition::other_scale:
+            return fmt::format(
+                "word {} of a frame is that of scale {}, as the host has addressed it, but the card's own list has {} "
+                "there. The frame was published with the addresses that were read; more such words are only counted "
+                "(ALIEN). Give the card the list of the host, or look each scale up by its address",
+                c.a, c.b >> 8, c.b & 255);
         case BusCondition::conflict:
             break;
     }

@@ -38,14 +38,19 @@ constexpr bool is_count(std::uint32_t at) {
     return at >= counts_at && at < counts_at + 4 * most_scales && at % 2 == 0;
 }
 
-constexpr bool is_list(std::uint32_t at) {
-    return at >= list_at && at < list_at + 2 * most_scales && at % 2 == 0;
+/// Whether it is that of an address, of those that begin at `begin`.
+constexpr bool is_address(std::uint32_t at, std::uint32_t begin) {
+    return at >= begin && at < begin + 2 * most_scales && at % 2 == 0;
 }
 
 std::uint16_t frame_word(const Frame& frame, std::uint32_t at) {
     if (is_count(at)) {
         const std::uint32_t k = (at - counts_at) / 4;
         return k < frame.words ? low(frame.counts[k], at % 4 / 2) : std::uint16_t{0};
+    }
+    if (is_address(at, addresses_at)) {
+        const std::uint32_t k = (at - addresses_at) / 2;
+        return k < frame.words ? frame.addresses[k] : std::uint16_t{0};
     }
     switch (at) {
         case offset("SEQUENCE_L"):
@@ -75,14 +80,15 @@ std::uint16_t frame_word(const Frame& frame, std::uint32_t at) {
 
 std::uint16_t Card::peek(std::uint32_t at) const {
     static constexpr Frame nothing{};
-    if (is_count(at) || (at >= offset("SEQUENCE_L") && at <= offset("CRC_H") && at % 2 == 0)) {
+    if (is_count(at) || is_address(at, addresses_at) ||
+        (at >= offset("SEQUENCE_L") && at <= offset("CRC_H") && at % 2 == 0)) {
         const Frame* held = state_.buffers.held();
         return frame_word(held ? *held : nothing, at);
     }
     if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0)
         return state_.counters[(at - offset("BROKEN")) / 2];
     const CardSettings& s = settings_;
-    if (is_list(at)) {
+    if (is_address(at, list_at)) {
         const int k = static_cast<int>(at - list_at) / 2;
         return static_cast<std::uint16_t>(k < s.scales ? s.address(k) : 0);
     }
@@ -128,7 +134,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
 }
 
 std::uint16_t Card::read(std::uint32_t at) {
-    bool known = is_count(at) || is_list(at);
+    bool known = is_count(at) || is_address(at, addresses_at) || is_address(at, list_at);
     for (const RegisterInfo& reg : map::registers) known = known || (reg.access == Access::read && reg.offset == at);
     if (!known) report(BusCondition::no_register, at, -1);
     return peek(at);

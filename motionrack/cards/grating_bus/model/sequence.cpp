@@ -11,6 +11,15 @@ std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
     return static_cast<std::int64_t>(mixed % static_cast<std::uint64_t>(most + 1));
 }
 
+namespace {
+
+void put_word(Frame& frame, int k, std::uint32_t address, std::uint32_t count) {
+    frame.counts[static_cast<std::size_t>(k)] = count;
+    frame.addresses[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(address);
+}
+
+}  // namespace
+
 Instant Card::next() const {
     if (state_.off != 0) return std::min(state_.pulse_at, state_.stale_at);
     return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(state_.pulse_at, state_.fall_at)),
@@ -24,17 +33,24 @@ void Card::sample(const Lines& lines, Instant now) {
     const bool takes = state_.fsm == State::S2 || state_.fsm == State::S8;
     if (!takes && state_.fsm != State::S4 && state_.fsm != State::S10) return;
     const bool read_off = lines.level(Line::read_n) != 0;
-    if (takes && !read_off)
-        state_.buffers.current().counts[static_cast<std::size_t>(state_.word)] = lines.level(Line::data);
+    const std::uint32_t address = lines.level(Line::addr);
+    if (takes && !read_off) put_word(state_.buffers.current(), state_.word, address, lines.level(Line::data));
     if (!settings_.checks) return;
-    if (takes) state_.bad_word = 0;
     const bool clock_wrong = is_host() && lines.level(Line::clk) != state_.clk;
-    if (takes && read_off)
-        spoil(missed_words, bad_missed);
-    else if (takes && lines.level(Line::addr) != static_cast<std::uint32_t>(settings_.address(state_.word)))
-        spoil(alien, bad_alien);
-    else if (takes ? lines.level(Line::hold) == 0 || clock_wrong : !read_off || clock_wrong)
-        spoil(line_faults, bad_lines);
+    const bool line_wrong = clock_wrong || (takes ? lines.level(Line::hold) == 0 : !read_off);
+    if (!takes) {
+        if (line_wrong) spoil(line_faults, bad_lines);
+        return;
+    }
+    state_.bad_word = 0;
+    const auto wanted = static_cast<std::uint32_t>(settings_.address(state_.word));
+    if (read_off) return spoil(missed_words, bad_missed);
+    if (is_host() ? address != wanted : !state_.taken.add(address)) return spoil(alien, bad_alien);
+    if (line_wrong) spoil(line_faults, bad_lines);
+    if (address == wanted) return;
+    // A slave takes what the host addresses; that its own list has another scale there is counted.
+    count(alien);
+    if (state_.other == 0) state_.other = static_cast<std::uint16_t>(1 + state_.word);
 }
 
 /// The word that is being read is no good; it is counted once.
@@ -121,6 +137,8 @@ void Card::begin_frame(Instant now) {
     state_.word = 0;
     state_.bad = 0;
     state_.bad_word = 0;
+    state_.other = 0;
+    state_.taken = {};
     state_.buffers.begin();
 }
 
@@ -142,8 +160,8 @@ void Card::enter(State state, Instant now) {
             break;
         case State::S2:
         case State::S8:
-            state_.addr = static_cast<std::uint32_t>(settings_.address(state_.word));
             state_.read_n = 0;
+            state_.asks = 1;  // the address comes when READ is seen low: Bus::give_addresses
             break;
         case State::S4:
         case State::S10:
@@ -177,9 +195,11 @@ void Card::drive(Lines& lines, int driver) const {
 
 /// The first `words` words from what the decoder has latched.
 void Card::put_words(const Latched& latched, int words) {
-    Frame& frame = state_.buffers.current();
-    for (int k = 0; k < words; ++k)
-        frame.counts[static_cast<std::size_t>(k)] = latched[static_cast<std::size_t>(settings_.address(k))];
+    for (int k = 0; k < words; ++k) {
+        const auto address = static_cast<std::uint32_t>(settings_.address(k));
+        put_word(state_.buffers.current(), k, address, latched[address]);
+        state_.taken.add(address);
+    }
 }
 
 /// `like`: a frame with the same counts whose CRC is known; may be nullptr.
@@ -192,6 +212,12 @@ void Card::publish(Instant now, const Frame* like) {
     const bool known =
         like && like->sequence == frame.sequence && like->time == frame.time && like->words == frame.words;
     frame.crc = known ? like->crc : crc_of(frame);
+    if (state_.other != 0 && state_.was_other == 0) {
+        const int word = state_.other - 1;
+        const std::int64_t address = frame.addresses[static_cast<std::size_t>(word)];
+        report(BusCondition::other_scale, word, address << 8 | settings_.address(word));
+    }
+    state_.was_other = state_.other;
     hand_out(now, state_.frame_time);
 }
 

@@ -28,7 +28,7 @@ ServoLoop::ServoLoop(const ServoSettings& settings) : settings_(settings) {
     static_assert(std::is_trivially_copyable_v<ServoLoop> &&
                       sizeof(ServoLoop) == sizeof(ServoSettings) + sizeof(FollowingError) + 8 * 7,
                   "padding would get into the hash of what holds it");
-    MOTIONRACK_ASSERT(settings.word < most_scales && settings.nm_per_count != 0);
+    MOTIONRACK_ASSERT(settings.scale < most_scales && settings.nm_per_count != 0);
     MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0 && settings.limit_nm >= 0);
 }
 
@@ -39,17 +39,19 @@ void ServoLoop::close(std::int64_t count) {
     begun_ = 0;
 }
 
-bool ServoLoop::usable(const Frame& frame) const {
-    return sound(frame) && settings_.word < frame.words && (begun_ == 0 || frame.instant() > last_);
+std::optional<std::uint32_t> ServoLoop::usable(const Frame& frame) const {
+    if (!sound(frame) || (begun_ != 0 && frame.instant() <= last_)) return std::nullopt;
+    return word_of(frame, settings_.scale);
 }
 
 double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     if (!closed()) return volts_;
-    if (!usable(frame)) {
+    const std::optional<std::uint32_t> word = usable(frame);
+    if (!word) {
         ++unused_;
         return volts_;
     }
-    count_ = unwrapped(count_, frame.counts[settings_.word]);
+    count_ = unwrapped(count_, frame.counts[*word]);
     const double error = wanted.position_nm - position_nm();
     const double seconds = begun_ != 0 ? to_seconds(frame.instant() - last_) : 0;
     const double slope = begun_ != 0 ? (error - before_) / seconds : 0;

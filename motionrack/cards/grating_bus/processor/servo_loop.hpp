@@ -31,7 +31,7 @@ struct ServoGains {
 ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
 
 struct ServoSettings {
-    std::uint64_t word = 0;   ///< of the frame, 0 .. 127
+    std::uint64_t scale = 0;  ///< its address, 0 .. 127: the frame's word is looked up by it
     double nm_per_count = 1;  ///< not 0; negative: the scale counts the other way
     double zero_nm = 0;       ///< where the scale's count is 0
     ServoGains gains;
@@ -81,12 +81,13 @@ class ServoLoop {
     std::int64_t count() const { return count_; }
     const FollowingError& error() const { return error_; }
     void reset_error() { error_ = {}; }
-    /// Frames that were not used: damaged, without this word, not newer than the last one.
+    /// Frames that were not used: damaged, without this scale, not newer than the last one.
     std::uint64_t unused() const { return unused_; }
     const ServoSettings& settings() const { return settings_; }
 
   private:
-    bool usable(const Frame& frame) const;
+    /// The word of the loop's scale, if the frame can be used.
+    std::optional<std::uint32_t> usable(const Frame& frame) const;
     double open(LoopState why);
 
     ServoSettings settings_;

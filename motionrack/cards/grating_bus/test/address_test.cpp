@@ -2,22 +2,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "rig.hpp"
 
 namespace motionrack::grating_bus {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
-constexpr Duration period = microseconds(200);
+constexpr Duration frame_period = microseconds(200);
 
 TEST(GratingBus, SevenLinesAddress128Scales) {
     Crate crate(crew(1, 128), 128);
     EXPECT_NE(crate.kernel.find_wire("bus.addr6"), sim::WireId::none);
     EXPECT_EQ(crate.kernel.find_wire("bus.addr7"), sim::WireId::none);
     EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), 0x7F) << "at rest";
-    crate.run(2 * period - nanoseconds(1));
+    crate.run(2 * frame_period - nanoseconds(1));
     for (const std::size_t card : {0, 1}) {
         ASSERT_EQ(crate.heard(card).size(), 2u);
         for (int k = 0; k < 128; ++k)
@@ -34,7 +38,7 @@ TEST(GratingBus, AnyListOfAddressesIsReadInItsOrder) {
         for (CardSettings& s : settings) s.addresses = list;
         Crate crate(settings, 128);
         if (watched) crate.watch_wires();
-        crate.run(period + nanoseconds(20) + Timing{}.word_time());
+        crate.run(frame_period + nanoseconds(20) + Timing{}.word_time());
         for (const int address : {2, 9, 127}) {
             EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), address);
             crate.run(Timing{}.word_time());
@@ -42,13 +46,15 @@ TEST(GratingBus, AnyListOfAddressesIsReadInItsOrder) {
         EXPECT_EQ(crate.cards[2]->peek(list_at), 5);
         EXPECT_EQ(crate.cards[2]->peek(list_at + 6), 127);
         EXPECT_EQ(crate.cards[2]->peek(offset("FIRST")), 5);
-        crate.run(10 * period);
+        crate.run(10 * frame_period);
         for (std::size_t card = 0; card < 3; ++card) {
             ASSERT_GE(crate.heard(card).size(), 11u);
             for (const Heard& heard : crate.heard(card))
-                for (std::size_t k = 0; k < list.size(); ++k)
+                for (std::size_t k = 0; k < list.size(); ++k) {
+                    ASSERT_EQ(heard.frame.addresses[k], list[k]);
                     ASSERT_EQ(heard.frame.counts[k],
                               static_cast<std::uint32_t>(crate.truth(list[k], heard.frame.instant())));
+                }
         }
         EXPECT_TRUE(crate.sentences().empty());
     }
@@ -59,7 +65,7 @@ TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
     settings[0].addresses = {1, 2}, settings[1].addresses = {2, 1};
     for (CardSettings& s : settings) s.checks = false;
     Crate crate(settings);
-    crate.run(10 * period - nanoseconds(1));
+    crate.run(10 * frame_period - nanoseconds(1));
     for (const Line line : {Line::clk, Line::hold, Line::read_n})
         EXPECT_EQ(crate.bus.lines().conflicts(line), 0u) << "their clocks are one";
     EXPECT_EQ(crate.bus.lines().conflicts(Line::addr), 10u);
@@ -72,7 +78,7 @@ TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
                 << "1 and 2 give 0: a scale that neither wants";
     for (CardSettings& s : settings) s.checks = true;
     Crate careful(settings);
-    careful.run(10 * period);
+    careful.run(10 * frame_period);
     EXPECT_TRUE(careful.heard(0).empty() && careful.heard(1).empty());
     EXPECT_GE(careful.cards[0]->counter(Card::alien), 18);
 }
@@ -103,6 +109,91 @@ TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsPlace) {
     s = host_settings(2);
     s.addresses = {4, 4};
     EXPECT_THAT(check(s).error().message, HasSubstr("twice"));
+}
+
+TEST(GratingBus, TheHostGivesTheAddressOnlyWhenItSeesReadLow) {
+    for (const int level : {1, 0}) {
+        Crate crate(crew(1));
+        crate.watch_wires();
+        crate.run(frame_period - microseconds(1));
+        crate.kernel.force(crate.kernel.find_wire("bus.read_n"), level);
+        crate.kernel.settle();
+        std::set<int> addresses;
+        while (crate.kernel.now() < frame_period + microseconds(1)) {
+            crate.run(nanoseconds(10));
+            addresses.insert(crate.kernel.level(crate.kernel.find_wire("bus.addr")));
+        }
+        if (level == 1) {
+            EXPECT_EQ(addresses, std::set<int>{0x7F}) << "READ that stays high leaves the address at rest";
+        } else {
+            EXPECT_EQ(addresses, (std::set<int>{0, 1, 2, 3, 0x7F}));
+        }
+        EXPECT_EQ(crate.heard(0).size(), 1u);
+        EXPECT_EQ(crate.cards[0]->counter(Card::missed_words), level == 1 ? 4 : 0);
+        crate.kernel.release(crate.kernel.find_wire("bus.read_n"));
+        crate.kernel.settle();
+        crate.run(frame_period);
+        EXPECT_EQ(crate.heard(0).size(), 2u);
+        EXPECT_TRUE(same(crate.heard(1)[1].frame, crate.heard(0)[1].frame));
+    }
+}
+
+TEST(GratingBus, AHostDoesNotGiveTheAddressLaterWhenItHasSeenReadHigh) {
+    Crate crate(crew(1));
+    crate.run(frame_period - microseconds(1));
+    crate.kernel.force(crate.kernel.find_wire("bus.read_n"), 1);
+    crate.kernel.settle();
+    crate.run_to(frame_period + nanoseconds(45));  // 5 ns before the sample: too late for the decoder
+    crate.kernel.release(crate.kernel.find_wire("bus.read_n"));
+    crate.kernel.settle();
+    EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.read_n")), 0);
+    EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), 0x7F);
+    crate.run(microseconds(2));
+    EXPECT_EQ(crate.heard(0).size(), 1u);
+    EXPECT_EQ(crate.cards[0]->counter(Card::alien), 1);
+}
+
+TEST(GratingBus, ASlaveTakesTheAddressesOfTheHostWhateverItsOwnListSays) {
+    std::vector<CardSettings> settings = crew(2, 3);
+    settings[0].addresses = {5, 2, 9};
+    settings[1].addresses = {9, 2, 5};
+    Crate crate(settings, 10);
+    crate.run(5 * frame_period - nanoseconds(1));
+    for (const std::size_t card : {0, 1, 2}) {
+        ASSERT_EQ(crate.heard(card).size(), 5u);
+        for (std::size_t i = 0; i < 5; ++i) {
+            const Frame& frame = crate.heard(card)[i].frame;
+            EXPECT_TRUE(same(frame, crate.heard(0)[i].frame));
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_EQ(frame.addresses[k], settings[0].addresses[k]);
+                EXPECT_EQ(frame.counts[k],
+                          static_cast<std::uint32_t>(crate.truth(settings[0].addresses[k], frame.instant())));
+            }
+        }
+    }
+    EXPECT_EQ(crate.cards[1]->counter(Card::alien), 10) << "2 of 3 words are not where its own list has them";
+    EXPECT_EQ(crate.cards[2]->counter(Card::alien), 15);
+    EXPECT_EQ(crate.cards[2]->counter(Card::broken), 0);
+    EXPECT_EQ(crate.sentences().size(), 2u) << "each tells it once";
+    EXPECT_THAT(crate.sentences(),
+                Contains(AllOf(HasSubstr("card c2"), HasSubstr("word 0 of a frame is that of scale 5"),
+                               HasSubstr("own list has 0 there"))));
+    crate.cards[1]->write(offset("CONTROL"), 1);
+    EXPECT_EQ(crate.cards[1]->read(addresses_at), 5) << "the registers tell which scales the frame has";
+    EXPECT_EQ(crate.cards[1]->read(addresses_at + 4), 9);
+    EXPECT_EQ(crate.cards[1]->read(list_at), 9);
+}
+
+TEST(GratingBus, AnAddressThatComesTwiceInAFrameMakesItBad) {
+    std::vector<CardSettings> settings = crew(1, 2);
+    Crate crate(settings, 4);
+    crate.kernel.force(crate.kernel.find_wire("bus.addr0"), 1);
+    crate.kernel.settle();
+    crate.run(3 * frame_period);
+    EXPECT_TRUE(crate.heard(1).empty()) << "scale 1 twice: a line is stuck";
+    EXPECT_EQ(crate.cards[1]->counter(Card::broken), 3);
+    EXPECT_EQ(crate.cards[1]->counter(Card::alien), 6);
+    for (const std::string& sentence : crate.sentences()) EXPECT_THAT(sentence, Not(HasSubstr("own list")));
 }
 
 }  // namespace

@@ -212,9 +212,9 @@ TEST_P(GratingBusStuck, NoCardPublishesAWrongFrameAndThoseWithoutSaySo) {
     const bool deaf = stuck.wire == std::string_view("bus.clk") && stuck.level == 1;  // only slaves need clk to rise
     for (std::size_t card = 0; card < 3; ++card) {
         for (const Heard& heard : crate.heard(card))
-            for (int k = 0; k < 4; ++k)
-                EXPECT_EQ(heard.frame.counts[static_cast<std::size_t>(k)],
-                          static_cast<std::uint32_t>(crate.truth(k, heard.frame.instant())));
+            for (std::size_t k = 0; k < 4; ++k)
+                EXPECT_EQ(heard.frame.counts[k],
+                          static_cast<std::uint32_t>(crate.truth(heard.frame.addresses[k], heard.frame.instant())));
         if (deaf && card == 0) continue;
         EXPECT_LE(crate.heard(card).size(), 5u);
         EXPECT_TRUE(crate.status(card) & stale_bit) << card;

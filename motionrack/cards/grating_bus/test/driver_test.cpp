@@ -56,6 +56,19 @@ TEST(GratingCardLibrary, KnowsTheListOfTheCard) {
     EXPECT_EQ(std::vector<int>(slave->addresses().begin(), slave->addresses().end()), (std::vector<int>{5, 2, 9}));
 }
 
+TEST(GratingCardLibrary, TellsWhichScalesAFrameHasAndFollowsEachByItsAddress) {
+    std::vector<CardSettings> settings = crew(1, 3);
+    settings[0].addresses = {5, 2, 9};
+    Bench bench(settings, 10);
+    bench.libraries[1]->set_position(9, std::int64_t{3} << 32);
+    const auto reading = bench.libraries[1]->wait(2 * driver_period);
+    ASSERT_TRUE(reading) << reading.error().message;
+    EXPECT_EQ(std::vector<int>(reading->addresses().begin(), reading->addresses().end()), (std::vector<int>{5, 2, 9}));
+    EXPECT_EQ(reading->counts()[0], bench.truth(5, reading->frame.instant()));
+    EXPECT_EQ(reading->counts()[2], (std::int64_t{3} << 32) + bench.truth(9, reading->frame.instant()));
+    EXPECT_EQ(bench.libraries[1]->errors().alien, 3) << "its own list is 0, 1, 2";
+}
+
 TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {
     Bench bench(crew(3));
     bench.run(7 * driver_period + microseconds(30));

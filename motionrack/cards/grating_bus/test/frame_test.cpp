@@ -14,8 +14,19 @@ Frame example() {
     frame.counts[0] = 1;
     frame.counts[1] = 0xFFFFFFFF;
     frame.counts[2] = 123'456'789;
+    frame.addresses = {5, 2, 9};
     frame.crc = crc_of(frame);
     return frame;
+}
+
+TEST(GratingFrame, FindsAScaleByItsAddress) {
+    const Frame frame = example();
+    EXPECT_EQ(word_of(frame, 2), 1u);
+    EXPECT_EQ(word_of(frame, 9), 2u);
+    EXPECT_EQ(word_of(frame, 0), std::nullopt) << "what is beyond its words is none of it";
+    Frame other = frame;
+    other.addresses = {5, 9, 2};
+    EXPECT_FALSE(same(frame, other));
 }
 
 TEST(GratingFrame, IsSoundWithItsOwnCrcOnly) {
@@ -26,6 +37,12 @@ TEST(GratingFrame, IsSoundWithItsOwnCrcOnly) {
     frame = example();
     ++frame.sequence;
     EXPECT_FALSE(sound(frame));
+    frame = example();
+    frame.addresses[2] ^= 1;
+    EXPECT_FALSE(sound(frame)) << "which scale it is is covered, too";
+    frame.addresses[2] = 128;
+    frame.crc = crc_of(frame);
+    EXPECT_FALSE(sound(frame)) << "seven lines have no such address";
     frame = example();
     frame.words = 0;
     frame.crc = crc_of(frame);

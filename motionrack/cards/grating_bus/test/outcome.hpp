@@ -28,5 +28,7 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at);
 std::size_t first_compared(std::size_t conflicts);
 /// Numbers with blanks between them.
 std::string row(std::initializer_list<std::int64_t> numbers);
+/// Address and count of each word.
+std::string words_of(const Frame& frame);
 
 }  // namespace motionrack::grating_bus::twin

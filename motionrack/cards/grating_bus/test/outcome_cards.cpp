@@ -61,9 +61,7 @@ grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t se
 }
 
 std::string text_of_cards(const Frame& frame) {
-    std::string out = row({frame.sequence, frame.time, frame.words, frame.crc});
-    for (const std::uint32_t count : frame.positions()) out.append(row({count}));
-    return out;
+    return row({frame.sequence, frame.time, frame.words, frame.crc}).append(words_of(frame));
 }
 
 /// The program's cards, then its decoder.
@@ -187,7 +185,8 @@ void World::look(Outcome& out, Ticks at) const {
         const std::int64_t words = card.peek(offset("WORDS"));
         text.append(row({two(offset("SEQUENCE_L")), two(offset("TIME_0")) | two(offset("TIME_2")) << 32, words,
                          two(offset("CRC_L"))}));
-        for (std::uint32_t k = 0; k < words; ++k) text.append(row({two(counts_at + 4 * k)}));
+        for (std::uint32_t k = 0; k < words; ++k)
+            text.append(row({card.peek(addresses_at + 2 * k), two(counts_at + 4 * k)}));
         out.looks.push_back(text);
     }
 }

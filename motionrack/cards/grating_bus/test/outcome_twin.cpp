@@ -88,7 +88,7 @@ void look(Outcome& out, const Twin& twin, Ticks at, std::size_t cards) {
                     c.missed_edges, c.overrun});
         const Frame frame = twin.claimed_frame(card);
         text.append(row({frame.sequence, frame.time, frame.words, frame.crc}));
-        for (const std::uint32_t count : frame.positions()) text.append(row({count}));
+        text.append(words_of(frame));
         out.looks.push_back(text);
     }
 }
@@ -105,6 +105,12 @@ std::string row(std::initializer_list<std::int64_t> numbers) {
     return out;
 }
 
+std::string words_of(const Frame& frame) {
+    std::string out;
+    for (std::uint32_t k = 0; k < frame.words; ++k) out.append(row({frame.addresses[k], frame.counts[k]}));
+    return out;
+}
+
 Outcome on_twin(const Program& program) {
     Twin twin = twin_of(program);
     Outcome out;
@@ -117,7 +123,7 @@ Outcome on_twin(const Program& program) {
         for (const Published& published : twin.frames(card)) {
             const Frame& frame = published.frame;
             std::string text = row({card, published.at, frame.sequence, frame.time, frame.words, frame.crc});
-            for (const std::uint32_t count : frame.positions()) text.append(row({count}));
+            text.append(words_of(frame));
             out.frames.push_back(text);
         }
         const Ticks two = 2 * program.cards[i].period;

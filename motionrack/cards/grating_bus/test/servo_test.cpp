@@ -99,7 +99,7 @@ struct Axis {
     }
     ServoSettings settings(double bandwidth_hz, const parts::LinearStageSettings& s) const {
         ServoSettings out;
-        out.word = 2;
+        out.scale = 7;
         out.nm_per_count = scale.nm_per_count();
         out.gains = tuned(bandwidth_hz, s.accel_per_volt, s.viscous);
         return out;
@@ -109,7 +109,9 @@ struct Axis {
         frame.time = time.count();
         frame.sequence = sequence++;
         frame.words = 3;
-        frame.counts[2] = static_cast<std::uint32_t>(scale.count(kernel.now()));
+        const std::size_t word = frame.sequence % 3;  // wherever the scale is in the frame
+        for (std::size_t k = 0; k < 3; ++k) frame.addresses[k] = k == word ? 7 : static_cast<std::uint8_t>(k);
+        frame.counts[word] = static_cast<std::uint32_t>(scale.count(kernel.now()));
         frame.crc = crc_of(frame);
         return frame;
     }
@@ -267,11 +269,11 @@ TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
     EXPECT_GT(volts, 0);
     EXPECT_EQ(axis.loop.on_frame(frame, {5'000, 0, 0}), volts) << "the same once more";
     Frame later = axis.latch(2 * servo_period);
-    later.counts[2] += 1'000;
+    later.counts[1] += 1'000;
     EXPECT_EQ(axis.loop.on_frame(later, wanted), volts) << "damaged";
-    later.words = 2;
+    later.words = 1;
     later.crc = crc_of(later);
-    EXPECT_EQ(axis.loop.on_frame(later, wanted), volts) << "without this word";
+    EXPECT_EQ(axis.loop.on_frame(later, wanted), volts) << "without this scale";
     EXPECT_EQ(axis.loop.unused(), 3u);
     EXPECT_EQ(axis.loop.error().frames, 1u);
     ServoSettings limited = axis.loop.settings();
@@ -282,7 +284,7 @@ TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
     // A scale that wraps: the count next to the last one.
     ServoLoop far(axis.loop.settings());
     far.close(5'000'000'000);
-    frame.counts[2] = static_cast<std::uint32_t>(5'000'000'123);
+    frame.counts[0] = static_cast<std::uint32_t>(5'000'000'123);
     frame.crc = crc_of(frame);
     far.on_frame(frame, {});
     EXPECT_EQ(far.count(), 5'000'000'123);

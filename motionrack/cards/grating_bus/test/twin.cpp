@@ -75,6 +75,12 @@ void Twin::settle() {
         const Levels old = levels_;
         for (const Line line : {clk, hold, read_n, addr}) take_levels(line);
         again = levels_ != old;
+        for (Card& card : cards_) {
+            if (!card.asks) continue;
+            card.asks = false;
+            if (levels_[read_n] == 0) card.address_pin = card.settings.address(card.word);
+            again = true;
+        }
         if (old[clk] == 0 && levels_[clk] == 1)
             for (Card& card : cards_)
                 if (!card.settings.host) edge(card);
@@ -146,6 +152,7 @@ void Twin::start(Card& card) {
     card.frame_sequence = card.sequence;
     card.word = 0;
     card.frame_bad = false;
+    card.taken.clear();
     if (card.claimed != none)
         card.filling = 1 - card.claimed;
     else
@@ -200,7 +207,7 @@ void Twin::enter(Card& card, int state) {
             break;
         case 2:
         case 8:
-            if (drives) card.read_pin = 0, card.address_pin = card.settings.address(card.word);
+            if (drives) card.read_pin = 0, card.asks = true;
             break;
         case 3:
         case 9:
@@ -230,15 +237,19 @@ void Twin::bad_word(Card& card, std::uint32_t& counter) {
 void Twin::sample(Card& card) {
     card.word_bad = false;
     Frame& frame = card.buffer[static_cast<std::size_t>(card.filling)];
-    std::uint32_t& count = frame.counts[static_cast<std::size_t>(card.word)];
-    if (before_[read_n] == 0) count = before_[data];
+    const auto word = static_cast<std::size_t>(card.word);
+    if (before_[read_n] == 0) {
+        frame.counts[word] = before_[data];
+        frame.addresses[word] = static_cast<std::uint8_t>(before_[addr]);
+    }
     if (!card.settings.checks) return;
-    if (before_[read_n] != 0)
-        bad_word(card, card.counters.missed_words);
-    else if (before_[addr] != card.settings.address(card.word))
-        bad_word(card, card.counters.alien);
-    else if (before_[hold] != 1 || (card.settings.host && before_[clk] != (card.own_clock_before ? 1u : 0u)))
+    if (before_[read_n] != 0) return bad_word(card, card.counters.missed_words);
+    const bool wanted = before_[addr] == card.settings.address(card.word);
+    const bool takes = card.settings.host ? wanted : card.taken.insert(before_[addr]).second;
+    if (!takes) return bad_word(card, card.counters.alien);
+    if (before_[hold] != 1 || (card.settings.host && before_[clk] != (card.own_clock_before ? 1u : 0u)))
         bad_word(card, card.counters.lines);
+    if (!wanted) count_up(card.counters.alien);
 }
 
 void Twin::check_read_ended(Card& card) {
@@ -294,7 +305,7 @@ void Twin::begin_anew(Card& card) {
     if (card.state != 0) card.states.push_back({now_, 0});
     card.state = 0;
     card.leaves_at = card.start_at = card.clock_falls = nothing_due;
-    card.own_clock = card.own_clock_before = false;
+    card.own_clock = card.own_clock_before = card.asks = false;
     card.hold_pin = 0, card.read_pin = 1, card.address_pin = rest[addr];
     abandon(card);
     card.silent = true;

@@ -151,6 +151,8 @@ class Twin {
         bool word_bad = false, frame_bad = false, row_bad = false;
         // What it drives, behind its shifters.
         std::uint32_t hold_pin = 0, read_pin = 1, address_pin = rest[addr];
+        bool asks = false;              // pulls READ low at this instant, and will look at it
+        std::set<std::uint32_t> taken;  // addresses of the frame under way
         // The buffers.
         std::array<Frame, 2> buffer;
         int filling = none, published = none, claimed = none;

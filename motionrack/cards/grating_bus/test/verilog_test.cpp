@@ -26,7 +26,7 @@ struct System {
     int stride = 1, shift = 0;  ///< word k of host h is that of scale (k stride + h shift) mod words
 };
 
-/// What both show, as text: "card clock state" and "card sequence time crc counts..".
+/// What both show, as text: "card clock state" and "card sequence time crc, then address and count of each word".
 struct Shown {
     std::vector<std::vector<std::string>> states, frames;
     std::string end;
@@ -117,7 +117,11 @@ Shown run_twin(const System& system) {
             const Frame& frame = published.frame;
             std::string text =
                 std::to_string(frame.sequence) + " " + std::to_string(frame.time) + " " + std::to_string(frame.crc);
-            for (const std::uint32_t count : frame.positions()) text.append(" ").append(std::to_string(count));
+            for (std::uint32_t k = 0; k < frame.words; ++k)
+                text.append(" ")
+                    .append(std::to_string(frame.addresses[k]))
+                    .append(" ")
+                    .append(std::to_string(frame.counts[k]));
             frames.push_back(text);
         }
     }
