@@ -113,6 +113,30 @@ MR_API int mr_write32(mr_rack* rack, const char* card, uint32_t offset, uint32_t
  * MR_BAD_CALL. */
 MR_API int mr_peek(mr_rack* rack, const char* card, const char* register_name, uint64_t* value);
 
+/* ---- Frames of a grating bus ---- */
+
+enum { MR_MAX_SCALES = 128 }; /* of a frame */
+
+/* The scales of one instant, as a card of type grating_bus holds them. Entries from `words` on are 0. A count is the
+ * low 32 bits of its scale's: (int32_t)(now - before) is the way between two frames, while that is less than 2^31. */
+typedef struct mr_frame {
+    uint32_t sequence;                /* number of the bus' period, wraps */
+    uint32_t words;                   /* 1 .. MR_MAX_SCALES: scales of the frame */
+    int64_t time_100ps;               /* the instant of HOLD, in 100 ps since the rack was opened */
+    uint32_t counts[MR_MAX_SCALES];   /* of each word */
+    uint8_t addresses[MR_MAX_SCALES]; /* 0 .. 127: which scale each word is of, as the host addressed it */
+} mr_frame;
+
+/* The frame that the card has published last: claims its buffer, copies it by the card's registers, gives the buffer
+ * back and checks the CRC. That takes bus_access_ns of the rack file for each of some 12 + 3 words accesses, also where
+ * it is refused. `frame` is left alone if it fails. MR_BAD_CALL (null, no such card, one of another type), MR_REFUSED
+ * (no frame yet; the last one is stale, two periods old, and its positions must not be used; its CRC is wrong). */
+MR_API int mr_frame_read(mr_rack* rack, const char* card, mr_frame* frame);
+
+/* The same with the next frame that was not read yet: the world runs until there is one, for timeout_ns (0 ..
+ * 1,000,000,000,000,000) at most. MR_BAD_CALL, MR_REFUSED (those of mr_frame_read; no frame came within that time). */
+MR_API int mr_frame_wait(mr_rack* rack, const char* card, uint64_t timeout_ns, mr_frame* frame);
+
 /* ---- Wires ---- */
 
 /* Wires are called CARD.PIN ("c1.xlmtp"), NAME.END for the ends of an axis' parts ("X.limit_plus"), or "estop" (low

@@ -42,13 +42,19 @@ Result<void> Session::room_for(Duration time) const {
                             to_seconds(now()), to_seconds(latest)));
 }
 
-Result<void> Session::advance(std::uint64_t ns) {
+/// `ns` as a time that the rack has left.
+Result<Duration> Session::time_of(std::uint64_t ns) const {
     if (ns > most_ns)
         return fail(Trouble::refused, fmt::format("{} ns are more than one call may run, {} ns; nothing was run. Call "
                                                   "several times.",
                                                   ns, most_ns));
     const Duration time = nanoseconds(static_cast<std::int64_t>(ns));
     MOTIONRACK_CHECK(room_for(time));
+    return time;
+}
+
+Result<void> Session::advance(std::uint64_t ns) {
+    MOTIONRACK_TRY(const Duration time, time_of(ns));
     run_to(now() + time);
     return {};
 }
@@ -89,6 +95,21 @@ Result<void> Session::write(std::string_view card, int bits, std::uint32_t addre
     on->bus_write(bits, address, value);
     look();
     return {};
+}
+
+Result<bool> Session::wait(std::string_view card, std::uint64_t ns) {
+    MOTIONRACK_TRY(Card * on, card_named(rack_, card));
+    MOTIONRACK_TRY(const Duration time, time_of(ns));
+    constexpr Duration drained_within = microseconds(10);  // what a recording has is fetched so often
+    const Instant end = now() + time;
+    bool active = false;
+    for (look(); !active; look()) {
+        const Duration left = end - now();
+        active = on->host().wait(recorder_ ? std::min({left, drained_within, next_look_ - now()}) : left);
+        if (recorder_) recorder_->drain();
+        if (now() >= end) break;
+    }
+    return active;
 }
 
 Result<std::int64_t> Session::peek(std::string_view card, std::string_view name) {

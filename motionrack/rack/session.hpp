@@ -42,6 +42,10 @@ class Session {
     Result<std::uint32_t> read(std::string_view card, int bits, std::uint32_t address);
     Result<void> write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value);
 
+    /// Lets the world run until the card's interrupt is active, for `ns` nanoseconds at most; whether it is active.
+    /// Errors: bad_input (there is no such card), those of advance.
+    Result<bool> wait(std::string_view card, std::uint64_t ns);
+
     /// A register or value of a card by its name, without effects: see Card::inspect. Takes no time. Errors: bad_input.
     Result<std::int64_t> peek(std::string_view card, std::string_view name);
 
@@ -87,6 +91,7 @@ class Session {
     explicit Session(const RackConfig& config);
     Instant now() const { return rack_.kernel().now(); }
     Result<void> room_for(Duration time) const;
+    Result<Duration> time_of(std::uint64_t ns) const;
     void run_to(Instant until);
     void run_slice(Instant until);
     void look();

@@ -14,7 +14,6 @@ using motionrack::Result;
 using motionrack::Trouble;
 using motionrack::rack::Session;
 
-constexpr const char* no_card = "The card's name is a null pointer. Nothing was done.";
 constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
 constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";

@@ -1,0 +1,98 @@
+// The frames of motionrack/c.h over the function library of the grating bus' cards.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/cards/grating_bus/driver/grating_card.hpp>
+#include <motionrack/frontends/c/calls.hpp>
+#include <motionrack/rack/bus_access.hpp>
+#include <optional>
+
+namespace {
+
+using namespace motionrack;
+using namespace motionrack::c;
+namespace gb = grating_bus;
+
+static_assert(MR_MAX_SCALES == gb::most_scales && sizeof(mr_frame::counts) == sizeof(gb::Frame::counts) &&
+              sizeof(mr_frame::addresses) == sizeof(gb::Frame::addresses));
+
+constexpr const char* no_frame = "There is no place for the frame: it is a null pointer. Nothing was done.";
+
+/// A card's registers and interrupt as a program with the rack has them; the first error is kept.
+class SessionPort final : public RegisterPort, public Interrupt {
+  public:
+    SessionPort(rack::Session& session, std::string_view card) : session_(session), card_(card) {}
+
+    void write(std::uint32_t offset, std::uint16_t value) override { keep(session_.write(card_, 16, offset, value)); }
+    std::uint16_t read(std::uint32_t offset) override {
+        const auto value = keep(session_.read(card_, 16, offset));
+        return value ? static_cast<std::uint16_t>(*value) : std::uint16_t{0xFFFF};
+    }
+    bool wait(Duration timeout) override {
+        const auto active = keep(session_.wait(card_, static_cast<std::uint64_t>(timeout.count() + 9) / 10));
+        return active && *active;
+    }
+    void pass(Duration duration) override {
+        keep(session_.advance(static_cast<std::uint64_t>(duration.count() + 9) / 10));
+    }
+    Instant now() const override { return session_.rack().kernel().now(); }
+    /// After an error nothing is waited for.
+    bool stop_requested() const override { return error_.has_value(); }
+    const std::optional<Error>& error() const { return error_; }
+
+  private:
+    template <class Value>
+    Result<Value> keep(Result<Value> result) {
+        if (!result && !error_) error_ = result.error();
+        return result;
+    }
+
+    rack::Session& session_;
+    std::string_view card_;
+    std::optional<Error> error_;
+};
+
+void copy(const gb::Frame& from, mr_frame& to) {
+    to = mr_frame{};
+    to.sequence = from.sequence;
+    to.words = from.words;
+    to.time_100ps = from.time;
+    std::copy_n(from.counts.begin(), from.words, to.counts);
+    std::copy_n(from.addresses.begin(), from.words, to.addresses);
+}
+
+/// What `take` gives of the card's library.
+template <class Take>
+Result<void> read_frame(rack::Session& session, std::string_view name, mr_frame& frame, Take take) {
+    MOTIONRACK_TRY(const rack::Card* card, rack::card_named(session.rack(), name));
+    if (card->map().name != gb::card_map().name)
+        return fail(Trouble::bad_input,
+                    fmt::format("Card {} is a {}, which has no frames; a grating_bus has. Nothing was done.", name,
+                                card->map().name));
+    SessionPort port(session, name);
+    gb::GratingCard library(port, port);
+    const Result<gb::Reading> reading = take(library);
+    if (port.error()) return tl::unexpected<Error>(*port.error());
+    if (!reading) return tl::unexpected<Error>(reading.error());
+    copy(reading->frame, frame);
+    return {};
+}
+
+}  // namespace
+
+int mr_frame_read(mr_rack* rack, const char* card, mr_frame* frame) {
+    return guarded({{rack, no_rack}, {card, no_card}, {frame, no_frame}}, [&] {
+        return read_frame(*rack->session, card, *frame, [](gb::GratingCard& library) { return library.read(); });
+    });
+}
+
+int mr_frame_wait(mr_rack* rack, const char* card, uint64_t timeout_ns, mr_frame* frame) {
+    return guarded({{rack, no_rack}, {card, no_card}, {frame, no_frame}}, [&]() -> Result<void> {
+        if (timeout_ns > rack::Session::most_ns)
+            return fail(Trouble::refused, fmt::format("The timeout is {} ns, but {} ns are the most. Nothing was done.",
+                                                      timeout_ns, rack::Session::most_ns));
+        const Duration timeout = nanoseconds(static_cast<std::int64_t>(timeout_ns));
+        return read_frame(*rack->session, card, *frame,
+                          [&](gb::GratingCard& library) { return library.wait(timeout); });
+    });
+}
