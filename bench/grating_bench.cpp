@@ -1,5 +1,5 @@
 // Frames of the grating bus a second of one core: the virtual cards, and beside them the clocked simulation that
-// verilator makes of tests/verilog/grating, where it is installed.
+// verilator makes of hdl/grating_bus, where it is installed.
 //
 // Eight moving scales, a host and ten slaves, 200 us a period, which is 20,000 clocks of 100 MHz. `frames/s` counts
 // periods, in each of which every card publishes its frame with its CRC; `baseline/s` is the clocked simulation,
@@ -52,7 +52,7 @@ class Clocked {
         system_->claim = 0;
         for (int word = 0; word < words; ++word) {
             system_->word_asked = static_cast<std::uint8_t>(word);
-            system_->eval();
+            run(1);
             for (int card = 1; card <= slaves; ++card)
                 if (system_->words_read[card] != system_->words_read[0] ||
                     system_->crcs_read[card] != system_->crcs_read[0])

@@ -42,6 +42,9 @@ set(pascal ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal)
 install(FILES ${pascal}/uIOFlex2.pas ${pascal}/uFlex2Pos.pas ${pascal}/uFlx2Pos.pas
         DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal COMPONENT dev)
 
+# ---- the cards' logic, for those who build one ----
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/hdl DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack COMPONENT dev)
+
 # ---- find_package ----
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motionrack)
 install(EXPORT motionrack-cpp NAMESPACE motionrack:: DESTINATION ${package_dir} COMPONENT dev)

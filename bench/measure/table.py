@@ -120,7 +120,7 @@ PROGRAMS = [
         "grating",
         "Frames of the grating bus",
         "Eight moving scales, a host and ten slaves, 200 us a period; *clocked*: what verilator makes of "
-        "`tests/verilog/grating`, 20,000 clocks a period.",
+        "`hdl/grating_bus`, 20,000 clocks a period.",
         [
             Bench("frames_clocked", "the same frames, clocked", PERIOD),
             Bench("frames_of_cards/alone", "nobody looks: a frame is one step", PERIOD, "frames_clocked"),

@@ -1,5 +1,5 @@
-// A decoder with N moving scales and CARDS cards on one bus: HOSTS hosts, each APART clocks later than the one before, and slaves. Of drivers that differ the low level wins; what nobody drives
-// is at rest.
+// A decoder with N moving scales and the logic of CARDS cards on one bus: HOSTS hosts, each APART clocks later than the
+// one before, and slaves. Of drivers that differ the low level wins; lines without a driver are at rest.
 `timescale 1ns / 1ns
 
 module grating_system #(
@@ -8,6 +8,7 @@ module grating_system #(
     parameter PERIOD = 20000,
     parameter HOSTS  = 1,
     parameter APART  = 0,
+    parameter CHECKS = 0,
     parameter STRIDE = 1,        // a card's list: word k is that of scale (k STRIDE + SHIFT host) mod N
     parameter SHIFT  = 0
 ) (
@@ -22,6 +23,8 @@ module grating_system #(
     output logic [CARDS*32-1:0] crcs_read,
     output logic [CARDS-1:0]    claimed,
     output logic [CARDS-1:0]    frame_done,
+    output logic [CARDS-1:0]    frame_good,
+    output logic [CARDS*64-1:0] counters,       // of each card: broken, missed words, alien, line faults from bit 0 on
     output logic [CARDS*4-1:0]  states,
     output logic                illegal,
     output logic                clk_conflict,   // its drivers differ
@@ -56,12 +59,14 @@ module grating_system #(
     grating_decoder #(.N(N)) decoder (.clock(clock), .a(a), .b(b), .hold(hold), .read_n(read_n), .addr(addr),
                                       .data_enable(data_enable), .data(decoder_data), .illegal(illegal));
     for (genvar i = 0; i < CARDS; i = i + 1) begin : slot
-        grating_card #(.N(N), .LISTED(STRIDE != 1 || SHIFT != 0), .LIST(list_of(i < HOSTS ? i : 0)), .HOST(i < HOSTS),
+        grating_card #(.N(N), .LISTED(STRIDE != 1 || SHIFT != 0), .LIST(list_of(i < HOSTS ? i : 0)), .HOST(i < HOSTS), .CHECKS(CHECKS),
                        .PERIOD(PERIOD), .OFFSET(i < HOSTS ? i * APART : 0)) card (
-            .clock(clock), .bus_clk(clk), .bus_read_n(read_n), .bus_addr(addr), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
+            .clock(clock), .bus_clk(clk), .bus_hold(hold), .bus_read_n(read_n), .bus_addr(addr), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
             .hold(holds[i]), .read_n(reads_n[i]), .addr(addrs[i]), .claim(claim), .give_back(give_back),
             .word_asked(word_asked), .word_read(words_read[32*i+:32]), .address_read(addresses_read[7*i+:7]), .sequence_read(sequences_read[32*i+:32]),
             .time_read(times_read[64*i+:64]), .crc_read(crcs_read[32*i+:32]), .claimed(claimed[i]),
-            .frame_done(frame_done[i]), .state(states[4*i+:4]));
+            .frame_done(frame_done[i]), .frame_good(frame_good[i]), .broken(counters[64*i+:16]),
+            .missed_words(counters[64*i+16+:16]), .alien(counters[64*i+32+:16]), .line_faults(counters[64*i+48+:16]),
+            .state(states[4*i+:4]));
     end
 endmodule

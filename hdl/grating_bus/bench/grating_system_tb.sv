@@ -1,6 +1,8 @@
-// Runs grating_system for FRAMES periods and prints what each card does:
+// Runs grating_system, or with the macro SLOTS grating_slots, for FRAMES periods and prints what each card does:
 //   state CARD CLOCK STATE                          a state was entered
 //   frame CARD SEQUENCE TIME CRC ADDRESS COUNT ..           the claimed frame, after those of all cards were complete
+//   published CARD CLOCK                            a frame that is good was published
+//   counters CARD BROKEN MISSED ALIEN LINES         at the end
 //   end CLOCK CONFLICTS CONFLICTS ILLEGAL           clocks with a conflict on clk, on the others; whether a scale was too fast
 `timescale 1ns / 1ns
 
@@ -11,6 +13,7 @@ module grating_system_tb #(
     parameter FRAMES = 3,
     parameter HOSTS  = 1,
     parameter APART  = 0,
+    parameter CHECKS = 0,
     parameter STRIDE = 1,
     parameter SHIFT  = 0
 );
@@ -20,16 +23,23 @@ module grating_system_tb #(
     logic [CARDS*64-1:0] times;
     logic [CARDS*7-1:0]  addresses;
     logic [6:0]          address [0:CARDS*N-1];
-    logic [CARDS-1:0]    claimed, frame_done, done;
+    logic [CARDS-1:0]    claimed, frame_done, frame_good, done;
+    logic [CARDS*64-1:0] counters;
     logic [CARDS*4-1:0]  states, was;
     logic [31:0]         frame [0:CARDS*N-1];
     integer              cycle, clk_conflicts, conflicts, i, w, reading;
 
-    grating_system #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD), .HOSTS(HOSTS), .APART(APART),
-                    .STRIDE(STRIDE), .SHIFT(SHIFT)) system (
-        .clock(clock), .claim(claim), .give_back(1'b0), .word_asked(word_asked), .words_read(words), .addresses_read(addresses),
-        .sequences_read(sequences), .times_read(times), .crcs_read(crcs), .claimed(claimed), .frame_done(frame_done),
-        .states(states), .illegal(illegal), .clk_conflict(clk_conflict), .conflict(conflict));
+`ifdef SLOTS
+    grating_slots
+`else
+    grating_system
+`endif
+        #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD), .HOSTS(HOSTS), .APART(APART), .CHECKS(CHECKS), .STRIDE(STRIDE),
+          .SHIFT(SHIFT)) system (
+        .clock(clock), .claim(claim), .give_back(1'b0), .word_asked(word_asked), .words_read(words),
+        .addresses_read(addresses), .sequences_read(sequences), .times_read(times), .crcs_read(crcs), .claimed(claimed),
+        .frame_done(frame_done), .frame_good(frame_good), .counters(counters), .states(states), .illegal(illegal),
+        .clk_conflict(clk_conflict), .conflict(conflict));
 
     initial begin
         was = 0;
@@ -43,6 +53,7 @@ module grating_system_tb #(
             for (i = 0; i < CARDS; i = i + 1)
                 if (states[4*i+:4] != was[4*i+:4]) $display("state %0d %0d %0d", i, cycle, states[4*i+:4]);
             was = states;
+            for (i = 0; i < CARDS; i = i + 1) if (frame_good[i]) $display("published %0d %0d", i, cycle);
             if (clk_conflict) clk_conflicts = clk_conflicts + 1;
             if (conflict) conflicts = conflicts + 1;
             done = done | frame_done;
@@ -73,6 +84,9 @@ module grating_system_tb #(
             end
             #1 clock = 0;
         end
+        for (i = 0; i < CARDS; i = i + 1)
+            $display("counters %0d %0d %0d %0d %0d", i, counters[64*i+:16], counters[64*i+16+:16], counters[64*i+32+:16],
+                     counters[64*i+48+:16]);
         $display("end %0d %0d %0d %0d", FRAMES * PERIOD, clk_conflicts, conflicts, illegal);
         $finish;
     end
