@@ -50,7 +50,7 @@ endfunction()
 
 # The sources of a target are compiled together, some tens at a time: headers and templates are paid once, which makes
 # a build several times as quick. So names in their anonymous namespaces are unique within a target. Without it
-# (MOTIONRACK_UNITY=OFF, a part of ./test --all) each source is compiled alone and has to include all that it uses.
+# (MOTIONRACK_UNITY=OFF, and tests/rules/alone) each source is compiled alone and has to include all that it uses.
 if(MOTIONRACK_UNITY)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 40)

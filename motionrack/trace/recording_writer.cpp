@@ -168,14 +168,17 @@ void RecordingWriter::event(std::size_t signal, Instant at, std::int64_t value) 
 
 void RecordingWriter::sample(Instant at, double deviation_mm, std::span<const AxisSample> axes) {
     MOTIONRACK_ASSERT(axes.size() == samples_->axes.size());
-    bool good = samples_->times.add(at.count()) & samples_->deviation.add(deviation_mm);
+    const auto note = [this](bool added) { good_ = good_ && added; };
+    note(samples_->times.add(at.count()));
+    note(samples_->deviation.add(deviation_mm));
     for (std::size_t i = 0; i < axes.size(); ++i) {
         Samples::Axis& axis = samples_->axes[i];
-        good &= axis.position.add(axes[i].position) & axis.commanded.add(axes[i].commanded) &
-                axis.speed.add(axes[i].speed) & axis.accel.add(axes[i].accel);
-        if (axis.servo) good &= axis.volts.add(axes[i].volts);
+        note(axis.position.add(axes[i].position));
+        note(axis.commanded.add(axes[i].commanded));
+        note(axis.speed.add(axes[i].speed));
+        note(axis.accel.add(axes[i].accel));
+        if (axis.servo) note(axis.volts.add(axes[i].volts));
     }
-    good_ = good_ && good;
 }
 
 void RecordingWriter::input(const RecordedInput& input) {
