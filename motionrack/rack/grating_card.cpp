@@ -118,7 +118,7 @@ class GratingCard final : public Member {
     std::optional<double> quantity(std::string_view name) const override {
         const gb::Frame* frame = card_.last();
         if (name == "stale") return card_.stale() ? 1 : 0;
-        if (name == "sequence") return frame ? frame->sequence : -1;
+        if (name == "sequence") return frame ? static_cast<double>(frame->sequence) : -1;
         if (name == "age_us") return frame ? to_seconds(kernel_.now() - card_.held_since()) * 1e6 : -1;
         return std::nullopt;
     }
