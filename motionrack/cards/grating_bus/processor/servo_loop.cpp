@@ -37,6 +37,7 @@ void ServoLoop::close(std::int64_t count) {
     integral_ = volts_ = 0;
     state_ = LoopState::closed;
     begun_ = 0;
+    without_ = 0;
 }
 
 std::optional<std::uint32_t> ServoLoop::usable(const Frame& frame) const {
@@ -49,8 +50,10 @@ double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     const std::optional<std::uint32_t> word = usable(frame);
     if (!word) {
         ++unused_;
-        return volts_;
+        if (sound(frame) && !word_of(frame, settings_.scale)) ++without_;
+        return without_ < 2 ? volts_ : open(LoopState::stale);
     }
+    without_ = 0;
     count_ = unwrapped(count_, frame.counts[*word]);
     const double error = wanted.position_nm - position_nm();
     const double seconds = begun_ != 0 ? to_seconds(frame.instant() - last_) : 0;

@@ -43,7 +43,7 @@ struct ServoSettings {
 enum class LoopState : std::uint32_t {
     not_begun,  ///< close() was not called
     closed,
-    stale,    ///< opened: no frame came in time
+    stale,    ///< opened: no frame with its scale came in time
     too_far,  ///< opened: the following error was greater than limit_nm
     stopped   ///< opened by stop()
 };
@@ -66,7 +66,8 @@ class ServoLoop {
     /// The position is trusted from now on: the next frame's count is the one next to `count` (64 bits, of the scale).
     /// Closes the loop.
     void close(std::int64_t count = 0);
-    /// Takes the frame's position; the volts from now on. A frame that cannot be used changes nothing and is counted.
+    /// Takes the frame's position; the volts from now on. A frame that cannot be used changes nothing and is counted;
+    /// the second sound one in a row without the loop's scale opens the loop, as stale data do.
     double on_frame(const Frame& frame, const Setpoint& wanted);
     /// No frame came in time: opens the loop, if it is closed; 0 V.
     double on_stale();
@@ -98,7 +99,8 @@ class ServoLoop {
     double volts_ = 0;
     Instant last_{};  // of the last frame used
     LoopState state_ = LoopState::not_begun;
-    std::uint32_t begun_ = 0;  // a frame was used since close()
+    std::uint16_t begun_ = 0;    // a frame was used since close()
+    std::uint16_t without_ = 0;  // sound frames in a row that have not the loop's scale
     std::uint64_t unused_ = 0;
 };
 

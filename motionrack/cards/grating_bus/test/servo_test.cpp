@@ -260,6 +260,26 @@ TEST(ServoLoop, TooGreatAnErrorOpensTheLoopBeforeItRunsAway) {
     EXPECT_EQ(axis.loop.state(), LoopState::too_far) << "what opened it first stays";
 }
 
+TEST(ServoLoop, OpensWhenTwoFramesInARowHaveNotItsScale) {
+    Axis axis;
+    axis.kernel.run_until(servo_period);
+    const double volts = axis.loop.on_frame(axis.latch(servo_period), {1'000, 0, 0});
+    EXPECT_GT(volts, 0);
+    const auto without = [&axis](int period) {
+        Frame frame = axis.latch(period * servo_period);
+        for (std::uint8_t& address : frame.addresses) address = address == 7 ? 8 : address;
+        frame.crc = crc_of(frame);
+        return frame;
+    };
+    EXPECT_EQ(axis.loop.on_frame(without(2), {1'000, 0, 0}), volts);
+    EXPECT_TRUE(axis.loop.closed());
+    EXPECT_NE(axis.loop.on_frame(axis.latch(3 * servo_period), {1'000, 0, 0}), 0);
+    EXPECT_NE(axis.loop.on_frame(without(4), {1'000, 0, 0}), 0);
+    EXPECT_EQ(axis.loop.on_frame(without(5), {1'000, 0, 0}), 0) << "the host reads other scales";
+    EXPECT_EQ(axis.loop.state(), LoopState::stale);
+    EXPECT_EQ(axis.loop.unused(), 3u);
+}
+
 TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
     Axis axis;
     axis.kernel.run_until(servo_period);
