@@ -224,8 +224,9 @@ TEST(Waves, ACsvRecordingHasEveryChangeInOrderOfTime) {
 TEST(Waves, AFileOfAnotherKindIsRefused) {
     EXPECT_EQ(wave_format("a.vcd").value(), WaveFormat::vcd);
     EXPECT_EQ(wave_format("a.csv").value(), WaveFormat::csv);
-    for (const char* name : {"a.h5", "a", ".vcd", "a.vcd.gz", ""}) EXPECT_FALSE(wave_format(name)) << name;
-    EXPECT_NE(wave_format("a.h5").error().message.find("HDF5"), std::string::npos);
+    EXPECT_EQ(wave_format("a.h5").value(), WaveFormat::hdf5);
+    for (const char* name : {"a.hdf5", "a", ".vcd", "a.vcd.gz", ""}) EXPECT_FALSE(wave_format(name)) << name;
+    EXPECT_NE(wave_format("a.txt").error().message.find(".h5"), std::string::npos);
 }
 
 TEST(Waves, AnUnknownSignalIsRefusedWithASentence) {

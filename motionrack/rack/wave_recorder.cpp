@@ -128,8 +128,9 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
         out->sink_ = settings.sink(out->signals_);
     } else {
         const Duration unit = settings.unit > Duration{0} ? settings.unit : out->coarsest_unit();
-        MOTIONRACK_TRY(out->sink_,
-                       make_wave_sink({settings.path, settings.format, unit, rack.kernel().now()}, out->signals_));
+        MOTIONRACK_TRY(out->sink_, make_wave_sink({settings.path, settings.format, unit, rack.kernel().now(),
+                                                   rack.config().name, settings.version},
+                                                  out->signals_));
     }
     if (!rack.started()) {
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");

@@ -1,7 +1,7 @@
 // Wires, pulses, encoder lines and card values of a running rack, written to a file while it runs.
 //
 //   kernel wires ──┐
-//   pulse edges ───┼──► events in a buffer ──drain(), between runs, in order of time──► WaveSink (VCD, CSV)
+//   pulse edges ───┼──► events in a buffer ──drain(), between runs, in order of time──► WaveSink (VCD, CSV, HDF5)
 //   encoder edges ─┤
 //   LP, EP ────────┘ looked at every register_period
 //
@@ -44,6 +44,7 @@ struct WaveSettings {
     Duration unit{0};
     Duration register_period = milliseconds(1);  ///< how often LP and EP are looked at
     WireTap* tap = nullptr;                      ///< pins driven on demand are recorded through it
+    std::string version = {};                    ///< of the program that records; stands in files of HDF5
     /// Makes what takes the changes, instead of the file; may be empty.
     std::function<std::unique_ptr<WaveSink>(const std::vector<WaveSignal>& signals)> sink = {};
 };
@@ -66,6 +67,8 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     Result<void> finish();
     /// The last finish() failed.
     bool failed() const { return failed_; }
+    /// Whether finish() may be tried again then.
+    bool can_end_again() const { return sink_->can_end_again(); }
     std::uint64_t changes() const { return changes_; }
     Duration register_period() const { return register_period_; }
 

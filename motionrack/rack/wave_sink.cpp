@@ -1,9 +1,10 @@
-// The two formats of a recording.
+// The formats of a recording.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <motionrack/rack/wave_sink.hpp>
 #include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/recording.hpp>
 #include <motionrack/trace/vcd.hpp>
 
 namespace motionrack::rack {
@@ -86,6 +87,41 @@ class CsvSink final : public WaveSink {
     std::vector<Column> columns_;
 };
 
+class Hdf5Sink final : public WaveSink {
+  public:
+    explicit Hdf5Sink(trace::RecordingWriter writer) : writer_(std::move(writer)) {}
+
+    void change(std::size_t index, std::int64_t value, Instant at) override {
+        if (ended_) writer_.event(index, at, value);
+    }
+    Result<void> close(Instant end) override {
+        if (!ended_) return ended_;
+        trace::RecordingEnd what;
+        what.at = end;
+        ended_ = writer_.close(what);
+        return ended_;
+    }
+    bool can_end_again() const override { return ended_.has_value(); }
+
+  private:
+    trace::RecordingWriter writer_;
+    Result<void> ended_;  // an error: the file is gone
+};
+
+Result<std::unique_ptr<WaveSink>> make_hdf5_sink(const WaveSinkSettings& settings,
+                                                 const std::vector<WaveSignal>& signals) {
+    trace::RecordingHead head;
+    head.version = settings.version;
+    head.rack_name = settings.rack_name;
+    head.sample_period = milliseconds(1);
+    for (const WaveSignal& signal : signals)
+        head.signals.push_back({signal.scope + '.' + signal.name, "wires/" + signal.scope + '/' + signal.name,
+                                trace::SignalKind::levels, signal.unit == 1 ? "" : "V", signal.initial, signal.unit});
+    Result<trace::RecordingWriter> writer = trace::RecordingWriter::create(settings.path, head, settings.start);
+    if (!writer) return tl::unexpected<Error>(std::move(writer).error());
+    return std::make_unique<Hdf5Sink>(std::move(*writer));
+}
+
 }  // namespace
 
 Result<WaveFormat> wave_format(const std::string& path) {
@@ -94,17 +130,15 @@ Result<WaveFormat> wave_format(const std::string& path) {
     };
     if (ends_in(".vcd")) return WaveFormat::vcd;
     if (ends_in(".csv")) return WaveFormat::csv;
-    if (ends_in(".h5"))
-        return fail(Trouble::refused, fmt::format("'{}': waves cannot be written as HDF5; take .vcd or .csv. Nothing "
-                                                  "was recorded.",
-                                                  path));
-    return fail(Trouble::refused, fmt::format("'{}': the ending of the name chooses the format of a recording, .vcd or "
-                                              ".csv. Nothing was recorded.",
+    if (ends_in(".h5")) return WaveFormat::hdf5;
+    return fail(Trouble::refused, fmt::format("'{}': the ending of the name chooses the format of a recording, .vcd, "
+                                              ".csv or .h5. Nothing was recorded.",
                                               path));
 }
 
 Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings,
                                                  const std::vector<WaveSignal>& signals) {
+    if (settings.format == WaveFormat::hdf5) return make_hdf5_sink(settings, signals);
     if (settings.format == WaveFormat::csv) {
         MOTIONRACK_TRY(trace::CsvWriter writer, trace::CsvWriter::create(settings.path, {"time_s", "signal", "value"}));
         return std::make_unique<CsvSink>(std::move(writer), signals, settings.start);

@@ -1,4 +1,4 @@
-// Where a recording goes: a VCD file (*.vcd) or a table of changes (*.csv).
+// Where a recording goes: a VCD file (*.vcd), a table of changes (*.csv) or a recording of HDF5 (*.h5).
 //
 // Levels are wires of a VCD file; what carries a number (a counter, a voltage in V, a word of a bus) is a real, as
 // every reader takes it: sigrok stops at vectors.
@@ -6,6 +6,8 @@
 //   time_s,signal,value        CSV: the state of every signal at the start, then one line a change, in order of time
 //   0,X.step,0
 //   0.0012345,X.step,1
+//
+//   wires/X/step/time, value   HDF5: as docs/reference/recording.md has it, with wires alone
 #pragma once
 
 #include <cstdint>
@@ -36,18 +38,21 @@ class WaveSink {
     virtual void change(std::size_t index, std::int64_t value, Instant at) = 0;
     /// Ends the file at `end`. Errors: io, the first error met.
     virtual Result<void> close(Instant end) = 0;
+    /// Whether close() may be tried again after an error, with changes in between.
+    virtual bool can_end_again() const { return true; }
 };
 
-enum class WaveFormat : std::uint8_t { vcd, csv };
+enum class WaveFormat : std::uint8_t { vcd, csv, hdf5 };
 
-/// The format that the ending of a file's name stands for. Errors: refused (neither .vcd nor .csv).
+/// The format that the ending of a file's name stands for. Errors: refused (none of .vcd, .csv, .h5).
 Result<WaveFormat> wave_format(const std::string& path);
 
 struct WaveSinkSettings {
     std::string path;
     WaveFormat format = WaveFormat::vcd;
-    Duration vcd_unit{1000};  ///< see trace::VcdSettings
-    Instant start{};          ///< when the recording begins
+    Duration vcd_unit{1000};         ///< see trace::VcdSettings
+    Instant start{};                 ///< when the recording begins
+    std::string rack_name, version;  ///< of a recording of HDF5: the rack's, and of the program that records
 };
 
 /// Errors: refused (the unit of time), io. Nothing is written then.

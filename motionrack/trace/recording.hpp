@@ -42,6 +42,7 @@ struct RecordedSignal {
     SignalKind kind = SignalKind::levels;
     std::string unit;          ///< of the values: "step", "count"; empty: a level
     std::int64_t initial = 0;  ///< value when the recording begins
+    double scale = 1;          ///< a value times this is in the unit
     friend bool operator==(const RecordedSignal&, const RecordedSignal&) = default;
 };
 

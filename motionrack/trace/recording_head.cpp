@@ -102,12 +102,14 @@ std::string head_json(const RecordingHead& head) {
     for (const RecordedAxis& axis : head.axes)
         each_field_of_axis(axis, into(json["axes"].emplace_back(HeadJson::object())));
     json["signals"] = HeadJson::array();
-    for (const RecordedSignal& signal : head.signals)
+    for (const RecordedSignal& signal : head.signals) {
         json["signals"].push_back({{"name", signal.name},
                                    {"path", signal.path},
                                    {"kind", name_of(signal.kind)},
                                    {"unit", signal.unit},
                                    {"initial", signal.initial}});
+        if (signal.scale != 1) json["signals"].back()["scale"] = signal.scale;
+    }
     return json.dump(-1, ' ', false, HeadJson::error_handler_t::replace);
 }
 
@@ -125,7 +127,7 @@ Result<RecordingHead> head_from_json(std::string_view text) {
         }
         for (const HeadJson& signal : json.at("signals"))
             head.signals.push_back({signal.at("name"), path_of(signal), kind_of(signal.at("kind")), signal.at("unit"),
-                                    signal.at("initial")});
+                                    signal.at("initial"), signal.value("scale", 1.0)});
         if (head.axes.size() > 6 || head.sample_period <= Duration{0}) throw std::runtime_error("no head");
     } catch (const std::bad_alloc&) {
         throw;  // the recording is not to blame

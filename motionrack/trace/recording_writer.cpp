@@ -129,7 +129,7 @@ void RecordingWriter::make_signals(const RecordingHead& head) {
         if (signal.kind == SignalKind::steps)
             one.directions = {file_, column, chunk, most, signal.unit};
         else
-            one.values = {file_, column, chunk, most, signal.unit};
+            one.values = {file_, column, chunk, most, signal.unit, signal.scale};
         file_.set(signal.path, "initial", signal.initial);
         signals_.push_back(std::move(one));
     }

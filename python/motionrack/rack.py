@@ -269,8 +269,8 @@ class Rack:
         return Recording(self._world, signals, ticks_of(every), most, self.name)
 
     def waves(self, path: str | os.PathLike[str], *signals: str) -> Waves:
-        """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd`` or ``.csv``,
-        until :meth:`Waves.stop` or the end of the block.
+        """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd``, ``.csv``
+        or ``.h5``, until :meth:`Waves.stop` or the end of the block.
 
         ``signals``: patterns with * and ?; none: all but the pins that cards drive on demand.
         Refused, BadInput, FileTrouble.
