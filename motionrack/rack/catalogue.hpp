@@ -64,6 +64,8 @@ class Card {
     /// A number of the card's own by its name ("fout_hz"), if it has one of that name.
     virtual std::optional<double> quantity(std::string_view) const { return std::nullopt; }
     virtual std::vector<std::string_view> quantity_names() const { return {}; }
+    /// What one of these is, for people.
+    virtual std::string_view quantity_doc(std::string_view) const { return {}; }
     /// What can be broken on the card itself. `fault`: false if it knows no such fault or value.
     virtual std::span<const std::string_view> fault_names() const { return {}; }
     virtual bool fault(std::string_view, double, Instant) { return false; }

@@ -66,12 +66,14 @@ db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis&
 struct ByteValue {
     std::string_view name;
     double (*get)(const db::Card& card);
+    std::string_view doc = {};
 };
 
 // What the boundary calls quantities.
 constexpr ByteValue quantities_of_card[] = {
-    {"fout_hz", [](const db::Card& card) { return card.fout_hz(); }},
-    {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); }},
+    {"fout_hz", [](const db::Card& card) { return card.fout_hz(); }, "frequency of the pulses at FOUT"},
+    {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); },
+     "what its position counter shows"},
 };
 
 // What can be inspected beside the registers; own_number: what is written to port 1 to choose the card.
@@ -138,6 +140,12 @@ class Databoard4002Card final : public MotionCard {
         std::vector<std::string_view> out;
         for (const ByteValue& value : quantities_of_card) out.push_back(value.name);
         return out;
+    }
+
+    std::string_view quantity_doc(std::string_view name) const override {
+        for (const ByteValue& value : quantities_of_card)
+            if (value.name == name) return value.doc;
+        return {};
     }
 
     std::vector<CardCounter> counters() const override { return {{"position", 0, true}}; }

@@ -33,4 +33,15 @@ struct FaultTarget {
 };
 std::vector<FaultTarget> fault_targets(Rack& rack);
 
+/// One of these faults, and the values that it takes.
+struct FaultValue {
+    std::string target;
+    std::string_view name;
+    std::string unit;      ///< of the value; empty: it has none
+    std::string_view doc;  ///< what the value does
+    double min = 0, max = 0;
+};
+/// All of them, target by target.
+std::vector<FaultValue> fault_values(Rack& rack);
+
 }  // namespace motionrack::rack

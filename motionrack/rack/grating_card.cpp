@@ -115,6 +115,11 @@ class GratingCard final : public Member {
     std::int64_t counter(const CardCounter& which) override { return count(which.channel); }
 
     std::vector<std::string_view> quantity_names() const override { return {"age_us", "sequence", "stale"}; }
+    std::string_view quantity_doc(std::string_view name) const override {
+        if (name == "age_us") return "how old the frame is that it published last; -1: there is none";
+        if (name == "sequence") return "number of that frame; -1: there is none";
+        return "1 while its frame is too old to be used, else 0";
+    }
     std::optional<double> quantity(std::string_view name) const override {
         const gb::Frame* frame = card_.last();
         if (name == "stale") return card_.stale() ? 1 : 0;
@@ -123,8 +128,10 @@ class GratingCard final : public Member {
         return std::nullopt;
     }
     std::span<const std::string_view> fault_names() const override {
-        static constexpr std::string_view names[] = {"off", "reset", "late", "miss_edge", "jitter"};
-        return names;
+        static constexpr std::string_view of_host[] = {"off", "reset", "jitter"},
+                                          of_slave[] = {"off", "reset", "late", "miss_edge"};
+        return card_.is_host() ? std::span<const std::string_view>(of_host)
+                               : std::span<const std::string_view>(of_slave);
     }
     bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
 

@@ -1,11 +1,12 @@
-// The tables of quantities: of axes, stages, belts and tables, scan heads.
+// Quantities by name: getting, setting, listing.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>
+#include <motionrack/rack/quantity_tables.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <optional>
 #include <span>
@@ -15,155 +16,20 @@ namespace motionrack::rack {
 
 namespace {
 
-/// A row of a part's table.
-template <class Part>
-struct Row {
-    std::string_view name;  ///< "{u}" stands for mm or deg
-    std::string_view doc;
-    double (*get)(Part& part, Instant now);
-    bool whole;
-    bool (*present)(const Part& part) = nullptr;  ///< nullptr: always
-    /// What brings an axis to `value`, as microsteps to push its motor by; nullptr: it cannot be set.
-    double (*push)(Part& part, double value, Instant now) = nullptr;
-};
-constexpr bool whole = true, measures = false;  // the values are whole, or not
-
-bool has_encoder(const RunningAxis& axis) {
-    return axis.machine->has_encoder();
-}
-
-double rotor(RunningAxis& axis, Instant now) {
-    return static_cast<double>(axis.machine->rotor().count(now));
-}
-
-constexpr std::array<Row<RunningAxis>, 13> axis_quantities = {{
-    {"position_{u}", "where the table is", [](RunningAxis& axis, Instant now) { return axis.machine->position(now); },
-     measures, nullptr,
-     [](RunningAxis& axis, double value, Instant now) {
-         return (value - axis.machine->position(now)) / axis.machine->units_per_pulse();
-     }},
-    {"speed_{u}_s", "how fast the rotor moves the table, signed",
-     [](RunningAxis& axis, Instant now) { return axis.speed(now); }, measures},
-    {"position_pulses", "the rotor in microsteps from where it stood at the start", rotor, whole, nullptr,
-     [](RunningAxis& axis, double value, Instant now) { return value - rotor(axis, now); }},
-    {"position_counts", "what its encoder's tracks have counted since the start",
-     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->encoder().count(now)); }, whole,
-     has_encoder},
-    {"pulses", "pulses that came to the motor, + less -",
-     [](RunningAxis& axis, Instant now) {
-         return rotor(axis, now) + static_cast<double>(axis.machine->lost_steps(now));
-     },
-     whole},
-    {"lost_pulses", "pulses that the rotor did not follow",
-     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->lost_steps(now)); }, whole},
-    {"in_step", "1 while the rotor follows the pulses, else 0",
-     [](RunningAxis& axis, Instant) { return axis.machine->in_step() ? 1.0 : 0.0; }, whole},
-    {"top_speed_{u}_s", "the greatest speed so far",
-     [](RunningAxis& axis, Instant) { return axis.machine->top_speed(); }, measures},
-    {"limit_minus", "1 while the machine is at that switch, whatever its wire shows",
-     [](RunningAxis& axis, Instant) { return axis.machine->limit_minus().active() ? 1.0 : 0.0; }, whole,
-     [](const RunningAxis& axis) { return axis.machine->limit_minus().present(); }},
-    {"limit_plus", "the same for the switch at the + end",
-     [](RunningAxis& axis, Instant) { return axis.machine->limit_plus().active() ? 1.0 : 0.0; }, whole,
-     [](const RunningAxis& axis) { return axis.machine->limit_plus().present(); }},
-    {"home", "the same for the home switch",
-     [](RunningAxis& axis, Instant) { return axis.machine->home().active() ? 1.0 : 0.0; }, whole,
-     [](const RunningAxis& axis) { return axis.machine->home().present(); }},
-    {"cam", "1 while the machine is on its reference cam",
-     [](RunningAxis& axis, Instant now) { return axis.cam->active(now) ? 1.0 : 0.0; }, whole,
-     [](const RunningAxis& axis) { return axis.cam != nullptr; }},
-    {"drive_v", "the voltage at the servo amplifier", [](RunningAxis& axis, Instant) { return axis.servo->volts(); },
-     measures, [](const RunningAxis& axis) { return axis.servo != nullptr; }},
-}};
-
-constexpr double mm = 1e-6;  // a nm
-
-/// Somebody closes its loop.
-bool has_loop(const RunningStage& stage) {
-    return stage.loop() != nullptr;
-}
-
-constexpr std::array<Row<RunningStage>, 13> stage_quantities = {{
-    {"position_mm", "where the stage is",
-     [](RunningStage& stage, Instant now) { return stage.motor->position_nm(now) * mm; }, measures},
-    {"speed_mm_s", "its speed, signed", [](RunningStage& stage, Instant now) { return stage.motor->speed(now) * 1e3; },
-     measures},
-    {"drive_v", "the voltage at its amplifier", [](RunningStage& stage, Instant) { return stage.motor->volts(); },
-     measures},
-    {"scale_mm", "where its scale shows it",
-     [](RunningStage& stage, Instant now) { return stage.config.scale.zero_mm + stage.scale->position_nm(now) * mm; },
-     measures},
-    {"scale_counts", "what its scale has counted",
-     [](RunningStage& stage, Instant now) { return static_cast<double>(stage.scale->count(now)); }, whole},
-    {"lost_counts", "counts that its scale has lost",
-     [](RunningStage& stage, Instant) { return static_cast<double>(stage.scale->lost()); }, whole},
-    {"trusted", "1 while its scale has lost none, else 0",
-     [](RunningStage& stage, Instant) { return stage.scale->trusted() ? 1.0 : 0.0; }, whole},
-    {"closed", "1 while its loop is closed, else 0",
-     [](RunningStage& stage, Instant) { return stage.loop()->closed() ? 1.0 : 0.0; }, whole, has_loop},
-    {"following_nm", "wanted - measured at the last frame",
-     [](RunningStage& stage, Instant) { return stage.loop()->error().last_nm; }, measures, has_loop},
-    {"following_peak_nm", "the greatest of it so far, without its sign",
-     [](RunningStage& stage, Instant) { return stage.loop()->error().peak_nm; }, measures, has_loop},
-    {"following_rms_nm", "its root mean square so far",
-     [](RunningStage& stage, Instant) { return stage.loop()->error().rms_nm(); }, measures, has_loop},
-    {"wanted_mm", "where its profile wants it now",
-     [](RunningStage& stage, Instant now) { return stage.wanted(to_seconds(now)).position_nm * mm; }, measures,
-     has_loop},
-    {"unused_frames", "frames that its loop could not use",
-     [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, whole, has_loop},
-}};
-
-bool with_encoder(const RunningTrack& track) {
-    return track.encoder != nullptr;
-}
-
-constexpr std::string_view track_speed = "speed_{u}_s";
-constexpr std::array<Row<RunningTrack>, 6> track_quantities = {{
-    {"position_{u}", "how far it has gone since the start",
-     [](RunningTrack& track, Instant now) { return track.track().travel(to_seconds(now)); }, measures},
-    {track_speed, "how fast it goes, signed",
-     [](RunningTrack& track, Instant now) { return track.track().speed(to_seconds(now)); }, measures},
-    {"encoder_counts", "what its encoder has shown",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->count()); }, whole, with_encoder},
-    {"lost_counts", "counts that were too quick for the encoder's lines",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->lost()); }, whole, with_encoder},
-    {"word", "the sender's last complete word",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.sender->word()); }, whole,
-     [](const RunningTrack& track) { return track.sender != nullptr; }},
-    {"parts", "parts that have come to the sensor",
-     [](RunningTrack& track, Instant now) { return static_cast<double>(track.sensor->parts(now)); }, whole,
-     [](const RunningTrack& track) { return track.sensor != nullptr; }},
-}};
-
-constexpr std::array<Row<RunningScanner>, 7> scanner_quantities = {{
-    {"spot_x_mm", "where the mirrors point in the field",
-     [](RunningScanner& scanner, Instant) { return scanner.station().spot().x; }, measures},
-    {"spot_y_mm", "the same, Y", [](RunningScanner& scanner, Instant) { return scanner.station().spot().y; }, measures},
-    {"light", "1 while the laser shines, else 0",
-     [](RunningScanner& scanner, Instant) { return scanner.station().gate().on() ? 1.0 : 0.0; }, whole},
-    {"marked_mm", "length of all marks on the part",
-     [](RunningScanner& scanner, Instant) { return scanner.workpiece().length_mm(); }, measures},
-    {"energy_j", "energy that came to the part",
-     [](RunningScanner& scanner, Instant) { return scanner.workpiece().energy_j(); }, measures},
-    {"points", "points of marks that are kept",
-     [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().points().size()); }, whole},
-    {"lost_points", "points beyond greatest_points",
-     [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().lost_points()); }, whole},
-}};
+using namespace quantity_tables;
 
 // ---- what the kinds of part differ in
 
-std::span<const Row<RunningAxis>> rows_of(const RunningAxis&) {
+std::span<const QuantityRow<RunningAxis>> rows_of(const RunningAxis&) {
     return axis_quantities;
 }
-std::span<const Row<RunningStage>> rows_of(const RunningStage&) {
+std::span<const QuantityRow<RunningStage>> rows_of(const RunningStage&) {
     return stage_quantities;
 }
-std::span<const Row<RunningTrack>> rows_of(const RunningTrack&) {
+std::span<const QuantityRow<RunningTrack>> rows_of(const RunningTrack&) {
     return track_quantities;
 }
-std::span<const Row<RunningScanner>> rows_of(const RunningScanner&) {
+std::span<const QuantityRow<RunningScanner>> rows_of(const RunningScanner&) {
     return scanner_quantities;
 }
 
@@ -210,15 +76,15 @@ void each_part(Rack& rack, const Told& told) {
 /// What this part has, with names in its own unit.
 template <class Part, class Told>
 void each_quantity(const Part& part, const Told& told) {
-    for (const Row<Part>& row : rows_of(part))
+    for (const QuantityRow<Part>& row : rows_of(part))
         if (row.present == nullptr || row.present(part)) told(with_unit(row.name, unit_of(part)), row);
 }
 
 template <class Part>
-Result<const Row<Part>*> find_row(const Part& part, std::string_view name) {
-    const Row<Part>* found = nullptr;
+Result<const QuantityRow<Part>*> find_row(const Part& part, std::string_view name) {
+    const QuantityRow<Part>* found = nullptr;
     std::vector<std::string> known;
-    each_quantity(part, [&](std::string its_name, const Row<Part>& row) {
+    each_quantity(part, [&](std::string its_name, const QuantityRow<Part>& row) {
         if (its_name == name) found = &row;
         known.push_back(std::move(its_name));
     });
@@ -229,7 +95,7 @@ Result<const Row<Part>*> find_row(const Part& part, std::string_view name) {
 
 template <class Part>
 Result<double> value_of(Part& part, std::string_view name, Instant now) {
-    MOTIONRACK_TRY(const Row<Part>* row, find_row(part, name));
+    MOTIONRACK_TRY(const QuantityRow<Part>* row, find_row(part, name));
     return row->get(part, now);
 }
 
@@ -277,7 +143,7 @@ Result<void> set_track_quantity(Rack& rack, const RunningTrack& track, std::stri
 
 /// `name`: the whole one.
 Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, double value) {
-    MOTIONRACK_TRY(const Row<RunningAxis>* row, find_row(axis, Name(name).quantity));
+    MOTIONRACK_TRY(const QuantityRow<RunningAxis>* row, find_row(axis, Name(name).quantity));
     if (row->push == nullptr)
         return fail(
             Trouble::refused,
@@ -299,6 +165,16 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
     return inject_fault(rack, fmt::format("motor.push={:.0f}", push), name_of(axis));
 }
 
+/// What a push can bring it to, which is as far to both sides.
+template <class Part>
+void bound_by_push(QuantityRange& out, const QuantityRow<Part>& row, Part& part, Instant now) {
+    const double here = row.get(part, now), microsteps = row.push(part, here + 1, now);
+    const double farthest = std::fabs(greatest_push / microsteps);
+    out.can_set = true;
+    out.min = here - farthest;
+    out.max = here + farthest;
+}
+
 }  // namespace
 
 std::vector<QuantitiesOfPart> quantities_of(Rack& rack) {
@@ -307,10 +183,49 @@ std::vector<QuantitiesOfPart> quantities_of(Rack& rack) {
         QuantitiesOfPart& of = out.emplace_back();
         of.part = name_of(part);
         each_quantity(part, [&](std::string name, const auto& row) {
-            of.quantities.push_back(
-                {std::move(name), row.doc, row.whole, [&part, get = row.get](Instant now) { return get(part, now); }});
+            of.quantities.push_back({std::move(name), row.doc, row.values != measures,
+                                     [&part, get = row.get](Instant now) { return get(part, now); }});
         });
     });
+    return out;
+}
+
+std::string_view unit_of_quantity(std::string_view name) {
+    constexpr std::pair<std::string_view, std::string_view> endings[] = {
+        {"_mm_s", "mm/s"},     {"_deg_s", "deg/s"}, {"_bits_ms", "bits/ms"}, {"_counts_ms", "counts/ms"},
+        {"_mm", "mm"},         {"_deg", "deg"},     {"_nm", "nm"},           {"_us", "us"},
+        {"_v", "V"},           {"_j", "J"},         {"_hz", "Hz"},           {"_bits", "bits"},
+        {"_counts", "counts"}, {"pulses", "pulses"}};
+    for (const auto& [ending, unit] : endings)
+        if (name.ends_with(ending)) return unit;
+    return {};
+}
+
+std::vector<QuantityRange> quantity_ranges(Rack& rack) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Instant now = rack.kernel().now();
+    std::vector<QuantityRange> out;
+    const auto add = [&](const std::string& part, std::string_view name, std::string_view doc, ValueKind values) {
+        const double least = values == amount || values == yes_no ? 0 : -infinity;
+        out.push_back(
+            {fmt::format("{}.{}", part, name), doc, unit_of_quantity(name), least, values == yes_no ? 1 : infinity});
+    };
+    each_part(rack, [&](auto& part) {
+        each_quantity(part, [&](const std::string& name, const auto& row) {
+            add(name_of(part), name, row.doc, row.values);
+            if (row.push != nullptr) bound_by_push(out.back(), row, part, now);
+        });
+    });
+    for (const RunningTrack& track : rack.tracks())
+        for (QuantityRange& one : out)
+            if (one.name == fmt::format("{}.{}", track.config.name, with_unit(track_speed, track.config.unit()))) {
+                one.can_set = true;
+                one.max = track.config.greatest_speed();
+                one.min = -one.max;
+            }
+    for (const auto& card : rack.cards())
+        for (const std::string_view name : card->quantity_names())
+            add(card->name(), name, card->quantity_doc(name), measures);
     return out;
 }
 

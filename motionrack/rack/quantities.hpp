@@ -27,6 +27,20 @@ struct QuantitiesOfPart {
 /// Of everything in the rack: axes, stages, belts and tables, scan heads.
 std::vector<QuantitiesOfPart> quantities_of(Rack& rack);
 
+/// A name that get_quantity takes, and what its values can be.
+struct QuantityRange {
+    std::string name;         ///< "X.position_mm"
+    std::string_view doc;     ///< what it is
+    std::string_view unit;    ///< "mm", "deg/s"; empty: it has none
+    double min = 0, max = 0;  ///< of its values, infinite where nothing bounds them; of one that can be set what
+                              ///< set_quantity takes now
+    bool can_set = false;
+};
+/// All that there are: of quantities_of, then of cards.
+std::vector<QuantityRange> quantity_ranges(Rack& rack);
+/// The unit that the name of a quantity ends in: "mm/s" of "speed_mm_s".
+std::string_view unit_of_quantity(std::string_view name);
+
 enum class PartKind : std::uint8_t { axis, stage, track, scanner };
 /// As they are declared, whether a rack has them or not: name and meaning, "{u}" for mm or deg. For pages of reference.
 std::vector<std::pair<std::string_view, std::string_view>> declared_quantities(PartKind kind);

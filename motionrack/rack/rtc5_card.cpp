@@ -48,13 +48,15 @@ constexpr WordValue values[] = {
 struct Number {
     std::string_view name;
     double (*get)(const Engine& engine);
+    std::string_view doc;
 };
 constexpr Number numbers[] = {
-    {"jump_speed_bits_ms", [](const Engine& e) { return e.state().jump_speed; }},
-    {"mark_speed_bits_ms", [](const Engine& e) { return e.state().mark_speed; }},
-    {"corrected_x_bits", [](const Engine& e) { return e.output().corrected.x; }},
-    {"corrected_y_bits", [](const Engine& e) { return e.output().corrected.y; }},
-    {"encoder_speed_counts_ms", [](const Engine& e) { return e.encoder_speed(); }},
+    {"jump_speed_bits_ms", [](const Engine& e) { return e.state().jump_speed; }, "speed of its jumps"},
+    {"mark_speed_bits_ms", [](const Engine& e) { return e.state().mark_speed; }, "speed of its marks"},
+    {"corrected_x_bits", [](const Engine& e) { return e.output().corrected.x; }, "X after all corrections"},
+    {"corrected_y_bits", [](const Engine& e) { return e.output().corrected.y; }, "Y after all corrections"},
+    {"encoder_speed_counts_ms", [](const Engine& e) { return e.encoder_speed(); },
+     "speed of the encoder that it follows, signed"},
 };
 
 /// Time as a program beside the card has it; the end of a list stands for an interrupt.
@@ -106,6 +108,11 @@ class Rtc5Card final : public Card {
         std::vector<std::string_view> out;
         for (const Number& number : numbers) out.push_back(number.name);
         return out;
+    }
+    std::string_view quantity_doc(std::string_view name) const override {
+        for (const Number& number : numbers)
+            if (number.name == name) return number.doc;
+        return {};
     }
     void copy_from(const Card& other) override { card_.copy_beside_state(dynamic_cast<const Rtc5Card&>(other).card_); }
 

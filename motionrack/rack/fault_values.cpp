@@ -1,0 +1,159 @@
+// What the values of faults mean: a row for each fault of each kind of part and card.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/faults.hpp>
+#include <span>
+
+namespace motionrack::rack {
+
+namespace {
+
+/// What a fault is of: the part, whose settings its limits may follow.
+struct FaultyPart {
+    const RunningAxis* axis = nullptr;
+    const RackCard* card = nullptr;
+    const RunningTrack* track = nullptr;
+};
+
+struct FaultRow {
+    std::string_view name;
+    double min, max;
+    std::string_view unit, doc;
+    double (*max_of)(const FaultyPart& part) = nullptr;  ///< instead of max; may be nullptr
+};
+
+constexpr double max_factor = 1000, max_levels = 1e6, max_delay_s = 1, max_ppm = 1e5;
+
+double counts_per_turn(const FaultyPart& part) {
+    return static_cast<double>(part.axis->config.encoder_counts_per_rev);
+}
+double dirty_lines(const FaultyPart& part) {
+    return std::floor((counts_per_turn(part) - 1) / 4);
+}
+double off_centre(const FaultyPart& part) {
+    return counts_per_turn(part) / 7;
+}
+double track_speed_limit(const FaultyPart& part) {
+    return part.track->config.greatest_speed();
+}
+/// Whether it goes by its profile again has no number; it is checked like a speed.
+double track_profile_limit(const FaultyPart& part) {
+    return std::min(1.0, track_speed_limit(part));
+}
+/// Less than half a period, in steps of 0.1 ns.
+double frame_jitter_limit(const FaultyPart& part) {
+    return std::min(part.card->grating_bus.period_us * 500 - 0.1, greatest_push);
+}
+
+constexpr FaultRow stepper_faults[] = {
+    {"motor.stall", 0, 1, "", "1: the axle is held fast; 0 releases it"},
+    {"motor.lose_steps", -greatest_push, greatest_push, "pulses",
+     "the rotor falls back by about so many, in whole electrical cycles"},
+    {"motor.push", -greatest_push, greatest_push, "microsteps", "the rotor is moved by about so many"},
+};
+constexpr FaultRow servo_faults[] = {
+    {"motor.stall", 0, 1, "", "1: the axle is held fast; 0 releases it"},
+    {"motor.push", -greatest_push, greatest_push, "microsteps", "the rotor is moved by about so many"},
+    {"motor.load", 0, max_factor, "", "the load becomes so many times the motor's own inertia"},
+};
+constexpr FaultRow axis_faults[] = {
+    {"encoder.broken_a", 0, 1, "", "1: track A reads Low; 0 mends it"},
+    {"encoder.broken_b", 0, 1, "", "1: track B reads Low; 0 mends it"},
+    {"encoder.swapped", 0, 1, "", "1: the tracks are crossed over; 0 mends it"},
+    {"encoder.inverted_a", 0, 1, "", "1: track A is upside down; 0 mends it"},
+    {"encoder.inverted_b", 0, 1, "", "1: track B is upside down; 0 mends it"},
+    {"encoder.noise", 0, max_levels, "levels", "so many wrong levels of half a microsecond to ten from now on"},
+    {"encoder.jitter", 0, max_delay_s, "s", "edges come up to so much late"},
+    {"encoder.dirt", 0, 0, "lines", "so many lines of the disc cannot be seen", dirty_lines},
+    {"encoder.overspeed", 0, greatest_push, "1/s",
+     "above so many edges a second (1 at least) lines are lost; 0 mends it"},
+    {"encoder.eccentricity", 0, 0, "counts", "the disc is off its centre by so much", off_centre},
+    {"limit_minus.stuck_open", 0, 1, "", "1: the switch never acts; 0 mends it"},
+    {"limit_minus.stuck_closed", 0, 1, "", "1: the switch always acts; 0 mends it"},
+    {"limit_plus.stuck_open", 0, 1, "", "1: the switch never acts; 0 mends it"},
+    {"limit_plus.stuck_closed", 0, 1, "", "1: the switch always acts; 0 mends it"},
+    {"home.stuck_open", 0, 1, "", "1: the switch never acts; 0 mends it"},
+    {"home.stuck_closed", 0, 1, "", "1: the switch always acts; 0 mends it"},
+};
+constexpr FaultRow stage_faults_table[] = {
+    {"motor.stall", 0, 1, "", "1: the stage is held fast; 0 releases it"},
+    {"motor.push", -greatest_push, greatest_push, "nm", "the stage is moved by so much, at most to its ends"},
+    {"motor.friction", 0, max_factor, "m/s2", "what rubs brakes by so much"},
+    {"motor.load", 0, max_factor, "", "the mass on the stage is so many times its own"},
+    {"scale.lose", -greatest_push, greatest_push, "counts", "so many counts are lost at once"},
+    {"scale.dirt", 0, greatest_push, "nm", "so much of the grating cannot be seen"},
+    {"scale.swapped", 0, 1, "", "1: the lines are swapped, it counts backwards; 0 mends it"},
+    {"scale.expansion", -max_ppm, max_ppm, "ppm", "the grating is so much longer"},
+};
+constexpr FaultRow track_faults[] = {
+    {"drive.speed", 0, 0, "/s", "it goes at this speed from now on, mm/s or degrees/s; 0: it stands",
+     track_speed_limit},
+    {"drive.profile", 0, 1, "", "it goes as its rack file says again", track_profile_limit},
+    {"encoder.broken_a", 0, 2, "", "1: track A reads Low, 2: High; 0 mends it"},
+    {"encoder.broken_b", 0, 2, "", "1: track B reads Low, 2: High; 0 mends it"},
+    {"encoder.swapped", 0, 1, "", "1: the tracks are crossed over; 0 mends it"},
+    {"encoder.inverted_a", 0, 1, "", "1: track A is upside down; 0 mends it"},
+    {"encoder.inverted_b", 0, 1, "", "1: track B is upside down; 0 mends it"},
+    {"encoder.noise", 0, max_levels, "levels", "so many wrong levels of half a microsecond to ten from now on"},
+    {"encoder.jitter", 0, max_delay_s, "s", "edges come up to so much late"},
+    {"sender.silent", 0, 1, "", "1: no word comes; 0 mends it"},
+};
+constexpr FaultRow card_faults[] = {
+    {"watchdog.hang", 0, 1, "", "1: the firmware hangs until the watchdog restarts it"},
+    {"esl.broken", 0, 1, "", "1: the wire of the limit switch on the left is broken; 0 mends it"},
+    {"esr.broken", 0, 1, "", "1: the wire of the limit switch on the right is broken; 0 mends it"},
+    {"ems.broken", 0, 1, "", "1: the wire of the emergency stop is broken; 0 mends it"},
+    {"ref.broken", 0, 1, "", "1: the wire of the reference switch is broken; 0 mends it"},
+    {"off", 0, 1, "", "1: the card has no power; 0: it comes back, reset"},
+    {"reset", 0, 1, "", "1: the card is reset"},
+    {"late", 0, greatest_push, "ns", "the slave begins its frames so much too late"},
+    {"miss_edge", 0, greatest_push, "edges", "the slave misses the next so many edges of HOLD"},
+    {"jitter", 0, 0, "ns", "the host's frames begin up to so much late", frame_jitter_limit},
+    {"no_latch", 0, 1, "", "1: the decoder does not latch its counts; 0 mends it"},
+};
+
+const FaultRow* find_fault_row(std::span<const FaultRow> rows, std::string_view name) {
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](const FaultRow& row) { return row.name == name; });
+    return found == rows.end() ? nullptr : &*found;
+}
+
+const FaultRow* row_of(const FaultyPart& part, std::string_view name) {
+    if (part.card != nullptr) return find_fault_row(card_faults, name);
+    if (part.track != nullptr) return find_fault_row(track_faults, name);
+    if (part.axis == nullptr) return find_fault_row(stage_faults_table, name);
+    const std::span<const FaultRow> motor =
+        part.axis->servo ? std::span<const FaultRow>(servo_faults) : std::span<const FaultRow>(stepper_faults);
+    const FaultRow* row = find_fault_row(motor, name);
+    return row != nullptr ? row : find_fault_row(axis_faults, name);
+}
+
+FaultyPart part_of(Rack& rack, const std::string& target) {
+    FaultyPart out;
+    for (const RunningAxis& axis : rack.axes())
+        if (target == std::string(1, axis.config.letter)) return out.axis = &axis, out;
+    out.track = rack.track(target);
+    out.card = out.track == nullptr && rack.card(target) != nullptr ? rack.config().card(target) : nullptr;
+    return out;
+}
+
+}  // namespace
+
+std::vector<FaultValue> fault_values(Rack& rack) {
+    std::vector<FaultValue> out;
+    for (const FaultTarget& target : fault_targets(rack)) {
+        const FaultyPart part = part_of(rack, target.name);
+        for (const std::string_view name : target.faults) {
+            const FaultRow* row = row_of(part, name);
+            MOTIONRACK_ASSERT(row != nullptr);  // a test looks at all of them
+            FaultValue& one = out.emplace_back(
+                FaultValue{target.name, row->name, std::string(row->unit), row->doc, row->min, row->max});
+            if (row->max_of != nullptr) one.max = row->max_of(part);
+            if (row->max_of != track_speed_limit) continue;
+            one.min = -one.max;
+            one.unit = std::string(part.track->config.unit()) + one.unit;
+        }
+    }
+    return out;
+}
+
+}  // namespace motionrack::rack
