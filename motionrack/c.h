@@ -22,13 +22,18 @@
  * Errors. Every function that returns int returns MR_OK (0) or one of the codes below, and mr_last_error() then tells
  * in a sentence what was wrong, what the limits are and what was (not) done. After an error the rack is as it was
  * before the call. A null pointer is MR_BAD_CALL; a pointer to something else, or to a rack that was closed, is not
- * noticed.
+ * noticed. mr_run_program and mr_home say when they have moved something all the same.
  *
  * Threads. A rack belongs to one thread at a time: let no two calls with the same rack overlap. Different racks know
  * nothing of each other and may run in different threads at once. mr_last_error() is kept for each thread.
  *
- * Time. The rack's time is virtual: it passes in mr_advance_ns and, for as long as the card's bus takes, in the
- * functions that read and write registers; nowhere else. The same calls give the same world, bit for bit.
+ * Time. The rack's time is virtual: it passes in mr_advance_ns, mr_run_program and mr_home and, for as long as the
+ * card's bus takes, in the functions that read and write registers; nowhere else. The same calls give the same world,
+ * bit for bit.
+ *
+ * Call-backs. What is called while time passes (mr_on_condition, the progress of a program) may call every function of
+ * this file but those that let time pass, mr_snapshot and mr_rack_close, which are MR_REFUSED with the rack that it is
+ * called for. It must return: no longjmp, no exception.
  *
  * Strings are UTF-8 and end with a zero byte; the library keeps none of the pointers that it is given.
  */
@@ -51,10 +56,12 @@ extern "C" {
 enum mr_result {
     MR_OK = 0,
     MR_BAD_CALL = 1,  /* a null pointer, a name that the rack does not have, a value that is none */
-    MR_BAD_INPUT = 2, /* the rack file is wrong; mr_last_error() has a line for each mistake */
+    MR_BAD_INPUT = 2, /* a rack file or part program is wrong; mr_last_error() has a line for each mistake */
     MR_REFUSED = 3,   /* outside a limit, or something that this card cannot do */
+    MR_MACHINE = 4,   /* the machine stopped what was running (limit switch, alarm), or its position was lost */
     MR_IO = 5,        /* a file could not be read or written */
-    MR_INTERNAL = 6   /* out of memory, or a mistake in the library */
+    MR_INTERNAL = 6,  /* out of memory, or a mistake in the library */
+    MR_STOPPED = 7    /* a call-back asked for a stop, and the axes came to rest */
 };
 
 /* A running rack. */
@@ -69,7 +76,8 @@ typedef struct mr_rack mr_rack;
  * MR_BAD_CALL, MR_BAD_INPUT, MR_IO, MR_INTERNAL. */
 MR_API int mr_rack_open(const char* toml_path_or_text, mr_rack** out);
 
-/* Ends a rack and frees it; a recording that runs is ended first. NULL: nothing is done. */
+/* Ends a rack and frees it; a recording that runs is ended first. NULL: nothing is done; neither is anything in a
+ * call-back of this rack. */
 MR_API void mr_rack_close(mr_rack* rack);
 
 /* The sentence of the last error in this thread, "" if there was none. Valid until the next error in this thread. */
@@ -237,11 +245,81 @@ MR_API int mr_part_set(mr_rack* rack, const char* part_dot_quantity, double valu
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
 MR_API int mr_fault(mr_rack* rack, const char* fault, const char* target);
 
+/* A quantity of the rack, for mr_quantities. */
+typedef struct mr_quantity {
+    const char* name;    /* as mr_part_get takes it: "X.position_mm" */
+    const char* meaning; /* "where the table is" */
+    const char* unit;    /* "mm", "deg/s", "counts"; "": it has none */
+    double min, max; /* of its values, infinite where nothing bounds them; if it can be set: what mr_part_set takes */
+    int can_set;     /* 1: by mr_part_set, else 0 */
+} mr_quantity;
+
+/* Calls `tell` with each quantity that this rack has: of its axes, stages, belts, tables and scan heads, as above, then
+ * of its cards. The texts hold until `tell` returns. MR_BAD_CALL, MR_INTERNAL. */
+MR_API int mr_quantities(mr_rack* rack, void (*tell)(void* user, const mr_quantity* quantity), void* user);
+
+/* A fault that can be injected, for mr_faults. */
+typedef struct mr_fault_info {
+    const char* name;    /* as mr_fault takes it: "motor.push" */
+    const char* target;  /* "X" */
+    const char* meaning; /* what the value does */
+    const char* unit;    /* of the value: "microsteps"; "": it has none */
+    double min, max;     /* what the value may be */
+} mr_fault_info;
+
+/* Calls `tell` with each fault that something in this rack can have: axes, cards, stages, belts and tables. The texts
+ * hold until `tell` returns. MR_BAD_CALL, MR_INTERNAL. */
+MR_API int mr_faults(mr_rack* rack, void (*tell)(void* user, const mr_fault_info* fault), void* user);
+
+/* ---- The controller ---- */
+
+/* How a program is run; all of it may be 0. */
+typedef struct mr_run_options {
+    const char* tools; /* path of a tool table (LinuxCNC's .tbl) for G43, G41, G42; NULL: there is none */
+    int block_delete;  /* not 0: lines that begin with '/' are left out */
+    /* Called about every 50 ms of virtual time with the time since the program began, the line that is driven and how
+     * many lines there are. An answer other than 0 stops the program: the axes come to rest along the path. NULL: none.
+     */
+    int (*progress)(void* user, double seconds, int64_t line, int64_t lines);
+    void* user; /* for progress */
+} mr_run_options;
+
+/* What came of a program. */
+typedef struct mr_run_result {
+    int ok;               /* 1: it was driven to its end, and nothing was lost or broken on the way; else 0 */
+    int line, column;     /* of the first error, from 1; 0: it has none */
+    double seconds;       /* virtual time that it took */
+    double path_mm;       /* length of its path in X, Y, Z */
+    double deviation_mm;  /* how far the machine was from the program at most */
+    const char* sentence; /* how it ended, and what was wrong, a line each; holds until the next program or mr_home of
+                           * this rack, and its end */
+} mr_run_result;
+
+/* Runs a part program (G-code) on the rack's controller, as `motionrack run` does, from its first line to standstill.
+ * `path_or_text` is the path of a file, beside which its subprograms lie, or, if it has a line end in it, the text. All
+ * of it is read first: if anything is wrong, nothing moves, and mr_last_error() has a line for each mistake, with line
+ * and column. A program begins where the rack file says that the machine stands: at time 0, and once a rack; wires may
+ * be driven, faults injected and a recording begun before. During it counters are recorded every 50 ms. `options` and
+ * `result` may be NULL. MR_BAD_CALL, MR_BAD_INPUT, MR_IO and MR_REFUSED (the rack has no axes; it is not at time 0; a
+ * call-back called): nothing moved. MR_MACHINE, MR_STOPPED: it moved. MR_INTERNAL. */
+MR_API int mr_run_program(mr_rack* rack, const char* path_or_text, const mr_run_options* options,
+                          mr_run_result* result);
+
+/* Homes axes as `motionrack home` does: "XY" or "x, y"; NULL or "": every axis that has a home switch. How each
+ * searches is said in the rack file. MR_BAD_CALL; MR_REFUSED (no such axis; it has no home switch; a call-back called;
+ * an emergency stop, and then the bus took its time): nothing moved; MR_MACHINE (a switch was not found, the machine
+ * stopped): the axes stand. */
+MR_API int mr_home(mr_rack* rack, const char* axes);
+
+/* What the command line prints of the rack's last mr_run_program or mr_home: lines of text; "" if nothing has moved by
+ * them. Holds until the next of them, and the rack's end. */
+MR_API const char* mr_report(const mr_rack* rack);
+
 /* ---- The whole world ---- */
 
 /* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The
- * same calls from here on do the same in both. A recording stays with the first. *copy is set to NULL if it fails.
- * MR_BAD_CALL, MR_INTERNAL. */
+ * same calls from here on do the same in both. A recording and the call-back of mr_on_condition stay with the first.
+ * *copy is set to NULL if it fails. MR_BAD_CALL, MR_REFUSED (a call-back called), MR_INTERNAL. */
 MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);
 
 /* Equal worlds have equal hashes: time, cards, wires, parts and the history of the wires. How the time was cut into
@@ -259,15 +337,26 @@ MR_API int mr_conditions(mr_rack* rack, uint64_t since,
                                       const char* sentence),
                          void* user);
 
+/* From now on `call` gets each condition when it happens, as mr_conditions tells it: in the order of their numbers,
+ * none twice, none left out but those beyond 4096 at once. Time stands at that instant, so what it looks at is the
+ * world of then, and what it does (drive a wire, inject a fault, begin a recording) happens then; in mr_run_program and
+ * mr_home it comes at most 50 ms later. What happens in mr_read, mr_write and mr_frame_wait, mr_wire_set, mr_part_set and mr_fault
+ * comes before they return. The world goes on as it would without. NULL: no more. MR_BAD_CALL, MR_INTERNAL. */
+MR_API int mr_on_condition(mr_rack* rack,
+                           void (*call)(void* user, uint64_t number, int64_t at_100ps, const char* card, int code,
+                                        const char* sentence),
+                           void* user);
+
 /* ---- Recordings ---- */
 
-/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli) or *.csv (time_s, signal, value:
- * each change a line). Levels are 0 and 1; voltages are in V, counters and words of a bus numbers. `signals`: patterns
- * with * and ?, separated by blanks or commas ("X.* c1.xlmtp"); NULL or "": every wire, the pulses of each axis
- * (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b) and the card's counters (c1.xlp, c1.xep), these once a
- * millisecond. Pins that a card drives on demand (c1.xpp) are recorded if a pattern names them. One recording at a
- * time; one that mr_trace_stop could not end is given up for the new one. MR_BAD_CALL (null, no signal fits),
- * MR_REFUSED (another ending, .h5 among them; one runs already), MR_IO. */
+/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli), *.csv (time_s, signal, value: each
+ * change a line) or *.h5 (HDF5, as the page of recordings has it: wires/X/step/time and value). Levels are 0 and 1;
+ * voltages are in V, counters and words of a bus numbers. `signals`: patterns with * and ?, separated by blanks or
+ * commas ("X.* c1.xlmtp"); NULL or "": every wire, the pulses of each axis (X.step, X.dir), its encoder tracks
+ * (X.enc_a, X.enc_b) and the card's counters (c1.xlp, c1.xep), these once a millisecond. Pins that a card drives on
+ * demand (c1.xpp) are recorded if a pattern names them. One recording at a time; one that mr_trace_stop could not end
+ * is given up for the new one. MR_BAD_CALL (null, no signal fits), MR_REFUSED (another ending; one runs already),
+ * MR_IO. */
 MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
 
 /* The unit of time of VCD files that are begun from now on: 0.1, 1, 10, 100 or 1000 ns, or such a part of a second; 0,
@@ -276,7 +365,8 @@ MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
 MR_API int mr_trace_unit(mr_rack* rack, double ns);
 
 /* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole: the
- * recording goes on; make room and end it again, or begin another). */
+ * recording goes on; make room and end it again, or begin another. What an *.h5 file had is lost then: begin another).
+ */
 MR_API int mr_trace_stop(mr_rack* rack);
 
 #ifdef __cplusplus

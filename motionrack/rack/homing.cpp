@@ -40,6 +40,8 @@ class Homing {
     Homing(Rack& rack, const HomingSettings& settings) : rack_(rack), settings_(settings) {}
 
     HomingOutcome run() {
+        out_.ended = choose();
+        if (!out_.ended) return std::move(out_);  // nothing was touched
         StopLatch& latch = rack_.stop_latch();
         const bool armed = latch.armed();
         if (!armed) latch.arm();
@@ -54,7 +56,7 @@ class Homing {
 
   private:
     void home_all() {
-        out_.ended = choose();
+        out_.ended = take_axes();
         if (out_.ended) {
             began_ = rack_.kernel().now();
             rack_.set_stop_flag(settings_.stop);
@@ -128,8 +130,15 @@ class Homing {
             MOTIONRACK_TRY(work.order, home_order(rack_.config(), config));
             if (settings_.seen_indexes != nullptr && config.homing.type >= 3 && !work.order.index_after)
                 work.order.index_after = (*settings_.seen_indexes)[static_cast<std::size_t>(config.index())];
-            MOTIONRACK_TRY(work.axis, running->card->axis(rack_.config(), letter));
             works_.push_back(std::move(work));
+        }
+        return {};
+    }
+
+    /// Their cards set them up.
+    Result<void> take_axes() {
+        for (Work& work : works_) {
+            MOTIONRACK_TRY(work.axis, work.running->card->axis(rack_.config(), work.running->config.letter));
         }
         return {};
     }
@@ -230,6 +239,7 @@ class Homing {
     void gather() {
         const Instant now = rack_.kernel().now();
         for (Work& work : works_) {
+            if (work.axis == nullptr) continue;  // refused
             HomedAxis one;
             one.letter = work.running->config.letter;
             one.unit = work.running->config.unit();

@@ -68,7 +68,6 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
       id_(kernel.add(*this, sim::Phase::observers, "monitor")),
       axes_(std::move(axes)),
       period_(period),
-      ring_(ring_size),
       kept_(most_samples) {
     ears_.reserve(axes_.size());  // they are listened with
     for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -85,6 +84,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
 // ---- in virtual time
 
 void Monitor::begin() {
+    ring_.resize(ring_size);
     running_ = true;
     kernel_.schedule(id_, kernel_.now());
 }

@@ -1,4 +1,4 @@
-// Opening, time and the bus.
+// Opening, time, the bus, conditions and recordings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,14 +6,15 @@
 #include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>
+#include <motionrack/rack/raised_flag.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <motionrack/trace/vcd.hpp>
 
 namespace motionrack::rack {
 
-Session::Session(const RackConfig& config)
-    : rack_(config), tap_(std::make_unique<WireTap>(rack_.kernel())), desk_(rack_) {
+Session::Session(const RackConfig& config, Programs programs)
+    : rack_(config), job_(make_job(programs)), tap_(std::make_unique<WireTap>(rack_.kernel())), desk_(rack_) {
     rack_.input_log().keep_no_more();
     rack_.start();
 }
@@ -22,9 +23,9 @@ Session::~Session() {
     static_cast<void>(stop_trace());
 }
 
-Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text) {
+Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text, Programs programs) {
     const RackReading reading = read_rack(path_or_text);
-    if (reading.config) return std::unique_ptr<Session>(new Session(*reading.config));
+    if (reading.config) return std::unique_ptr<Session>(new Session(*reading.config, programs));
     Error all = reading.errors.front();
     all.message = all.text();
     all.file.clear();
@@ -44,6 +45,7 @@ Result<void> Session::room_for(Duration time) const {
 
 /// `ns` as a time that the rack has left.
 Result<Duration> Session::time_of(std::uint64_t ns) const {
+    MOTIONRACK_CHECK(check_free());
     if (ns > most_ns)
         return fail(Trouble::refused, fmt::format("{} ns are more than one call may run, {} ns; nothing was run. Call "
                                                   "several times.",
@@ -60,14 +62,15 @@ Result<void> Session::advance(std::uint64_t ns) {
 }
 
 void Session::run_to(Instant until) {
-    for (look(); next_look_ < until; look()) run_slice(next_look_);
-    run_slice(until);
+    while (true) {
+        look();
+        const sim::RunEnd end = rack_.kernel().run_until(
+            std::min(until, next_look_), on_condition_ ? sim::RunBreak::conditions : sim::RunBreak::none);
+        if (end == sim::RunEnd::broken && recorder_) recorder_->drain();
+        tell_conditions();
+        if (end == sim::RunEnd::reached && now() >= until) break;
+    }
     look();
-}
-
-void Session::run_slice(Instant until) {
-    while (rack_.kernel().run_until(until) == sim::RunEnd::broken)
-        if (recorder_) recorder_->drain();
 }
 
 /// Where a recording is due to look at the registers, it does, and puts what it has on the disk.
@@ -79,21 +82,32 @@ void Session::look() {
     next_look_ = (now() / period + 1) * period;
 }
 
+/// While a program, a homing or a card's host has the rack's time.
+void Session::between() {
+    look();
+    if (recorder_) recorder_->drain();
+    tell_conditions();
+}
+
 // ---- the bus
 
 Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32_t address) {
+    MOTIONRACK_CHECK(check_free());
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, false));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     const std::uint32_t value = on->bus_read(bits, address);
     look();
+    tell_conditions();
     return value;
 }
 
 Result<void> Session::write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value) {
+    MOTIONRACK_CHECK(check_free());
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, true));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     on->bus_write(bits, address, value);
     look();
+    tell_conditions();
     return {};
 }
 
@@ -106,7 +120,7 @@ Result<bool> Session::wait(std::string_view card, std::uint64_t ns) {
     for (look(); !active; look()) {
         const Duration left = end - now();
         active = on->host().wait(recorder_ ? std::min({left, drained_within, next_look_ - now()}) : left);
-        if (recorder_) recorder_->drain();
+        between();
         if (now() >= end) break;
     }
     return active;
@@ -117,38 +131,85 @@ Result<std::int64_t> Session::peek(std::string_view card, std::string_view name)
     return on->inspect(name);
 }
 
-// ---- parts, copies, recordings
+// ---- parts, copies
 
 Result<double> Session::part(std::string_view part_dot_quantity) {
     return get_quantity(rack_, part_dot_quantity);
 }
 
 Result<void> Session::set_part(std::string_view part_dot_quantity, double value) {
-    return set_quantity(rack_, part_dot_quantity, value);
+    Result<void> done = set_quantity(rack_, part_dot_quantity, value);
+    tell_conditions();
+    return done;
+}
+
+Result<void> Session::set_wire(std::string_view name, double value) {
+    Result<void> done = desk_.set(name, value);
+    tell_conditions();
+    return done;
 }
 
 Result<void> Session::fault(std::string_view fault, std::string_view target) {
-    return inject_fault(rack_, fault, target);
+    Result<void> done = inject_fault(rack_, fault, target);
+    tell_conditions();
+    return done;
 }
 
-std::unique_ptr<Session> Session::copy() {
-    std::unique_ptr<Session> out(new Session(rack_.config()));
+Result<std::unique_ptr<Session>> Session::copy() {
+    MOTIONRACK_CHECK(check_free());
+    std::unique_ptr<Session> out(new Session(rack_.config(), job_ ? Programs::yes : Programs::no));
     out->rack_.copy_from(rack_);
     out->desk_.copy_from(desk_);
+    out->ran_ = ran_;
     return out;
+}
+
+// ---- conditions
+
+std::uint64_t Session::condition_count() const {
+    const sim::Kernel& kernel = rack_.kernel();
+    return kernel.dropped_conditions() + kernel.conditions().size();
 }
 
 std::vector<Session::Told> Session::conditions(std::uint64_t since) {
     const sim::Kernel& kernel = rack_.kernel();
     std::vector<Told> out;
-    std::uint64_t number = kernel.dropped_conditions();
-    for (const sim::Condition& one : kernel.conditions()) {
-        if (++number <= since) continue;
+    std::uint64_t number = std::max(since, kernel.dropped_conditions());
+    for (const sim::Condition& one : kernel.conditions(since)) {
         const std::string device = one.device == sim::no_device ? "rack" : kernel.device_name(one.device);
-        out.push_back({number, one.at, device, one.code, rack_.describe(one)});
+        out.push_back({++number, one.at, device, one.code, rack_.describe(one)});
     }
     return out;
 }
+
+void Session::on_condition(std::function<void(const Told&)> call) {
+    if (!on_condition_) told_ = condition_count();
+    on_condition_ = std::move(call);
+}
+
+/// What the call-back does may report more, which it hears of then.
+void Session::tell_conditions() {
+    if (!on_condition_ || telling_) return;
+    const RaisedFlag telling(telling_);
+    while (on_condition_) {
+        const std::vector<Told> news = conditions(told_);
+        if (news.empty()) break;
+        for (const Told& one : news) {
+            told_ = one.number;
+            const auto call = on_condition_;  // it may take another, or none
+            if (call) call(one);
+        }
+    }
+}
+
+Result<void> Session::check_free() const {
+    if (!telling_ && !driving_) return {};
+    return fail(Trouble::refused,
+                "A call-back of this rack, in the middle of a call that lets time pass, cannot let time pass, copy the "
+                "rack or close it. Nothing was done; return from the call-back first.");
+}
+
+// ---- recordings
 
 Result<void> Session::set_trace_unit(double ns) {
     constexpr double coarsest_ns = 1e9;
@@ -159,7 +220,7 @@ Result<void> Session::set_trace_unit(double ns) {
     return {};
 }
 
-Result<void> Session::start_trace(const std::string& path, std::string_view signals) {
+Result<void> Session::start_trace(const std::string& path, std::string_view signals, std::string_view version) {
     if (recorder_ && !recorder_->failed())
         return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
     WaveSettings settings;
@@ -167,6 +228,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
     MOTIONRACK_TRY(settings.format, wave_format(path));
     settings.tap = tap_.get();
     settings.unit = trace_unit_;
+    settings.version = version;
     constexpr std::string_view between = " ,\t\n";
     for (std::size_t at = 0; (at = signals.find_first_not_of(between, at)) != std::string_view::npos;) {
         const std::size_t end = std::min(signals.find_first_of(between, at), signals.size());
@@ -182,7 +244,9 @@ Result<void> Session::stop_trace() {
     if (!recorder_) return fail(Trouble::refused, "No recording runs; nothing was done.");
     Result<void> ended = recorder_->finish();
     if (!ended) {
-        ended.error().message += " The recording goes on; end it again, or begin another in its place.";
+        ended.error().message += recorder_->can_end_again()
+                                     ? " The recording goes on; end it again, or begin another in its place."
+                                     : " What was recorded is lost; begin another recording in its place.";
         return ended;
     }
     recorder_.reset();

@@ -63,10 +63,11 @@ std::size_t Kernel::earliest() const {
     return best;
 }
 
-RunEnd Kernel::run_until(Instant until) {
+RunEnd Kernel::run_until(Instant until, RunBreak at) {
     MOTIONRACK_ASSERT(started_ && until >= state_.now);
     break_ = false;
     deliver();
+    const std::uint64_t reported = at == RunBreak::conditions ? state_.condition_count : 0;
     while (!break_ && !due_.empty()) {
         const std::size_t next = earliest();
         if (due_[next].at > until) break;
@@ -75,6 +76,7 @@ RunEnd Kernel::run_until(Instant until) {
         ++state_.events;
         devices_[next].device->act(state_.now);
         deliver();
+        if (at == RunBreak::conditions && state_.condition_count != reported) break_ = true;
     }
     if (!break_) state_.now = until;
     sync_all();
@@ -201,9 +203,9 @@ WireId Kernel::find_wire(std::string_view name) const {
 
 // ---- looking and rewinding
 
-std::vector<Condition> Kernel::conditions() const {
+std::vector<Condition> Kernel::conditions(std::uint64_t after) const {
     std::vector<Condition> out;
-    const std::uint64_t first = dropped_conditions();
+    const std::uint64_t first = std::max(after, dropped_conditions());
     for (std::uint64_t i = first; i < state_.condition_count; ++i) out.push_back(conditions_[i % condition_capacity]);
     return out;
 }

@@ -39,7 +39,13 @@ inline constexpr std::uint16_t wires_never_settle = 1;
 /// Why a run ended before its time.
 enum class RunEnd : std::uint8_t {
     reached,  ///< virtual time is what was asked for
-    broken    ///< a device called break_run (an interrupt line fell, a buffer is nearly full)
+    broken    ///< a device called break_run (an interrupt line fell, a buffer is nearly full), or a condition was met
+};
+
+/// What ends a run early, beside break_run.
+enum class RunBreak : std::uint8_t {
+    none,
+    conditions  ///< the event in which a condition is reported is the last one
 };
 
 /// All state of a rack at one instant; restoring is copying back. Belongs to the kernel (wiring) it was taken from.
@@ -64,8 +70,8 @@ class Kernel {
     void start();
 
     // ---- running
-    /// Runs until virtual time is `until`, or a device breaks the run. On return every device has been synced.
-    RunEnd run_until(Instant until);
+    /// Runs until virtual time is `until`, or a device or `at` breaks the run. On return every device has been synced.
+    RunEnd run_until(Instant until, RunBreak at = RunBreak::none);
     /// Ends run_until after the present event.
     void break_run() { break_ = true; }
     Instant now() const { return state_.now; }
@@ -101,9 +107,9 @@ class Kernel {
     Device& device(DeviceId id) { return *devices_[index(id)].device; }
     std::size_t device_count() const { return devices_.size(); }
 
-    /// Conditions since the start, oldest first; at most condition_capacity are kept, dropped_conditions() tells of the
-    /// rest.
-    std::vector<Condition> conditions() const;
+    /// Conditions since the start but for the first `after`, oldest first; at most condition_capacity are kept,
+    /// dropped_conditions() counts the rest.
+    std::vector<Condition> conditions(std::uint64_t after = 0) const;
     std::uint64_t dropped_conditions() const;
     /// Events run since the start: what a run costs.
     std::uint64_t events() const { return state_.events; }

@@ -1,6 +1,7 @@
 // libFuzzer: any bytes as calls of motionrack/c.h and motionrack/flex2pos.h with good and bad arguments, null pointers
 // among them. Each gives one of its codes; one that fails has a sentence and changes nothing: the state hash and the
-// place for the value are as they were. What only looks changes nothing either; a copy of a rack is the same rack.
+// place for the value are as they were, unless the machine stopped a program or a homing, which has moved. What only
+// looks changes nothing either; a copy of a rack is the same rack; call-backs let no time pass.
 #include <motionrack/c.h>
 #include <motionrack/flex2pos.h>
 
@@ -8,9 +9,9 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <motionrack/sim/test/fuzz_feed.hpp>
 #include <string>
+#include <tests/fuzz/c_arguments.hpp>
 #include <tests/fuzz/scratch_file.hpp>
 
 namespace {
@@ -19,100 +20,7 @@ using motionrack::fuzz::Bytes;
 using motionrack::fuzz::require;
 using motionrack::fuzz::ScratchFile;
 
-constexpr const char* rack_text = R"([card.c1]
-type = "mcx314"
-[axis.X]
-card = "c1"
-channel = "x"
-[axis.X.switches]
-limit_plus_mm = 301
-home_mm = 1
-[axis.B]
-card = "c1"
-channel = "y"
-[card.p]
-type = "databoard4002"
-[card.i]
-type = "ioflex02"
-[card.s]
-type = "rtc5"
-list_memory = 2000
-[belt.line]
-card = "s"
-speed_mm_s = 1
-counts_per_mm = 100
-[scanner.head]
-card = "s"
-)";
-
-constexpr std::array names = {"c1.xlmtp",
-                              "c1.xlmtm",
-                              "c1.xeca",
-                              "c1.xecb",
-                              "c1.yeca",
-                              "c1.yecb",
-                              "c1.xin0",
-                              "c1.emgn",
-                              "c1.xalarm",
-                              "estop",
-                              "X.limit_plus",
-                              "X.home",
-                              "X.enc_z",
-                              "B.enc_z",
-                              "X.step",
-                              "c1.xpp",
-                              "c1.int_n",
-                              "X.position_mm",
-                              "B.position_deg",
-                              "X.position_pulses",
-                              "X.in_step",
-                              "RR0",
-                              "x.RR1",
-                              "u.LP",
-                              "x.WR2",
-                              "y.P",
-                              "X",
-                              "B",
-                              "line",
-                              "head",
-                              "line.speed_mm_s",
-                              "line.parts",
-                              "head.spot_x_mm",
-                              "head.marked_mm",
-                              "s.xout",
-                              "s.mcbsp",
-                              "s.start_n",
-                              "p.esl",
-                              "p.vout",
-                              "i.in0",
-                              "motor.stall",
-                              "motor.stall=0",
-                              "motor.push=99",
-                              "motor.lose_steps=3",
-                              "encoder.broken_a",
-                              "encoder.swapped=1",
-                              "limit_plus.stuck_closed",
-                              "home.stuck_open=0",
-                              "drive.speed=5",
-                              "sender.silent",
-                              "encoder.jitter=1e-6",
-                              "motor.load=nan"};
-constexpr std::uint64_t most_ns = 1'000'000'000'000'001;  ///< from here on mr_advance_ns refuses
-constexpr std::array cards = {"c1", "p", "i", "s", "c2", ""};
-constexpr std::array patterns = {"",     "*",           "X.* c1.xlmtp", "c1.xpp,c1.xlp", "Q.*", "line.* head.*",
-                                 "????", "c1.*\n\t,s.*"};
-constexpr std::array<double, 12> numbers = {0,
-                                            1,
-                                            0.5,
-                                            -1,
-                                            17.25,
-                                            1e6,
-                                            1e300,
-                                            -1e-300,
-                                            std::numeric_limits<double>::quiet_NaN(),
-                                            std::numeric_limits<double>::infinity(),
-                                            -std::numeric_limits<double>::infinity(),
-                                            2};
+using namespace motionrack::fuzz;
 
 class Caller {
   public:
@@ -129,14 +37,17 @@ class Caller {
 
     void call() {
         const std::uint64_t before = hash_, now = mr_now_ns(rack_);
-        looks_ = false;
+        looks_ = drives_ = false;
         const int code = one();
-        require(code == MR_OK || code == MR_BAD_CALL || code == MR_REFUSED || (code == MR_IO && is_file_),
+        // A machine that does not let them begin, by an emergency stop, is asked over the bus.
+        const bool moved = drives_ && (code == MR_MACHINE || code == MR_STOPPED || code == MR_REFUSED);
+        require(code == MR_OK || code == MR_BAD_CALL || code == MR_REFUSED || (code == MR_IO && is_file_) || moved ||
+                    (code == MR_BAD_INPUT && drives_),
                 "a call gives one of its codes", mr_last_error());
         require(mr_now_ns(rack_) >= now, "time does not go back");
         if (code != MR_OK) require(std::strlen(mr_last_error()) > 20, "an error has a sentence", mr_last_error());
         hash_ = mr_state_hash(rack_);
-        if (code == MR_OK && !looks_) return;
+        if ((code == MR_OK && !looks_) || moved) return;
         require(hash_ == before, "a call that fails, or looks, changes nothing", mr_last_error());
         require(mr_now_ns(rack_) == now, "a call that fails, or looks, takes no time", mr_last_error());
     }
@@ -176,8 +87,10 @@ class Caller {
         static const ScratchFile file("fuzz.vcd");
         static const std::string csv = file.beside("fuzz.csv"), nowhere = file.beside("no/such.vcd"),
                                  text = file.beside("fuzz.txt"), folder = file.beside("");
-        const std::array<const char*, 8> all = {file.path().c_str(), csv.c_str(), nowhere.c_str(), text.c_str(),
-                                                folder.c_str(),      "",          ".h5",           ".csv"};
+        static const std::string h5 = file.beside("fuzz.h5");
+        const std::array<const char*, 9> all = {file.path().c_str(), csv.c_str(), nowhere.c_str(), text.c_str(),
+                                                folder.c_str(),      "",          ".h5",           ".csv",
+                                                h5.c_str()};
         return or_null(all[below(all.size())]);
     }
 
@@ -186,7 +99,9 @@ class Caller {
     int one() {
         is_file_ = false;
         mr_rack* const on = rack();
-        const std::uint32_t what = below(16);
+        const std::uint32_t what = below(18);
+        if (what == 16) return control(on);
+        if (what == 17) return list(on);
         if (what >= 12) return write(on);
         if (what == 11) return read(on);
         if (what == 10) return use_flex2pos(on);
@@ -199,6 +114,61 @@ class Caller {
         if (what == 5) return look(&mr_wire_get, on, of);
         if (what == 4) return mr_fault(on, of, name());
         return what == 3 ? mr_part_set(on, of, number()) : mr_wire_set(on, of, number());
+    }
+    /// What is called while time passes may look, and must not let time pass.
+    static int progress(void* user, double seconds, std::int64_t, std::int64_t) {
+        auto& own = *static_cast<Caller*>(user);
+        require(seconds >= 0, "a program's time begins at 0");
+        own.refused();
+        return own.stops_;
+    }
+    static void happened(void* user, std::uint64_t number, std::int64_t, const char* card, int, const char* sentence) {
+        auto& own = *static_cast<Caller*>(user);
+        require(number > own.told_, "conditions come in order, once");
+        require(std::strlen(card) > 0 && std::strlen(sentence) > 0, "a condition has a sentence");
+        own.told_ = number;
+        own.refused();
+    }
+    void refused() {
+        mr_rack* copy = nullptr;
+        require(mr_advance_ns(rack_, 1) == MR_REFUSED && mr_snapshot(rack_, &copy) == MR_REFUSED,
+                "a call-back lets no time pass");
+        mr_rack_close(rack_);  // does nothing
+    }
+    int control(mr_rack* on) {
+        if (below(2) == 0) {
+            looks_ = true;
+            return below(3) == 0 ? mr_on_condition(on, nullptr, nullptr) : mr_on_condition(on, &happened, this);
+        }
+        drives_ = is_file_ = true;
+        if (below(3) == 0) return mr_home(on, or_null(homed[below(homed.size())]));
+        std::string& text = texts_[next_++ % texts_.size()];
+        text = programs[below(programs.size())];
+        if (below(8) == 0 && !text.empty())
+            text[below(static_cast<std::uint32_t>(text.size()))] = "XGM0;[#\n"[below(8)];
+        mr_run_options options{below(8) == 0 ? "no/such.tbl" : nullptr, static_cast<int>(below(2)), &progress, this};
+        stops_ = below(8) == 0 ? 1 : 0;
+        mr_run_result result{};
+        mr_run_options* const how = or_null(&options);
+        const int code = mr_run_program(on, or_null(text.c_str()), how, or_null(&result));
+        require(std::strlen(mr_report(rack_)) < 100'000, "what came of a program is a text");
+        return code;
+    }
+    template <class One>
+    static void counts(void* user, const One* one) {
+        require(one->min <= one->max && one->meaning[0] != '\0', "what is listed has a range and a meaning");
+        ++*static_cast<int*>(user);
+    }
+    int list(mr_rack* on) {
+        looks_ = true;
+        int lines = 0, code = MR_OK;
+        const bool none = below(8) == 0;
+        if (below(2) == 0)
+            code = mr_quantities(on, none ? nullptr : &counts<mr_quantity>, &lines);
+        else
+            code = mr_faults(on, none ? nullptr : &counts<mr_fault_info>, &lines);
+        require((code == MR_OK) == (lines > 0), "what a rack has is listed");
+        return code;
     }
     int look(int (*function)(mr_rack*, const char*, double*), mr_rack* on, const char* of) {
         looks_ = true;
@@ -343,8 +313,11 @@ class Caller {
     flex2pos* flex_ = nullptr;
     std::array<std::string, 4> texts_;
     std::size_t next_ = 0;
-    bool looks_ = false;    ///< the call only looks
-    bool is_file_ = false;  ///< it makes or ends a file
+    bool looks_ = false;      ///< the call only looks
+    bool is_file_ = false;    ///< it makes or ends a file
+    bool drives_ = false;     ///< it is a program or a homing
+    int stops_ = 0;           ///< what progress answers
+    std::uint64_t told_ = 0;  ///< number of the last condition that was told
     bool records_ = false;
 };
 

@@ -44,7 +44,7 @@ int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
     if (out != nullptr) *out = nullptr;
     bool wrong_text = false;
     const int code = guarded({{toml_path_or_text, no_text}, {out, no_place}}, [&]() -> Result<void> {
-        auto session = Session::open(toml_path_or_text);
+        auto session = Session::open(toml_path_or_text, Session::Programs::yes);
         if (!session) {
             wrong_text = session.error().trouble == Trouble::bad_input;
             return tl::unexpected<Error>(std::move(session).error());
@@ -56,7 +56,8 @@ int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
 }
 
 void mr_rack_close(mr_rack* rack) {
-    delete rack;
+    const bool free = rack == nullptr || guarded([&] { return rack->session->check_free(); }) == MR_OK;
+    if (free) delete rack;
 }
 
 const char* mr_last_error(void) {
@@ -134,7 +135,8 @@ int mr_fault(mr_rack* rack, const char* fault, const char* target) {
 int mr_snapshot(mr_rack* rack, mr_rack** copy) {
     if (copy != nullptr) *copy = nullptr;
     return guarded({{rack, no_rack}, {copy, no_place}}, [&]() -> Result<void> {
-        *copy = new mr_rack{rack->session->copy()};
+        MOTIONRACK_TRY(std::unique_ptr<Session> made, rack->session->copy());
+        *copy = new mr_rack{std::move(made)};
         return {};
     });
 }
@@ -150,13 +152,29 @@ int mr_conditions(mr_rack* rack, uint64_t since,
     });
 }
 
+int mr_on_condition(mr_rack* rack,
+                    void (*call)(void* user, uint64_t number, int64_t at_100ps, const char* card, int code,
+                                 const char* sentence),
+                    void* user) {
+    return guarded({{rack, no_rack}}, [&]() -> Result<void> {
+        std::function<void(const Session::Told&)> told;
+        if (call != nullptr)
+            told = [call, user](const Session::Told& one) {
+                call(user, one.number, one.at.count(), one.device.c_str(), one.code, one.sentence.c_str());
+            };
+        rack->session->on_condition(std::move(told));
+        return {};
+    });
+}
+
 int mr_trace_unit(mr_rack* rack, double ns) {
     return guarded({{rack, no_rack}}, [&] { return rack->session->set_trace_unit(ns); });
 }
 
 int mr_trace_start(mr_rack* rack, const char* path, const char* signals) {
-    return guarded({{rack, no_rack}, {path, no_file}},
-                   [&] { return rack->session->start_trace(path, signals == nullptr ? "" : signals); });
+    return guarded({{rack, no_rack}, {path, no_file}}, [&] {
+        return rack->session->start_trace(path, signals == nullptr ? "" : signals, MOTIONRACK_VERSION);
+    });
 }
 
 int mr_trace_stop(mr_rack* rack) {

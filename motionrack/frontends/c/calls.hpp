@@ -14,6 +14,7 @@
 
 struct mr_rack {
     std::unique_ptr<motionrack::rack::Session> session;
+    std::string sentence = {}, report = {};  ///< of the last program or homing
 };
 
 namespace motionrack::c {
@@ -31,6 +32,7 @@ inline int failed(int code, std::string_view sentence) noexcept {
     return code;
 }
 
+/// Of what failed before anything moved.
 inline int code_of(Trouble trouble) {
     switch (trouble) {
         case Trouble::bad_input:

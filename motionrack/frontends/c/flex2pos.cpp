@@ -21,9 +21,10 @@ static_assert(cVerNo == int{io::cVerNo} && sizeof cVer == sizeof io::cVer);
 static_assert(flex2pos_payload == io::least_payload);
 
 struct flex2pos {
-    flex2pos(const motionrack::rack::RackConfig& config_of, motionrack::sim::VirtualPort& port)
-        : config(config_of), library(port, port) {}
-    const motionrack::rack::RackConfig& config;  ///< of the rack, which lives longer
+    flex2pos(motionrack::rack::Session& of, motionrack::sim::VirtualPort& port)
+        : session(of), config(of.rack().config()), library(port, port) {}
+    const motionrack::rack::Session& session;    ///< lives longer
+    const motionrack::rack::RackConfig& config;  ///< of its rack
     io::Flex2Pos library;
 };
 
@@ -31,7 +32,7 @@ namespace {
 constexpr const char* no_object =
     "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
 
-/// What `call` gives, or 0: for no object, and if there is no memory for a sentence.
+/// What `call` gives, or 0: for no object, in a call-back of its rack, and if there is no memory for a sentence.
 template <class Call>
 auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
     using Value = decltype(call(flex->library));
@@ -40,6 +41,10 @@ auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
         return Value();
     }
     try {
+        if (const auto free = flex->session.check_free(); !free) {
+            failed(MR_REFUSED, free.error().message);
+            return Value();
+        }
         return call(flex->library);
     } catch (...) {
         failed(MR_INTERNAL, "There is not enough memory; the call was not finished.");
@@ -57,7 +62,7 @@ int flex2pos_open(mr_rack* rack, flex2pos** flex) {
         [&]() -> motionrack::Result<void> {
             for (const auto& card : rack->session->rack().cards()) {
                 if (card->map().name != io::card_map().name) continue;
-                *flex = new flex2pos(rack->session->rack().config(), *card->port());
+                *flex = new flex2pos(*rack->session, *card->port());
                 return {};
             }
             return motionrack::fail(motionrack::Trouble::bad_input,

@@ -154,7 +154,7 @@ TEST(Databoard4002InARack, ACopyGoesTheSameWay) {
     host.command('P', {0xE8, 0x03, 0x00});
     host.command('G');
     ASSERT_TRUE(host.session->advance(3'000'000'000));
-    const std::unique_ptr<Session> copy = host.session->copy();
+    const std::unique_ptr<Session> copy = *host.session->copy();
     ASSERT_TRUE(host.session->advance(40'000'000'000));
     ASSERT_TRUE(copy->advance(40'000'000'000));
     EXPECT_EQ(*copy->peek("c1", "POSITION"), 1000);

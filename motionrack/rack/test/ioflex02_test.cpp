@@ -215,7 +215,7 @@ TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
 TEST(Ioflex02InARack, ACopyOfTheWorldGoesOnAlike) {
     Ioflex02Bench bench(measured);
     bench.turn(3, "flex", 0);
-    const auto copy = bench.session->copy();
+    const auto copy = *bench.session->copy();
     ASSERT_TRUE(bench.session->advance(1'000'000));
     ASSERT_TRUE(copy->advance(1'000'000));
     EXPECT_EQ(bench.session->state_hash(), copy->state_hash());

@@ -127,7 +127,7 @@ TEST(MarkingLine, ACopyInTheMiddleOfAMarkGoesOnAlike) {
     bench.square(5184.0 / 1000);
     ASSERT_TRUE(bench.engine().execute_list(1));
     bench.ms(37);
-    const std::unique_ptr<Session> copy = bench.session->copy();
+    const std::unique_ptr<Session> copy = *bench.session->copy();
     EXPECT_EQ(copy->state_hash(), bench.session->state_hash());
     bench.ms(150);
     ASSERT_TRUE(copy->advance(150'000'000));

@@ -119,7 +119,7 @@ TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTablesAndWhatWasRecorded) {
     ASSERT_TRUE(bench.engine().load_correction(rtc5::table_of(*file), 1));
     ASSERT_TRUE(bench.engine().select_cor_table(1, 0));
     bench.advance_us(333);
-    const std::unique_ptr<Session> copy = bench.session->copy();
+    const std::unique_ptr<Session> copy = *bench.session->copy();
     EXPECT_EQ(copy->state_hash(), bench.session->state_hash());
     bench.advance_us(3'000);
     ASSERT_TRUE(copy->advance(3'000'000));

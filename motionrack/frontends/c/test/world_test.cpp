@@ -83,7 +83,7 @@ TEST(CWorld, IsTheWorldOfTheCppRack) {
     begin_motion(world);
     world.pass(900'000'000);
 
-    const auto session = *rack::Session::open(one_card);
+    const auto session = *rack::Session::open(one_card, rack::Session::Programs::yes);
     rack::Rack rack(*rack::read_rack_text(one_card).config);
     rack.start();
     sim::VirtualPort& port = *rack.cards()[0]->port();
@@ -327,9 +327,8 @@ TEST(CWorld, RecordingWiresAndPulsesLeavesTheMotionAlone) {
 
 TEST(CWorld, RecordingsThatCannotBeMadeAreRefused) {
     World world;
-    EXPECT_EQ(mr_trace_start(world, "a.h5", nullptr), MR_REFUSED);
-    EXPECT_THAT(mr_last_error(), HasSubstr("HDF5"));
     EXPECT_EQ(mr_trace_start(world, "a.txt", nullptr), MR_REFUSED);
+    EXPECT_THAT(mr_last_error(), HasSubstr(".h5"));
     EXPECT_EQ(mr_trace_start(world, "", nullptr), MR_REFUSED);
     EXPECT_EQ(mr_trace_start(world, nullptr, nullptr), MR_BAD_CALL);
     EXPECT_EQ(mr_trace_start(world, "/no/such/folder/a.vcd", nullptr), MR_IO);
@@ -354,7 +353,7 @@ TEST(CWorld, ARecordingThatCannotBeginLeavesTheRackAsItWas) {
                                                           {nowhere.c_str(), "c1.xpp"},
                                                           {vcd.c_str(), "Q.*"},
                                                           {"a.txt", "X.*"},
-                                                          {"/tmp/a.h5", ""}};
+                                                          {"/no/such/folder/a.h5", ""}};
     for (const auto& [path, signals] : starts) {
         EXPECT_NE(mr_trace_start(world, path, signals), MR_OK) << path;
         EXPECT_EQ(world.hash(), before) << path << ": " << mr_last_error();

@@ -1,0 +1,136 @@
+// Recordings of HDF5 over the C interface, read back by the C++ reader.
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <motionrack/frontends/c/test/world.hpp>
+#include <motionrack/trace/recording.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace motionrack::c_test {
+namespace {
+
+using ::testing::HasSubstr;
+using Changes = std::vector<std::pair<std::int64_t, std::int64_t>>;  // instant in ticks, value
+
+/// What the recording has of a signal, its value at the beginning left out.
+Changes read(const trace::RecordingReader& recording, const std::string& name) {
+    const trace::RecordedSeries* series = recording.find(name);
+    EXPECT_NE(series, nullptr) << name;
+    if (series == nullptr) return {};
+    const auto columns = recording.columns(*series);
+    EXPECT_TRUE(columns) << name;
+    std::vector<std::int64_t> times(columns->size), values(columns->size);
+    EXPECT_TRUE(columns->time.read(0, times.size(), times.data()));
+    EXPECT_TRUE(columns->value.read(0, values.size(), values.data()));
+    Changes out;
+    for (std::size_t i = 0; i < times.size(); ++i) out.emplace_back(times[i], values[i]);
+    return out;
+}
+
+/// The same of a table of changes.
+Changes of_csv(const std::string& text, const std::string& name, double unit = 1) {
+    std::istringstream lines(text);
+    Changes out;
+    bool first = true;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t comma = line.find(',');
+        if (line.compare(comma + 1, name.size() + 1, name + ",") != 0) continue;
+        if (!std::exchange(first, false)) {
+            std::string at = line.substr(0, comma);
+            at.erase(at.find('.'), 1);
+            out.emplace_back(std::stoll(at), std::llround(std::stod(line.substr(comma + name.size() + 2)) / unit));
+        }
+    }
+    return out;
+}
+
+/// A second of a drive of X.
+void record(const std::string& path, const char* signals) {
+    World world;
+    world.set_up(1, 4000);
+    world.command(1, 0x06, 500);
+    world.pass(1'000);
+    ASSERT_EQ(mr_trace_start(world, path.c_str(), signals), MR_OK) << mr_last_error();
+    world.write(0x00, 0x0120);
+    world.pass(700'000'000);
+    world.set("c1.xin0", 0);
+    world.pass(300'000'000);
+    EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+}
+
+TEST(CHdf5, HasTheSameChangesAsTheTable) {
+    const std::string h5 = temporary("w.h5"), csv = temporary("w.csv");
+    record(h5, "X.* c1.xlp c1.xpp c1.xin0");
+    record(csv, "X.* c1.xlp c1.xpp c1.xin0");
+    const std::string table = text_of_file(csv);
+    const auto recording = trace::RecordingReader::open(h5);
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_TRUE(recording->whole());
+    EXPECT_EQ(recording->began().count(), 47'500) << "15 accesses and 1 us, in ticks of 100 ps";
+    EXPECT_GE(recording->head().signals.size(), 7u);
+    for (const trace::RecordedSignal& signal : recording->head().signals) {
+        EXPECT_EQ(read(*recording, signal.name), of_csv(table, signal.name)) << signal.name;
+        EXPECT_THAT(signal.path, HasSubstr("wires/"));
+    }
+    EXPECT_EQ(read(*recording, "X.step").size(), 1000u);
+    EXPECT_EQ(read(*recording, "c1.xin0").size(), 1u);
+    std::filesystem::remove(h5);
+    std::filesystem::remove(csv);
+}
+
+TEST(CHdf5, VoltagesHaveTheirUnit) {
+    const std::string h5 = temporary("v.h5");
+    World world("card.b1 = \"databoard4002\"");
+    ASSERT_EQ(mr_trace_start(world, h5.c_str(), "b1.vout b1.relay"), MR_OK) << mr_last_error();
+    world.pass(1'000'000);
+    ASSERT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+    const auto recording = trace::RecordingReader::open(h5);
+    ASSERT_TRUE(recording) << recording.error().text();
+    for (const trace::RecordedSignal& signal : recording->head().signals) {
+        EXPECT_EQ(signal.unit, signal.name == "b1.vout" ? "V" : "");
+        EXPECT_EQ(signal.scale == 1, signal.name != "b1.vout");
+    }
+    std::filesystem::remove(h5);
+}
+
+TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
+    World world;
+    EXPECT_EQ(mr_trace_start(world, "/no/such/folder/a.h5", nullptr), MR_IO);
+    EXPECT_THAT(mr_last_error(), HasSubstr("/no/such/folder/a.h5"));
+    EXPECT_EQ(mr_trace_stop(world), MR_REFUSED);
+
+    const std::string h5 = temporary("full.h5"), csv = temporary("full.csv");
+    world.set_up(1, 4000);
+    world.command(1, 0x06, 50'000);
+    ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
+    world.write(0x00, 0x0120);
+    {
+        std::signal(SIGXFSZ, SIG_IGN);
+        rlimit before{};
+        ::getrlimit(RLIMIT_FSIZE, &before);
+        const rlimit little{20'000, before.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &little);
+        world.pass(1'500'000'000);
+        const std::uint64_t hash = world.hash();
+        EXPECT_EQ(mr_trace_stop(world), MR_IO);
+        EXPECT_THAT(mr_last_error(), HasSubstr("What was recorded is lost"));
+        EXPECT_EQ(world.hash(), hash);
+        ::setrlimit(RLIMIT_FSIZE, &before);
+    }
+    world.pass(100'000'000);
+    EXPECT_EQ(mr_trace_stop(world), MR_IO) << "it stays lost";
+    ASSERT_EQ(mr_trace_start(world, csv.c_str(), "X.step"), MR_OK) << mr_last_error();
+    world.pass(100'000'000);
+    EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+    EXPECT_FALSE(std::filesystem::exists(h5));
+    std::filesystem::remove(h5 + ".new");
+    std::filesystem::remove(csv);
+}
+
+}  // namespace
+}  // namespace motionrack::c_test

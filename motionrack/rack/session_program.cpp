@@ -1,0 +1,141 @@
+// Part programs and homings of a session: read and checked first, then driven as the command line does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <motionrack/base/read_whole_file.hpp>
+#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/rack/counted.hpp>
+#include <motionrack/rack/job_report.hpp>
+#include <motionrack/rack/raised_flag.hpp>
+#include <motionrack/rack/session.hpp>
+#include <motionrack/rack/subprograms.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr std::size_t most_problems = 20;
+constexpr std::size_t most_warnings = 12;
+constexpr Duration homing_slice = milliseconds(50);
+/// Longer than any program of a day and any homing of all axes.
+constexpr Duration longest_drive = whole_seconds(86'400);
+
+/// A problem a line, and how many there are.
+std::string problems_text(const control::gcode::Check& check, const std::string& name) {
+    std::string out;
+    for (const control::gcode::Problem& problem : check.problems) out += problem.text() + '\n';
+    return out + fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
+                             counted(check.problems.size(), "problem"));
+}
+
+/// How the program went, and what is to be said of it, a line each.
+std::string drive_text(const std::string& verdict, const JobOutcome& outcome) {
+    std::string out = verdict;
+    for (std::size_t i = 0; i < outcome.warnings.size() && i < most_warnings; ++i)
+        out += '\n' + outcome.warnings[i].text;
+    if (outcome.warnings.size() > most_warnings)
+        out += fmt::format("\n{} more were left out.", counted(outcome.warnings.size() - most_warnings, "warning"));
+    return out;
+}
+
+}  // namespace
+
+std::unique_ptr<Job> Session::make_job(Programs programs) {
+    if (programs == Programs::no || rack_.axes().empty()) return nullptr;
+    JobSettings settings;
+    settings.stop = &stop_;
+    settings.on_slice = [this] { between(); };
+    settings.progress = [this](const JobProgress& progress) {
+        if (progress_ && !progress_(progress)) stop_ = true;
+    };
+    return std::make_unique<Job>(rack_, std::move(settings));
+}
+
+Result<control::gcode::Settings> Session::read_program(const ProgramOrder& order, std::string& name) {
+    control::gcode::Settings reading = reader_settings(rack_.config(), order.block_delete);
+    if (order.path_or_text.find('\n') != std::string_view::npos) {
+        name = "program";
+        program_ = order.path_or_text;
+    } else {
+        name = order.path_or_text;
+        MOTIONRACK_TRY(program_, read_whole_file(name, read_limits::program));
+        reading.subprogram = subprograms_in(std::filesystem::path(name).parent_path());
+    }
+    if (!order.tools.empty()) {
+        MOTIONRACK_TRY(const std::string tools, read_whole_file(order.tools, read_limits::table));
+        MOTIONRACK_TRY(reading.tools, control::gcode::read_tool_table(tools, order.tools));
+    }
+    MOTIONRACK_CHECK(control::gcode::check_settings(reading));
+    return reading;
+}
+
+Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& report) {
+    MOTIONRACK_CHECK(check_free());
+    if (!job_)
+        return fail(Trouble::refused,
+                    "The rack has no axes, so no program can run on it. Nothing was moved; give it "
+                    "some in its rack file.");
+    if (ran_ || now() != Instant{})
+        return fail(
+            Trouble::refused,
+            fmt::format(
+                "A program begins where the rack file says that the machine stands, at time 0, and once a rack; "
+                "this one is at {:.6f} s. Nothing was moved; open another rack.",
+                to_seconds(now())));
+    std::string name;
+    MOTIONRACK_TRY(control::gcode::Settings reading, read_program(order, name));
+    const control::gcode::Check check = control::gcode::check_program(program_, reading, most_problems, name);
+    if (!check.problems.empty()) {
+        report.place = check.problems.front().place;
+        const bool unread = std::any_of(check.problems.begin(), check.problems.end(),
+                                        [](const auto& problem) { return problem.trouble == Trouble::io; });
+        return fail(unread ? Trouble::io : Trouble::bad_input, problems_text(check, name));
+    }
+    const RaisedFlag driving(driving_);
+    ran_ = true;
+    stop_ = false;
+    progress_ = order.progress;
+    job_->give(program_, name, std::move(reading));
+    report.outcome = job_->run();
+    progress_ = {};
+    rack_.set_stop_flag(nullptr);
+    between();
+    report.summary = summary_of(rack_.config(), report.outcome);
+    const JobOutcome& outcome = report.outcome;
+    if (!outcome.ended) {
+        Error why = outcome.ended.error();
+        report.place = why.place;
+        why.file = name;
+        return tl::unexpected<Error>(std::move(why));
+    }
+    report.sentence = drive_text(report.summary.substr(0, report.summary.find('\n')), outcome);
+    if (!outcome.good()) return fail(Trouble::machine, report.sentence);
+    return {};
+}
+
+ProgramReport Session::run_program(const ProgramOrder& order) {
+    ProgramReport report;
+    report.ended = drive_program(order, report);
+    if (!report.ended) report.sentence = report.ended.error().text();
+    return report;
+}
+
+HomingOutcome Session::home(std::string_view axes) {
+    HomingOutcome out;
+    out.ended = check_free();
+    if (out.ended) out.ended = room_for(longest_drive);
+    if (!out.ended) return out;
+    HomingSettings settings;
+    for (const char c : axes)
+        if (c != ',' && c != ' ') settings.axes += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const RaisedFlag driving(driving_);
+    rack_.on_slice(homing_slice, [this] { between(); });
+    out = home_axes(rack_, settings);
+    rack_.on_slice(homing_slice, {});
+    between();
+    return out;
+}
+
+}  // namespace motionrack::rack
