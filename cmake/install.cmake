@@ -39,7 +39,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_I
         PATTERN wire.hpp EXCLUDE PATTERN "*_library.hpp" EXCLUDE)
 
 set(pascal ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal)
-install(FILES ${pascal}/uIOFlex2.pas ${pascal}/uFlex2Pos.pas ${pascal}/uFlx2Pos.pas
+install(FILES ${pascal}/uMotionrack.pas ${pascal}/uIOFlex2.pas ${pascal}/uFlex2Pos.pas ${pascal}/uFlx2Pos.pas
         DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal COMPONENT dev)
 
 # ---- the cards' logic, for those who build one ----

@@ -85,6 +85,20 @@ TEST_P(Ioflex02HowTo, ShowsTheProgramAndItsOutput) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, Ioflex02HowTo, testing::Values("calibrate", "speed", "broken_line", "lathe"));
 
+// ---- C
+
+TEST(CHowTo, ShowsTheWholeProgramAndItsOutput) {
+    const std::string page = text_of(source_root / "docs/howto/c_program.md"),
+                      program = text_of(source_root / "examples/c_program/program.c");
+    ASSERT_FALSE(program.empty());
+    EXPECT_NE(page.find("```c\n" + program + "```\n"), std::string::npos) << "it is that of examples/c_program";
+    const fs::path recording = fs::temp_directory_path() / "motionrack_howto_c_program.h5";
+    const std::string printed = printed_by(MOTIONRACK_C_PROGRAM_EXAMPLE " '" + recording.string() + "' 2>&1");
+    EXPECT_NE(page.find("It prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
+    EXPECT_GT(fs::file_size(recording), 10'000u);
+    fs::remove(recording);
+}
+
 // ---- DataBoard 4002
 
 std::string databoard_page(const std::string& name) {
