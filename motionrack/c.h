@@ -337,8 +337,8 @@ MR_API int mr_conditions(mr_rack* rack, uint64_t since,
                                       const char* sentence),
                          void* user);
 
-/* From now on `call` gets each condition when it happens, as mr_conditions tells it: in the order of their numbers, none
- * twice, none left out but those beyond 4096 at once. Time stands at that instant, so what it looks at is the world of
+/* From now on `call` gets each condition when it happens, as mr_conditions tells it: in their order, none twice, none
+ * left out but those beyond 4096 at once. Time stands at that instant, so what it looks at is the world of
  * then, and what it does (drive a wire, inject a fault, begin a recording) happens then; in mr_run_program and mr_home
  * it comes at most 50 ms later. What happens in mr_read and mr_write, mr_frame_wait, mr_wire_set, mr_part_set and
  * mr_fault comes before they return. The world goes on as it would without. NULL: no more. MR_BAD_CALL, MR_INTERNAL. */
