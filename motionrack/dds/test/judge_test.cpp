@@ -210,7 +210,7 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
     EXPECT_EQ(damaged([](Sample& s) { s.source.host[0] = '\033', seal(s); }), Verdict::malformed);
     EXPECT_EQ(damaged([](Sample& s) { s.period += 1, seal(s); }), Verdict::malformed) << "another period than before";
     EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 5, seal(s); }), Verdict::wrong_words);
-    EXPECT_EQ(judge.counts().wrong_crc, 5u);
+    EXPECT_EQ(judge.counts().wrong_crc, 6u);
     EXPECT_EQ(judge.counts().foreign, 1u);
     EXPECT_EQ(judge.counts().malformed, 8u);
     EXPECT_EQ(judge.counts().wrong_words, 1u);

@@ -40,7 +40,7 @@ std::vector<std::string> first_cells(const std::string& heading) {
 }
 
 /// Names that the head of a module declares: of its parameters or of its ports.
-std::vector<std::string> declared(const std::string& module, bool parameters) {
+std::vector<std::string> names_declared(const std::string& module, bool parameters) {
     const std::string text = contents(hdl + "grating_bus/" + module + ".sv");
     const std::size_t begin = text.find("module " + module), end = text.find("\n);", begin);
     const std::string head = text.substr(begin, end - begin);
@@ -52,10 +52,10 @@ std::vector<std::string> declared(const std::string& module, bool parameters) {
 }
 
 TEST(GratingHdl, ThePageHasEveryPinAndParameterInTheirOrder) {
-    EXPECT_EQ(first_cells("pin of `grating_motion_card`"), declared("grating_motion_card", false));
-    EXPECT_EQ(first_cells("pin of `grating_decoder_card`"), declared("grating_decoder_card", false));
-    EXPECT_EQ(first_cells("parameter"), declared("grating_motion_card", true));
-    EXPECT_GE(declared("grating_motion_card", false).size(), 20u);
+    EXPECT_EQ(first_cells("pin of `grating_motion_card`"), names_declared("grating_motion_card", false));
+    EXPECT_EQ(first_cells("pin of `grating_decoder_card`"), names_declared("grating_decoder_card", false));
+    EXPECT_EQ(first_cells("parameter"), names_declared("grating_motion_card", true));
+    EXPECT_GE(names_declared("grating_motion_card", false).size(), 20u);
 }
 
 TEST(GratingHdl, ThePageNamesEveryFile) {

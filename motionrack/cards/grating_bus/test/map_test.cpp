@@ -1,24 +1,16 @@
 // The map against the pages and against what the cards do.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <motionrack/base/describe.hpp>
 #include <motionrack/cards/grating_bus/model/moment.hpp>
-#include <sstream>
 #include <tests/source_root.hpp>
+#include <tests/text_of.hpp>
 
 namespace motionrack::grating_bus {
 namespace {
 
-std::string text_of(const std::string& path) {
-    std::ifstream file(source_dir() + "/" + path);
-    std::stringstream out;
-    out << file.rdbuf();
-    return out.str();
-}
-
 std::string stored(const std::string& page) {
-    return text_of("docs/reference/" + page);
+    return text_of(source_root / "docs/reference" / page);
 }
 
 /// A cell of a table with its bar; an empty one is a blank.
@@ -39,7 +31,7 @@ TEST(GratingBusMap, TheReferencePagesAreCurrent) {
 }
 
 TEST(GratingBusMap, TheReadmeHasEveryPinOfTheConnector) {
-    const std::string page = text_of("motionrack/cards/grating_bus/README.md");
+    const std::string page = text_of(source_root / "motionrack/cards/grating_bus/README.md");
     int addresses = 0;
     for (const map::ConnectorPin& pin : map::connector_pins) {
         const std::string row = "\n|" + cell("`" + std::string(pin.printed) + "`") + cell(pin.likely) +
@@ -52,7 +44,7 @@ TEST(GratingBusMap, TheReadmeHasEveryPinOfTheConnector) {
 }
 
 TEST(GratingBusMap, TheReadmeHasTheLevelsAndWhyThereAreShifters) {
-    const std::string page = text_of("motionrack/cards/grating_bus/README.md");
+    const std::string page = text_of(source_root / "motionrack/cards/grating_bus/README.md");
     for (const map::SignalLevels& side : map::signal_levels) {
         const std::string row = "\n|" + cell(side.side) + cell(side.family) + cell(volts(side.supply_v)) +
                                 cell(volts(side.max_low_in_v)) + cell(volts(side.min_high_in_v)) + "\n";
@@ -64,7 +56,7 @@ TEST(GratingBusMap, TheReadmeHasTheLevelsAndWhyThereAreShifters) {
 }
 
 TEST(GratingBusMap, TheReadmeCallsTheLostDigitAGuess) {
-    const std::string page = text_of("motionrack/cards/grating_bus/README.md");
+    const std::string page = text_of(source_root / "motionrack/cards/grating_bus/README.md");
     EXPECT_NE(page.find("prints 1 ns in [0076]. That a digit was lost there, and 10 ns were meant, is a guess"),
               std::string::npos);
 }
