@@ -78,10 +78,7 @@ class Experiment {
                    rack::grating_bus_of(rack_)->lines().all_conflicts(),
                    rack::grating_card_of(rack_, "step")->counter(grating_bus::Card::broken));
         for (const rack::RunningStage& stage : rack_.stages())
-            if (!stage.loop()->closed())
-                fmt::print("  {} is open: {}\n", stage.config.name,
-                           stage.loop()->state() == grating_bus::LoopState::stale ? "no frame for two periods"
-                                                                                  : "more than 0.1 mm off");
+            if (!stage.loop()->closed()) fmt::print("  {} is open\n", stage.config.name);
     }
     const Record& record() const { return record_; }
 
