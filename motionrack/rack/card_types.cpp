@@ -40,7 +40,7 @@ constexpr std::array<Field, 6> ioflex02_settings = {
         "configuration_ms", 0, 60'000, "ms", "time from the last byte of a configuration image to the running project"),
     field<&Ioflex02Settings::loaded>("loaded", 0, 0, "", "its project runs from the start; else the host loads it"),
     absent_means(field<&Ioflex02Settings::image>(
-                     "image", 0, 2 * ioflex02::most_image_file, "",
+                     "image", 0, 2 * ioflex02::max_image_file, "",
                      "its configuration image in hexadecimal digits, as `motionrack image show --hex` prints it: what "
                      "runs from the start, and what Init of the function libraries loads"),
                  "the one that is built in"),

@@ -1,13 +1,13 @@
 // Part programs and homings of a session: read and checked first, then driven as the command line does.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <motionrack/base/read_whole_file.hpp>
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job_report.hpp>
+#include <motionrack/rack/problems_text.hpp>
 #include <motionrack/rack/raised_flag.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/subprograms.hpp>
@@ -16,8 +16,8 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t most_problems = 20;
-constexpr std::size_t most_warnings = 12;
+constexpr std::size_t max_problems = 20;
+constexpr std::size_t max_warnings = 12;
 constexpr Duration homing_slice = milliseconds(50);
 /// Longer than any program of a day and any homing of all axes.
 constexpr Duration longest_drive = whole_seconds(86'400);
@@ -26,17 +26,16 @@ constexpr Duration longest_drive = whole_seconds(86'400);
 std::string problems_text(const control::gcode::Check& check, const std::string& name) {
     std::string out;
     for (const control::gcode::Problem& problem : check.problems) out += problem.text() + '\n';
-    return out + fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
-                             counted(check.problems.size(), "problem"));
+    return out + problems_verdict(check, name);
 }
 
 /// How the program went, and what is to be said of it, a line each.
 std::string drive_text(const std::string& verdict, const JobOutcome& outcome) {
     std::string out = verdict;
-    for (std::size_t i = 0; i < outcome.warnings.size() && i < most_warnings; ++i)
+    for (std::size_t i = 0; i < outcome.warnings.size() && i < max_warnings; ++i)
         out += '\n' + outcome.warnings[i].text;
-    if (outcome.warnings.size() > most_warnings)
-        out += fmt::format("\n{} more were left out.", counted(outcome.warnings.size() - most_warnings, "warning"));
+    if (outcome.warnings.size() > max_warnings)
+        out += fmt::format("\n{} more were left out.", counted(outcome.warnings.size() - max_warnings, "warning"));
     return out;
 }
 
@@ -86,12 +85,10 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
                 to_seconds(now())));
     std::string name;
     MOTIONRACK_TRY(control::gcode::Settings reading, read_program(order, name));
-    const control::gcode::Check check = control::gcode::check_program(program_, reading, most_problems, name);
+    const control::gcode::Check check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
         report.place = check.problems.front().place;
-        const bool unread = std::any_of(check.problems.begin(), check.problems.end(),
-                                        [](const auto& problem) { return problem.trouble == Trouble::io; });
-        return fail(unread ? Trouble::io : Trouble::bad_input, problems_text(check, name));
+        return fail(has_unreadable(check) ? Trouble::io : Trouble::bad_input, problems_text(check, name));
     }
     const RaisedFlag driving(driving_);
     ran_ = true;

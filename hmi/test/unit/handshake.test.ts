@@ -84,7 +84,7 @@ describe('a command', () => {
     expect('why' in again && again.why).toContain('Nothing was sent.');
   });
 
-  test('that is refused says so once, by whoever refused it', async () => {
+  test('that is refused gives no second sentence', async () => {
     const bus: Bus = {
       choose: () => Promise.resolve(true),
       read: () => Promise.resolve(0x80),

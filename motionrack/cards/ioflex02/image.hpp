@@ -63,7 +63,7 @@ Result<void> check_project(const ImageInfo& info);
 std::string hex_text(std::span<const std::uint8_t> bytes);
 /// The reverse. Errors: bad_input.
 Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text);
-inline constexpr std::size_t most_image_file = 132'000;  ///< bytes of a compressed image, with room to spare
+inline constexpr std::size_t max_image_file = 132'000;  ///< bytes of a compressed image, with room to spare
 
 /// The image that is built into the library: project "position", its axes counting as `modes` say (words MODE).
 /// Compressed.

@@ -17,7 +17,6 @@ using motionrack::rack::Session;
 constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
 constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";
-constexpr const char* no_call = "There is no function to tell it to: it is a null pointer. Nothing was told.";
 constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
 constexpr const char* no_place = "There is no place for the rack: it is a null pointer. Nothing was done.";
 
@@ -145,7 +144,7 @@ int mr_conditions(mr_rack* rack, uint64_t since,
                   void (*tell)(void* user, uint64_t number, int64_t at_100ps, const char* card, int code,
                                const char* sentence),
                   void* user) {
-    return guarded({{rack, no_rack}, {reinterpret_cast<const void*>(tell), no_call}}, [&]() -> Result<void> {
+    return guarded({{rack, no_rack}, {reinterpret_cast<const void*>(tell), no_tell}}, [&]() -> Result<void> {
         for (const Session::Told& one : rack->session->conditions(since))
             tell(user, one.number, one.at.count(), one.device.c_str(), one.code, one.sentence.c_str());
         return {};

@@ -10,8 +10,6 @@ using motionrack::Result;
 using motionrack::rack::FaultValue;
 using motionrack::rack::QuantityRange;
 
-constexpr const char* no_tell = "There is no function to tell it to: it is a null pointer. Nothing was told.";
-
 }  // namespace
 
 int mr_quantities(mr_rack* rack, void (*tell)(void* user, const mr_quantity* quantity), void* user) {

@@ -23,7 +23,7 @@ namespace {
 namespace io = ioflex02;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr ReadLimit image_limit{io::most_image_file, "a configuration image"};
+constexpr ReadLimit image_limit{io::max_image_file, "a configuration image"};
 constexpr ReadLimit payload_limit{io::most_payload, "the payload of an image"};
 
 struct ImageOptions {

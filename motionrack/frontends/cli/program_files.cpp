@@ -7,8 +7,8 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/problems_text.hpp>
 #include <motionrack/rack/subprograms.hpp>
 #include <motionrack/rack/template.hpp>
 
@@ -93,14 +93,9 @@ bool may_write(const std::vector<std::string>& inputs, const std::vector<std::st
 
 int print_problems(const control::gcode::Check& check, const std::string& name) {
     if (check.problems.empty()) return exit_done;
-    bool is_unreadable = false;
-    for (const control::gcode::Problem& problem : check.problems) {
-        print_error(problem.text());
-        is_unreadable |= problem.trouble == Trouble::io;
-    }
-    print_error(fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
-                            rack::counted(check.problems.size(), "problem")));
-    return is_unreadable ? exit_io : exit_bad_input;
+    for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());
+    print_error(rack::problems_verdict(check, name));
+    return rack::has_unreadable(check) ? exit_io : exit_bad_input;
 }
 
 }  // namespace motionrack::cli

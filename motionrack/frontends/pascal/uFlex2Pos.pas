@@ -113,7 +113,7 @@ begin
   MakeFlexBin := Bytes;
 end;
 
-{ What is at most as long as an image can be; a file that cannot be read, or is longer, is no image. }
+{ Reads an image; a file that cannot be read, or is longer than an image can be, is not one. }
 procedure TakeFile(const Name: AnsiString);
 const
   Most = 132000;

@@ -1,4 +1,4 @@
-// What an axis' registers say of its ramps.
+// Rates of an axis' ramps, from its registers.
 #pragma once
 
 #include <motionrack/cards/mcx314/chip/state.hpp>

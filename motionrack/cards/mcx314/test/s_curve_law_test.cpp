@@ -1,5 +1,5 @@
-// What an S-shaped ramp has to be whoever writes its rules down: how fast it ends, how long it takes, that it falls as
-// it rose, and that no acceleration is left at its end. The formulas are the maker's; the ramps are the chip's.
+// Laws of S-shaped ramps that no writing of their rules feeds: how fast a ramp ends, how long it takes, that it falls
+// as it rose, and that no acceleration is left at its end. The formulas are the maker's; the ramps are the chip's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -19,7 +19,7 @@ struct ControlParam {
     bool whole = true;
 };
 
-/// What it is to the board if the card does not do the command.
+/// The board's reason not to do a command.
 enum class Refusal : std::uint8_t {
     parameter,  ///< a parameter is wrong
     busy,       ///< a list is running or the card moves, where that is so; else a parameter is wrong

@@ -1,0 +1,25 @@
+// What a check of a part program has found, in a line.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/rack/counted.hpp>
+#include <string>
+
+namespace motionrack::rack {
+
+/// Whether the disk is among the causes: a subprogram that cannot be read.
+inline bool has_unreadable(const control::gcode::Check& check) {
+    return std::any_of(check.problems.begin(), check.problems.end(),
+                       [](const control::gcode::Problem& problem) { return problem.trouble == Trouble::io; });
+}
+
+/// "part.ngc has 3 problems; nothing was moved."
+inline std::string problems_verdict(const control::gcode::Check& check, const std::string& name) {
+    return fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
+                       counted(check.problems.size(), "problem"));
+}
+
+}  // namespace motionrack::rack
