@@ -39,9 +39,12 @@ constexpr double to_seconds(Duration d) {
     return static_cast<double>(d.count()) * 1e-10;
 }
 
-/// The nearest tick to `seconds` (range +-9.2e8 s).
+/// The nearest tick to `seconds`; `never` and -`never` beyond the range of a Duration (about 9.2e8 s), `never` for NaN.
 constexpr Duration from_seconds(double seconds) {
-    return Duration{static_cast<std::int64_t>(seconds * 1e10 + (seconds < 0 ? -0.5 : 0.5))};
+    constexpr double beyond = 0x1p63;
+    const double ticks = seconds * 1e10 + (seconds < 0 ? -0.5 : 0.5);
+    if (ticks <= -beyond) return -never;
+    return ticks < beyond ? Duration{static_cast<std::int64_t>(ticks)} : never;
 }
 
 }  // namespace motionrack

@@ -244,7 +244,9 @@ void Planner::forward(std::uint64_t until) {
         double exit = std::min(after, entry + here.reach);
         // After change_feeds() a joint may want to be slower than can be braked to.
         if (const double slowest = slowest_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
-        const double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
+        double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
+        // From rest to rest over what the hardware spends on its changes of speed: a pulse or two.
+        if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);
         planned.entry = committed_;
         planned.exit = std::sqrt(exit);
         planned.cruise = std::max({std::sqrt(top), planned.entry, planned.exit});

@@ -13,7 +13,7 @@ namespace motionrack {
 namespace {
 
 constexpr std::uint32_t seed = 20240611;
-constexpr int cases = 400'000;
+constexpr int angles = 400'000;
 
 /// Distance of `value` from `truth` in units of the last place of `value`'s binade.
 double ulps(double value, long double truth) {
@@ -30,7 +30,7 @@ bool wide_long_double() {
 double worst_sin_cos(double range, std::mt19937_64& random) {
     std::uniform_real_distribution<double> angle(-range, range);
     double worst = 0;
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < angles; ++i) {
         const double x = angle(random);
         const SinCos got = sin_cos(x);
         worst = std::fmax(worst, ulps(got.sin, std::sin(static_cast<long double>(x))));
@@ -90,7 +90,7 @@ TEST(Trig, ArcTangentIsWithinAnUlpOrSo) {
     std::uniform_real_distribution<double> any(-1, 1);
     std::uniform_int_distribution<int> power(-30, 30);
     double worst = 0;
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < angles; ++i) {
         const double y = std::ldexp(any(random), i % 2 == 0 ? 0 : power(random));
         const double x = any(random);
         const double got = motionrack::atan2(y, x);
@@ -121,7 +121,7 @@ TEST(Trig, ArcCosineIsWithinTwoAndAHalfUlps) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> any(-1, 1);
     double worst = 0;
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < angles; ++i) {
         const double x = i % 4 == 0 ? 1 - std::ldexp(any(random), -30) * any(random) : any(random);
         if (std::fabs(x) > 1) continue;
         worst = std::fmax(worst, ulps(motionrack::acos(x), std::acos(static_cast<long double>(x))));

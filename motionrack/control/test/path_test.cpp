@@ -276,6 +276,25 @@ TEST(Planner, RefusesWhatTheMachineCannotDoAndGoesOn) {
     EXPECT_FALSE(planner.pull(planned));
 }
 
+/// Its changes of speed take whole moves of a pulse or two.
+class SpendsAll : public DriveRule {
+  public:
+    double joint_speed(const Geometry&, const Geometry&) const override { return 1e9; }
+    double spent_length(const Geometry& path) const override { return path.length; }
+};
+
+TEST(Planner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
+    const SpendsAll rule;
+    Planner planner(path_machine(), Point{}, {16, &rule});
+    ASSERT_TRUE(planner.push(path_line_to(0.0025, 0)));
+    planner.flush();
+    PlannedMove planned;
+    ASSERT_TRUE(planner.pull(planned));
+    EXPECT_GT(planned.cruise, 0);
+    EXPECT_LE(planned.cruise * planned.cruise, planned.accel * planned.length * (1 + 1e-12));
+    EXPECT_LT(seconds_of(planned), 0.1);
+}
+
 TEST(Planner, HandsMovesOutBeforeTheEndOfTheProgram) {
     Planner planner(path_machine(), Point{}, {16});
     PlannedMove planned;

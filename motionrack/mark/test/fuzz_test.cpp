@@ -59,7 +59,7 @@ void run(const char* name, std::string (*check)(std::string_view), std::uint64_t
     ASSERT_GE(seeds.size(), 5u);
     for (const std::string& seed : seeds) ASSERT_EQ(check(seed), "") << seed;
     const std::uint64_t seed = seed_from_environment();
-    jobs = from_environment("MOTIONRACK_JOBS", jobs);
+    jobs = cases("MOTIONRACK_JOBS", jobs);
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << jobs << " jobs" << std::endl;
     for (std::uint64_t i = 0; i < jobs; ++i) {
         motionrack::fuzz::Random random(seed * 1'000'003 + i);

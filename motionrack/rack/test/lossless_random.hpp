@@ -196,7 +196,7 @@ inline void drive_one(std::uint64_t seed) {
 
 /// A share of the programs, so that several run at once: every `shares`th from `share` on, up to the first that fails.
 inline void drive_share(std::uint64_t share, std::uint64_t shares, std::uint64_t otherwise) {
-    const std::uint64_t first = seed_from_environment(), count = from_environment("MOTIONRACK_PROGRAMS", otherwise);
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", otherwise);
     for (std::uint64_t i = share; i < count && !testing::Test::HasFailure(); i += shares) drive_one(first + i);
 }
 

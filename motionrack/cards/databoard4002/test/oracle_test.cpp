@@ -39,9 +39,7 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
 }
 
 TEST(Databoard4002Oracle, RandomProgramsLookTheSameOnTheCardAndOnItsTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 600), [](const Program& p) {
-        return Way{p.number % 3 == 0, 0};
-    });
+    compare(0, cases("MOTIONRACK_PROGRAMS", 600), [](const Program& p) { return Way{p.number % 3 == 0, 0}; });
 }
 
 TEST(Databoard4002Oracle, ARestoredSnapshotGivesTheSameRest) {

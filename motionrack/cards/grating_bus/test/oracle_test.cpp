@@ -59,11 +59,11 @@ void compare_with_twin(std::uint64_t first, std::uint64_t programs, bool with_sn
 }
 
 TEST(GratingBusOracle, RandomProgramsLookTheSameOnTheCardsAndOnTheirTwin) {
-    compare_with_twin(0, from_environment("MOTIONRACK_PROGRAMS", 2500), false);
+    compare_with_twin(0, cases("MOTIONRACK_PROGRAMS", 2500), false);
 }
 
 TEST(GratingBusOracle, ARestoredSnapshotGivesTheSameRest) {
-    compare_with_twin(1'000'000, from_environment("MOTIONRACK_PROGRAMS", 2500) / 5, true);
+    compare_with_twin(1'000'000, cases("MOTIONRACK_PROGRAMS", 2500) / 5, true);
 }
 
 }  // namespace

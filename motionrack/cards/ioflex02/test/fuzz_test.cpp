@@ -13,7 +13,7 @@ namespace {
 
 TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     const std::uint64_t seed = seed_from_environment();
-    const auto count = static_cast<std::int64_t>(from_environment("MOTIONRACK_ACCESSES", 500'000));
+    const auto count = static_cast<std::int64_t>(cases("MOTIONRACK_ACCESSES", 500'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;
     fuzz::Verdict verdict;
     for (std::uint64_t card = 0; verdict.accesses < count && verdict.problem.empty(); ++card) {

@@ -215,7 +215,7 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
 }
 
 TEST(Ioflex02Oracle, RandomProgramsLookTheSameOnTheCardAndOnItsTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 3000), false);
+    compare(0, cases("MOTIONRACK_PROGRAMS", 3000), false);
 }
 
 TEST(Ioflex02Oracle, ARestoredSnapshotGivesTheSameRest) {

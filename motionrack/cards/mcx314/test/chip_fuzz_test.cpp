@@ -36,7 +36,7 @@ class ChipFuzz : public testing::TestWithParam<Variant> {};
 
 TEST_P(ChipFuzz, AMillionRandomAccessesBreakNothingAndAreRepeatable) {
     const std::uint64_t seed = seed_from_environment();
-    const std::int64_t accesses = static_cast<std::int64_t>(from_environment("MOTIONRACK_ACCESSES", 1'000'000));
+    const std::int64_t accesses = static_cast<std::int64_t>(cases("MOTIONRACK_ACCESSES", 1'000'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << accesses << " accesses" << std::endl;
     const Verdict first = run_all(seed, accesses, GetParam());
     ASSERT_EQ(first.problem, "");

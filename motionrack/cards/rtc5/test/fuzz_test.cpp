@@ -12,7 +12,7 @@ namespace motionrack::rtc5 {
 namespace {
 
 TEST(Rtc5Fuzz, AnyNumbersLeaveTheCardAlive) {
-    const std::uint64_t seed = seed_from_environment(), jobs = from_environment("MOTIONRACK_JOBS", 60);
+    const std::uint64_t seed = seed_from_environment(), jobs = cases("MOTIONRACK_JOBS", 60);
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << jobs << " jobs" << std::endl;
     fuzz::Verdict verdict;
     for (std::uint64_t i = 0; i < jobs && verdict.problem.empty(); ++i) {

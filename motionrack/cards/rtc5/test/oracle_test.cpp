@@ -357,7 +357,7 @@ class Pair {
 
 TEST(Rtc5Oracle, RandomJobsLookTheSameOnTheTwin) {
     const std::uint64_t seed = seed_from_environment(20250);
-    const auto count = static_cast<int>(from_environment("MOTIONRACK_PROGRAMS", 1500));
+    const auto count = static_cast<int>(cases("MOTIONRACK_PROGRAMS", 1500));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " jobs\n";
     for (int i = 0; i < count; ++i) {
         const std::uint64_t own = seed + static_cast<std::uint64_t>(i);
