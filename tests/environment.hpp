@@ -22,6 +22,13 @@ inline std::uint64_t trials(const char* name, std::uint64_t everyday, std::uint6
     return from_environment(name, thorough() ? all : everyday);
 }
 
+/// How many random programs, jobs or accesses a test draws: what the environment variable says; without it
+/// MOTIONRACK_CASES_PERCENT of the everyday number, at least 1. Builds that are slow by their checks take a part.
+inline std::uint64_t cases(const char* name, std::uint64_t everyday) {
+    const std::uint64_t part = everyday * from_environment("MOTIONRACK_CASES_PERCENT", 100) / 100;
+    return from_environment(name, part > 0 ? part : 1);
+}
+
 /// Where random tests begin: MOTIONRACK_SEED, or the same in every run.
 inline std::uint64_t seed_from_environment(std::uint64_t otherwise = 1) {
     return from_environment("MOTIONRACK_SEED", otherwise);
