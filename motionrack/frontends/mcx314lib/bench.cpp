@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/frontends/mcx314lib/bench.hpp>
-#include <motionrack/rack/toml_reader.hpp>
+#include <motionrack/frontends/mcx314lib/environment.hpp>
 
 namespace motionrack::mcx314lib {
 
@@ -13,11 +12,7 @@ namespace {
 
 constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr Duration look_every = milliseconds(1);
-constexpr Duration most_at_once = nanoseconds(static_cast<std::int64_t>(rack::Session::most_ns));
-
-bool is_mcx314(const rack::RackCard& card) {
-    return card.type == "mcx314";
-}
+constexpr Duration most_at_once = nanoseconds(static_cast<std::int64_t>(World::most_ns));
 
 /// "uio:..", "memory:..", "port:..": where a real card is, and neither the text nor the path of a rack file.
 bool names_real_card(std::string_view text) {
@@ -42,7 +37,7 @@ Result<void> Chip::check_live() const {
     return {};
 }
 
-Result<rack::Card*> Chip::virtual_card(const char* what) const {
+Result<VirtualCard*> Chip::virtual_card(const char* what) const {
     if (card != nullptr) return card;
     return fail(Trouble::refused,
                 fmt::format("The selected chip is a real card, which has no {} here. Nothing was done.", what));
@@ -57,26 +52,26 @@ int Bench::keep(std::unique_ptr<Chip> chip) {
 
 Result<int> Bench::open_live(const char* text, const char* card) {
     if (card != nullptr)
-        return fail(Trouble::bad_input,
-                    fmt::format("A real card has no name, but {} was given. Nothing was opened. Give NULL.",
-                                rack::in_quotes(card)));
+        return fail(
+            Trouble::bad_input,
+            fmt::format("A real card has no name, but {} was given. Nothing was opened. Give NULL.", in_quotes(card)));
     MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
     MOTIONRACK_TRY(auto port, live::Port::open(spec, mcx314::card_map()));
     return keep(std::make_unique<Chip>(std::move(port)));
 }
 
-bool Bench::is_open(const rack::Card& card) const {
+bool Bench::is_open(const VirtualCard& card) const {
     return std::any_of(chips_.begin(), chips_.end(), [&](const auto& chip) { return chip.second->card == &card; });
 }
 
 Result<int> Bench::open(const char* rack, const char* card) {
-    std::shared_ptr<rack::Session> world;
+    std::shared_ptr<World> world;
     if (rack != nullptr) {
         if (names_real_card(rack)) return open_live(rack, card);
-        MOTIONRACK_TRY(world, rack::Session::open(rack));
+        MOTIONRACK_TRY(world, World::open(rack));
     } else if (chips_.empty()) {
-        const char* path = std::getenv(variable);
-        if (path == nullptr || *path == '\0')
+        const std::string path = environment_variable(variable);
+        if (path.empty())
             return fail(
                 Trouble::bad_input,
                 fmt::format(
@@ -84,28 +79,26 @@ Result<int> Bench::open(const char* rack, const char* card) {
                     "the path of a rack file with an mcx314 card, or to a real card ({1}), or call mcx314_open "
                     "first.",
                     variable, live::port_spec_form()));
-        if (names_real_card(path)) return open_live(path, card);
-        MOTIONRACK_TRY(world, rack::Session::open(path));
+        if (names_real_card(path)) return open_live(path.c_str(), card);
+        MOTIONRACK_TRY(world, World::open(path));
     } else {
         MOTIONRACK_TRY(Chip * chip, selected());
-        if (!chip->session)
+        if (!chip->world)
             return fail(Trouble::bad_input,
                         "The selected chip is a real card and in no rack. Nothing was opened. Name a rack.");
-        world = chip->session;
+        world = chip->world;
     }
     std::string known;
-    for (const rack::RackCard& each : world->rack().config().cards) {
-        if (!is_mcx314(each)) continue;
-        rack::Card& found = *world->rack().card(each.name);
-        known += (known.empty() ? "" : ", ") + each.name + (is_open(found) ? " (open already)" : "");
-        if (is_open(found) || (card != nullptr && each.name != card)) continue;
-        return keep(std::make_unique<Chip>(world, found));
+    for (VirtualCard* const each : world->cards()) {
+        known += (known.empty() ? "" : ", ") + each->name() + (is_open(*each) ? " (open already)" : "");
+        if (is_open(*each) || (card != nullptr && each->name() != card)) continue;
+        return keep(std::make_unique<Chip>(world, *each));
     }
-    return fail(Trouble::bad_input, fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
-                                                card != nullptr ? fmt::format("The rack has no mcx314 card {} to open",
-                                                                              rack::in_quotes(card))
-                                                                : std::string("The rack has no mcx314 card to open"),
-                                                known.empty() ? "none" : known));
+    return fail(Trouble::bad_input,
+                fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
+                            card != nullptr ? fmt::format("The rack has no mcx314 card {} to open", in_quotes(card))
+                                            : std::string("The rack has no mcx314 card to open"),
+                            known.empty() ? "none" : known));
 }
 
 std::string Bench::handles() const {
@@ -153,14 +146,14 @@ Result<Chip*> Bench::selected() {
 bool Bench::step_all_beside(Chip& chip) {
     bool going_on = false;
     for (auto& [handle, other] : chips_)
-        if (other->session == chip.session) going_on = other->step() || going_on;
+        if (other->world == chip.world) going_on = other->step() || going_on;
     return going_on;
 }
 
 Result<void> Bench::pass(Chip& chip, Duration duration) {
     MOTIONRACK_CHECK(chip.check_live());
     const auto advance = [&](Duration time) -> Result<void> {
-        if (chip.session) return chip.session->advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
+        if (chip.world) return chip.world->advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
         chip.live->pass(time);
         return {};
     };

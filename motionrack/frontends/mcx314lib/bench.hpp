@@ -2,7 +2,7 @@
 //
 //   MOTIONRACK_RACK ─┐
 //   mcx314_open ─────┴─► Chip 1 ─ Driver ─ Manual x4 ─┐
-//                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one Session (a rack and its time), or one each
+//                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one World (a rack and its time), or one each
 //                        Chip 3 ─ Driver ─ Manual x4 ───► live::Port: a real card and the computer's time
 #pragma once
 
@@ -11,30 +11,30 @@
 #include <memory>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/driver/manual.hpp>
+#include <motionrack/frontends/mcx314lib/world.hpp>
 #include <motionrack/live/port.hpp>
-#include <motionrack/rack/session.hpp>
 
 namespace motionrack::mcx314lib {
 
 /// An open card with its library.
 class Chip {
   public:
-    Chip(std::shared_ptr<rack::Session> world, rack::Card& on)
-        : session(std::move(world)), card(&on), driver(*on.port(), *on.port()) {}
+    Chip(std::shared_ptr<World> in, VirtualCard& on)
+        : world(std::move(in)), card(&on), driver(on.registers(), on.interrupt()) {}
     explicit Chip(std::unique_ptr<live::Port> port) : live(std::move(port)), driver(*live, *live) {}
 
     Instant now() { return driver.interrupt().now(); }
     /// Errors: io, the first access that the computer refused.
     Result<void> check_live() const;
     /// Of its rack. Errors: refused where the card is a real one.
-    Result<rack::Card*> virtual_card(const char* what) const;
+    Result<VirtualCard*> virtual_card(const char* what) const;
     mcx314::Manual& manual(int channel) { return manuals[static_cast<std::size_t>(channel)]; }
     /// Lets manual operations look; true if one goes on.
     bool step();
 
-    std::unique_ptr<live::Port> live;        ///< of a real card
-    std::shared_ptr<rack::Session> session;  ///< of a virtual one, with `card`
-    rack::Card* card = nullptr;
+    std::unique_ptr<live::Port> live;  ///< of a real card
+    std::shared_ptr<World> world;      ///< of a virtual one, with `card`
+    VirtualCard* card = nullptr;
     mcx314::Driver driver;
     std::array<mcx314::Manual, 4> manuals{{{driver, 0}, {driver, 1}, {driver, 2}, {driver, 3}}};
     unsigned home_axes = mcx314::axis_x;
@@ -54,7 +54,7 @@ class Bench {
   private:
     Result<void> check_open(int handle) const;
     std::string handles() const;
-    bool is_open(const rack::Card& card) const;
+    bool is_open(const VirtualCard& card) const;
     Result<int> open_live(const char* text, const char* card);
     int keep(std::unique_ptr<Chip> chip);
     /// Lets the manual operations of all chips in the world of `chip` look; true if one goes on.

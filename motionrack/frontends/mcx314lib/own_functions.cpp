@@ -324,7 +324,7 @@ int mcx314_peek(const char* name, int64_t* value) {
     return done(__func__, [&](Chip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(name, "The name"));
         MOTIONRACK_CHECK(check_pointer(value, "The place for the value"));
-        MOTIONRACK_TRY(const motionrack::rack::Card* card, chip.virtual_card("registers that are seen without access"));
+        MOTIONRACK_TRY(const VirtualCard* card, chip.virtual_card("registers that are seen without access"));
         MOTIONRACK_TRY(*value, card->inspect(name));
         return {};
     });
@@ -334,6 +334,6 @@ int mcx314_set_wire(const char* wire, double value) {
     return done(__func__, [&](Chip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(wire, "The wire"));
         MOTIONRACK_CHECK(chip.virtual_card("wires that a program could set"));
-        return chip.session->set_wire(wire, value);
+        return chip.world->set_wire(wire, value);
     });
 }
