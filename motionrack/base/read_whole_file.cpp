@@ -1,11 +1,10 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <motionrack/base/open_to_read.hpp>
 #include <motionrack/base/read_whole_file.hpp>
 
 namespace motionrack {
@@ -39,13 +38,12 @@ Result<std::string> read_descriptor(int file, const std::string& name, const Rea
         if (got == 0) return text;
         if (got > 0 || why == EINTR) continue;
         if (why != EAGAIN) return not_readable(name, std::strerror(why));
-        pollfd waits{file, POLLIN, 0};  // a pipe whose writer has not written so far
-        ::poll(&waits, 1, -1);
+        wait_to_read(file);  // a pipe whose writer has not written so far
     }
 }
 
 Result<std::string> read_whole_file(const std::string& path, const ReadLimit& limit) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    const int file = open_to_read(path.c_str());
     if (file < 0) return not_readable(path, std::strerror(errno));
     struct stat about {};
     const bool is_known = ::fstat(file, &about) == 0;
