@@ -33,14 +33,20 @@ target_compile_options(motionrack_flags INTERFACE -ffp-contract=off "$<BUILD_INT
 set_target_properties(motionrack_flags PROPERTIES EXPORT_NAME flags)
 
 # Addresses differ from start to start, and what the loader has bound cannot be overwritten (tests/hardened).
-include(CheckPIESupported)
-check_pie_supported(LANGUAGES CXX)
-add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
+if(NOT WIN32)
+  include(CheckPIESupported)
+  check_pie_supported(LANGUAGES CXX)
+  add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
+endif()
 
 # motionrack_harden(TARGET): it checks its stack, its copies and its containers while it runs, as all rooms do but the
 # fast ones, and what is linked of them. Builds for sanitizers have their own checks.
 function(motionrack_harden target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
+    return()
+  endif()
+  if(WIN32)  # the others need a library there that would have to be given away, too
+    target_compile_options(${target} PRIVATE "$<$<CONFIG:Release,RelWithDebInfo>:-D_GLIBCXX_ASSERTIONS>")
     return()
   endif()
   set(checks -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2 -D_GLIBCXX_ASSERTIONS -fstack-protector-strong
@@ -70,6 +76,22 @@ function(motionrack_compile_quickly target)
   else()
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
+endfunction()
+
+# motionrack_sources(OUT PATTERN...): the sources of this folder. In a build for Windows those of its folder windows/
+# take the places of those with their names. Each of them is compiled alone: Windows' headers define many words.
+function(motionrack_sources out)
+  file(GLOB found CONFIGURE_DEPENDS ${ARGN})
+  if(WIN32)
+    file(GLOB own CONFIGURE_DEPENDS windows/*.cpp)
+    foreach(source IN LISTS own)
+      get_filename_component(name ${source} NAME)
+      list(REMOVE_ITEM found ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+    endforeach()
+    set_source_files_properties(${own} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    list(APPEND found ${own})
+  endif()
+  set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
 # motionrack_room(NAME [FAST] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME,

@@ -52,6 +52,7 @@ std::string room_of(const std::string& path) {
     }
     if (path.rfind("sim/parts/", 0) == 0) return "parts";
     if (path.rfind("frontends/calls/", 0) == 0) return "calls";
+    if (path.rfind("frontends/mcx314lib/windows/", 0) == 0) return "mcx314lib/windows";
     if (path.rfind("frontends/mcx314lib/", 0) == 0) return "mcx314lib";
     if (path.rfind("frontends/rtc5sim/", 0) == 0) return "rtc5sim";
     if (path.rfind("frontends/c/flex2pos", 0) == 0) return "flex2pos";
@@ -113,6 +114,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
                    "ioflex02/map", "grating_bus/driver"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "calls", "rack", "live", "mcx314/map", "mcx314/driver"}},
+    {"mcx314lib/windows", {"base", "sim", "mcx314lib", "mcx314/map", "mcx314/chip"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
     {"python",
      {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/map",

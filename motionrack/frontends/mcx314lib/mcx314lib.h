@@ -1,7 +1,8 @@
 /* The function library of the MCX314 four-axis pulse chip for C: the names and argument lists of the library's source,
  * and calls of our own (mcx314_..) for what the source names without listing it, for several chips, errors and time.
  *
- * Link with libmcx314lib.so (-lmcx314lib). A program that moves axis X by 1000 pulses and tells where it is:
+ * Link with libmcx314lib.so (-lmcx314lib), on Windows with mcx314lib.dll. A program that moves axis X by 1000 pulses
+ * and tells where it is:
  *
  *     SetRange(800000);                 // all axes: speeds in units of 10 pulses a second
  *     TCurve_F(1, 100, 4000, 400, 1000);
@@ -15,6 +16,11 @@
  * or on a real card, in Linux:
  *
  *     MOTIONRACK_RACK=port:/dev/port,offset=0x300,width=8 ./program
+ *
+ * Windows. Of a rack file the library there takes the cards alone; a real card is reached by a driver of others:
+ *
+ *     set MOTIONRACK_RACK=card.c1 = "mcx314"
+ *     set MOTIONRACK_RACK=port:inpoutx64.dll,offset=0x300,width=8
  *
  * Chips. The first function opens the first mcx314 card of that rack file, unless mcx314_open() was called before. All
  * functions work on the selected chip: the one opened last, or that of mcx314_select().
@@ -41,7 +47,7 @@
 
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(_WIN32)
 #define MCX314_API __attribute__((visibility("default")))
 #else
 #define MCX314_API

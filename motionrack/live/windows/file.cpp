@@ -1,0 +1,16 @@
+// Windows gives no card as a file, so that none is ever opened.
+#include <fmt/format.h>
+
+#include <motionrack/live/file.hpp>
+
+namespace motionrack::live {
+
+Result<File> File::open(const std::string& path, int) {
+    return fail(Trouble::refused, fmt::format("{} cannot be a card: Windows has none as files. Nothing was opened. Use "
+                                              "port:inpoutx64.dll,offset=N for a card at I/O ports.",
+                                              path));
+}
+
+File::~File() = default;
+
+}  // namespace motionrack::live

@@ -1,0 +1,20 @@
+// Windows brings no interrupt of a card to a program without the card's own driver.
+#include <fmt/format.h>
+
+#include <motionrack/live/line.hpp>
+
+namespace motionrack::live {
+
+Result<Line> Line::open(const std::string& path) {
+    return fail(Trouble::refused,
+                fmt::format("interrupt={} cannot be had on Windows, which brings no interrupt of a card "
+                            "to a program. Nothing was opened. Leave interrupt= out.",
+                            path));
+}
+
+bool Line::wait(Duration timeout, Clock& clock) {
+    clock.sleep(timeout);
+    return false;
+}
+
+}  // namespace motionrack::live
