@@ -244,7 +244,7 @@ void Kernel::each_piece(Visit visit, std::span<std::byte> (Device::*of)()) {
 
 /// Those that are kept, in the order of the ring.
 std::span<std::byte> Kernel::condition_bytes() {
-    const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
+    const auto kept = static_cast<std::size_t>(std::min<std::uint64_t>(state_.condition_count, condition_capacity));
     return bytes_of_vector(conditions_).first(kept * sizeof(Condition));
 }
 
