@@ -97,7 +97,8 @@ run_packages=(g++ cmake ninja-build ccache
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
 release_packages=(dpkg-dev file)
 # shellcheck disable=SC2034  # packaging/windows has them installed
-windows_packages=(cmake ninja-build ccache g++-mingw-w64-x86-64-posix libfmt-dev libexpected-dev libfast-float-dev)
+windows_packages=(cmake ninja-build ccache g++-mingw-w64-x86-64-posix g++-mingw-w64-i686-posix
+    libfmt-dev libexpected-dev libfast-float-dev)
 # shellcheck disable=SC2034  # tests/windows/run has them installed
 wine_packages=(g++ wine wine64)
 # shellcheck disable=SC2034  # bench/page has them installed

@@ -29,9 +29,14 @@ endforeach()
 add_subdirectory(motionrack/frontends/mcx314lib)
 
 # ---- the archive ----
+# Of 32 bits, bin32/ and lib32/ go into the same one: packaging/windows.
 set(source ${PROJECT_SOURCE_DIR})
-install(TARGETS mcx314lib RUNTIME DESTINATION bin ARCHIVE DESTINATION lib)
-install(FILES ${motionrack_mcx314lib_def} DESTINATION lib)
+set(bits "")
+if(CMAKE_SIZEOF_VOID_P EQUAL 4)
+  set(bits 32)
+endif()
+install(TARGETS mcx314lib RUNTIME DESTINATION bin${bits} ARCHIVE DESTINATION lib${bits})
+install(FILES ${motionrack_mcx314lib_def} DESTINATION lib${bits})
 install(FILES ${source}/motionrack/frontends/mcx314lib/mcx314lib.h DESTINATION include)
 install(FILES ${source}/examples/09_mcx314lib/main.c ${source}/examples/09_mcx314lib/howto.c
               ${source}/examples/09_mcx314lib/card.toml DESTINATION example)

@@ -97,8 +97,8 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
         return fail(
             Trouble::io,
             fmt::format("{} cannot be used: {}. Windows lets no program reach I/O ports without a driver, which "
-                        "the library InpOut32 brings (inpoutx64.dll). Nothing was opened. Put that file beside "
-                        "the program, or its whole path behind port:.",
+                        "the library InpOut32 brings (inpoutx64.dll, for 32 bits inpout32.dll). Nothing was "
+                        "opened. Put that file beside the program, or its whole path behind port:.",
                         spec.path, file.trouble()));
     if (library.is_open() == 0)
         return fail(
