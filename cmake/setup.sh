@@ -107,6 +107,6 @@ bench_packages=(python3 libbenchmark-dev verilator valgrind linuxcnc-uspace sigr
 test_packages=("${run_packages[@]}" "${python_packages[@]}"
     black flake8 mypy shellcheck
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang libclang-rt-14-dev make
-    python3-matplotlib python3-h5py iverilog yosys fp-compiler fp-units-rtl octave sigrok-cli gtkwave linuxcnc-uspace
-    bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2 debootstrap "${release_packages[@]}"
-    clang-format clang-tidy universal-ctags libz80ex-dev z80asm)
+    python3-matplotlib python3-h5py iverilog verilator yosys fp-compiler fp-units-rtl octave sigrok-cli gtkwave
+    linuxcnc-uspace bcnc xvfb xauth chromium nats-server libfuse3-dev fuse3 iproute2
+    debootstrap "${release_packages[@]}" clang-format clang-tidy universal-ctags libz80ex-dev z80asm)

@@ -151,7 +151,7 @@ void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize s
 }
 
 void disturb_many(const std::string& profile, test::ProgramSize size) {
-    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", 10);
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", thorough() ? 10 : 5);
     for (std::uint64_t seed = first; seed < first + count && !testing::Test::HasFailure(); ++seed)
         disturb(profile, seed, size);
 }

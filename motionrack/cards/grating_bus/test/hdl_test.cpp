@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <tests/environment.hpp>
 #include <tests/source_root.hpp>
 #include <vector>
 
@@ -92,6 +93,7 @@ std::string row_of(const std::string& label, const std::string& top, const std::
 }
 
 TEST(GratingHdl, TakesTheResourcesThatThePageSays) {
+    if (!thorough()) GTEST_SKIP() << "half a minute of synthesis is for MOTIONRACK_THOROUGH=1 (./test --all seeds)";
     if (std::system("yosys -V 2>/dev/null | grep -q '^Yosys 0.23 '") != 0)
         GTEST_SKIP() << "yosys 0.23 is not installed (Debian package yosys); nothing was synthesized";
     const std::string page = contents(hdl + "README.md"), card = "grating_motion_card",
