@@ -1,5 +1,5 @@
 // Chips alone as the library's world: of a rack file it takes the cards, "card.NAME = "mcx314"", a line each. Inputs
-// are at rest until set_wire drives them; pulses turn nothing, so EP stays where it is set.
+// are at rest until set_wire drives them; pulses of the only card count in its EP, those of several turn nothing.
 //
 //   text ──► names ──► Chip and VirtualPort each, with the times of a rack's card ──► one Kernel
 #include <fmt/format.h>
