@@ -46,7 +46,7 @@ std::string room_of(const std::string& path) {
     if (path.rfind("cards/", 0) == 0) {
         const std::size_t card = path.find('/', 6);
         const std::string name = path.substr(6, card - 6), rest = path.substr(card + 1);
-        for (const char* part : {"chip", "model", "driver", "axes", "processor"})
+        for (const char* part : {"chip", "model", "driver", "axes", "processor", "library"})
             if (rest.rfind(std::string(part) + "/", 0) == 0) return name + "/" + part;
         return name + "/map";
     }
@@ -72,6 +72,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"mcx314/chip", {"base", "sim", "mcx314/map"}},
     {"mcx314/driver", {"base", "mcx314/map"}},
     {"mcx314/axes", {"base", "control", "mcx314/map", "mcx314/driver"}},
+    {"mcx314/library", {"base", "mcx314/map", "mcx314/driver"}},
     {"databoard4002/map", {"base"}},
     {"databoard4002/model", {"base", "sim", "databoard4002/map"}},
     {"databoard4002/driver", {"base", "databoard4002/map"}},
@@ -88,9 +89,26 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"rtc5/driver", {"base", "rtc5/map"}},
     {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
     {"rack",
-     {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
-      "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model",
-      "grating_bus/map", "grating_bus/model", "grating_bus/processor", "rtc5/map", "rtc5/model"}},
+     {"base",
+      "sim",
+      "parts",
+      "control",
+      "trace",
+      "mcx314/map",
+      "mcx314/chip",
+      "mcx314/driver",
+      "mcx314/axes",
+      "mcx314/library",
+      "databoard4002/map",
+      "databoard4002/model",
+      "databoard4002/axes",
+      "ioflex02/map",
+      "ioflex02/model",
+      "grating_bus/map",
+      "grating_bus/model",
+      "grating_bus/processor",
+      "rtc5/map",
+      "rtc5/model"}},
     {"mark", {"base", "sim", "parts", "control", "trace", "rack", "rtc5/map", "rtc5/model"}},
     {"sweep", {"base", "disk", "control", "trace", "rack", "authority"}},
     {"nats", {"base", "sweep"}},

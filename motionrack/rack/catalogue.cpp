@@ -11,6 +11,7 @@
 #include <motionrack/cards/mcx314/chip/byte_bus.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/cards/mcx314/library/library.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/catalogue.hpp>
@@ -123,6 +124,15 @@ class Mcx314Card final : public MotionCard {
         return one.get();
     }
 
+    std::span<const FunctionInfo> library_functions() const override { return mcx314::library_functions(); }
+    std::unique_ptr<FunctionLibrary> take_library() override {
+        axes_.reset();
+        for (auto& one : single_) one.reset();
+        singles_ready_ = false;
+        before_singles_ = {};
+        group_trusted_.fill(false);
+        return std::make_unique<mcx314::Library>(port_, port_);
+    }
     double kept_back() const override { return mcx314::Axes::kept_back; }
     double jump_hz(const RackConfig& config) const override {
         // A ramp changes the rate by one speed unit at a time, of the long axis or of two axes stepping together.

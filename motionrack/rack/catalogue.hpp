@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <motionrack/base/card_map.hpp>
+#include <motionrack/base/function_library.hpp>
 #include <motionrack/control/axis.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/rack/config.hpp>
@@ -86,6 +87,11 @@ class Card {
     virtual sim::VirtualPort* port() { return nullptr; }
     /// Its bus of 8-bit ports; nullptr if it has none.
     virtual sim::VirtualBytePort* byte_port() { return nullptr; }
+    /// The functions of the card's library; none: it has no library that could be called by hand.
+    virtual std::span<const FunctionInfo> library_functions() const { return {}; }
+    /// The library over the card's bus, for somebody who calls it by hand; nullptr as above. Whoever drove the card
+    /// takes it anew afterwards, from path_axes() or axis(), and no position of it is trusted then.
+    virtual std::unique_ptr<FunctionLibrary> take_library() { return nullptr; }
     /// Whether describe() knows the conditions of this device: the card, and its bus.
     virtual bool speaks_for(sim::DeviceId id) const { return id == device(); }
     virtual std::string describe(const sim::Condition& condition) const = 0;
