@@ -208,7 +208,8 @@ void Session::energise() {
 
 bool Session::locked() const {
     const MachineState state = machine_.state();
-    if (alarm_ || stopped_ || state == MachineState::error_stop || (state == MachineState::disabled && !never_enabled_))
+    if (alarm_ || stopped_ || state == MachineState::error_stop || state == MachineState::service ||
+        (state == MachineState::disabled && !never_enabled_))
         return true;
     const auto& axes = machine_.rack().config().axes;
     return std::any_of(axes.begin(), axes.end(), [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });

@@ -26,6 +26,8 @@ std::string_view name_of(MachineState state) {
             return "stopping";
         case MachineState::error_stop:
             return "error stop";
+        case MachineState::service:
+            return "service";
     }
     return "";
 }
@@ -107,6 +109,8 @@ Result<void> Machine::ready(const char* what) {
     if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
     if (state_ == MachineState::error_stop)
         return refuse("the machine stopped on an error; see its alarm, mend the cause and reset it first");
+    if (state_ == MachineState::service)
+        return refuse(fmt::format("card {} is in service; end the service first", service_.card()));
     if (state_ != MachineState::standstill)
         return refuse(fmt::format("the machine is in state '{}'; stop it, or wait until it stands", name_of(state_)));
     return {};
@@ -234,11 +238,10 @@ void Machine::cancel(const StopOrigin& by) {
     home_stop_ = true;
     home_wanted_.reset();
     jogs_.let_go();
+    service_.break_off();
     door_.forget_tools();
     stop_wanted_ = true;
-    if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging ||
-        state_ == MachineState::hold)
-        enter(MachineState::stopping);
+    if (!idle(state_) && state_ != MachineState::stopping) enter(MachineState::stopping);
     tell_stop(report, status_.why, stop_listeners_);
 }
 

@@ -6,7 +6,8 @@
 //   disabled ──enable──► standstill ──line, program──► moving ◄──hold, resume──► hold
 //                            │  ▲ ├──jog──► jogging      │ a limit, an alarm, the emergency stop, a watchdog: from
 //                            │  └─┴──home─► homing       ▼ every state, as the rack's stop latch says; stop(), too
-//                            └◄───────reset────────── error stop
+//                            ├◄───────reset────────── error stop
+//                            └──service──► service: somebody calls a card's functions, see service.hpp
 //
 // A reset moves nothing; what was under way is forgotten, and something new must be ordered.
 //
@@ -21,6 +22,7 @@
 #include <motionrack/control/stream.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
+#include <motionrack/operate/service.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/operate/trust.hpp>
 #include <motionrack/rack/frame_watch.hpp>
@@ -149,6 +151,8 @@ class Machine {
     const std::optional<rack::HomingOutcome>& homed() const { return homed_; }
     const control::Stream& stream() const { return *stream_; }
     Jogs& jogs() { return jogs_; }
+    /// Calls of a card's function library by hand.
+    Service& service() { return service_; }
     rack::Rack& rack() { return rack_; }
     rack::WireDesk& wires() { return desk_; }
     /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if
@@ -159,6 +163,7 @@ class Machine {
     Instant now() const { return rack_.kernel().now(); }
 
   private:
+    friend class Service;
     Machine(const rack::RackConfig& config, MachineSettings settings);
     Result<void> start(const rack::RackConfig& config);
     Result<void> take_group();
@@ -184,7 +189,6 @@ class Machine {
     void tools_off();
     void tell();
     AxisStatus look_at(rack::RunningAxis& axis);
-    Interrupt& host() { return rack_.cards().front()->host(); }
     void enter(MachineState state, std::string why = {});
 
     MachineSettings settings_;
@@ -221,6 +225,7 @@ class Machine {
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};
     std::vector<std::pair<BusAccess, std::function<void(std::uint32_t)>>> accesses_;
+    Service service_{*this};
     // told
     Status status_;
     std::vector<std::function<void(const Status&)>> listeners_;
@@ -230,6 +235,10 @@ class Machine {
     std::vector<std::function<void()>> inbox_;
 };
 
+/// Its time and interrupt line, for whoever waits.
+inline Interrupt& host_of(rack::Rack& rack) {
+    return rack.cards().front()->host();
+}
 /// Some axis of this rack.
 bool can_home(const rack::RackConfig& config);
 /// Errors: bad_input, beginning with `what` was not done.

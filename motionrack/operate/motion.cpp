@@ -39,7 +39,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.gcode.start = group->commanded_position();
     settings.kept_back = rack_.axes().front().card->kept_back();
     settings.jerk_limited = config.jerk_limited();
-    stream_ = std::make_unique<control::Stream>(*group, host(), settings);
+    stream_ = std::make_unique<control::Stream>(*group, host_of(rack_), settings);
     stream_->on_event([this](const control::gcode::Step& step) { pass_event(step); });
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
@@ -113,7 +113,7 @@ void Machine::take_stop() {
         if (in_work) door_.keep_tools(status_);
         tools_off();
     }
-    if (latch.latched()) jogs_.let_go();
+    if (latch.latched()) jogs_.let_go(), service_.break_off();
     if (!latch.halted() || std::exchange(stop_taken_, true)) return;
     cancel();
 }
@@ -146,6 +146,7 @@ std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_b
 }  // namespace
 
 void Machine::step() {
+    if (service_.on()) return service_.step();
     if (!accesses_.empty()) return access_bus();
     if (jogs_.any()) return jog_all();
     for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
@@ -157,13 +158,14 @@ void Machine::step() {
         const rack::StopLatch& latch = rack_.stop_latch();
         return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     }
-    host().pass(settings_.slice);
+    host_of(rack_).pass(settings_.slice);
 }
 
 /// Everything stands. Without a source there is no alarm: who asked for the stop needs none.
 void Machine::enter_error_stop(std::string source, std::string text) {
     rack::StopLatch& latch = rack_.stop_latch();
     std::string lost;
+    text += service_.take_note();
     if (latch.latched()) {
         latch.settle();
         stop_taken_ = true;
@@ -234,14 +236,14 @@ void Machine::drive() {
     if (*driven != control::StreamState::driving) rack_.stop_latch().settle();  // a card's stop ends a hold, too
     switch (*driven) {
         case control::StreamState::waiting:
-            host().pass(milliseconds(1));
+            host_of(rack_).pass(milliseconds(1));
             break;
         case control::StreamState::held:
         case control::StreamState::paused:
             if (state_ == MachineState::moving)
                 enter(MachineState::hold, *driven == control::StreamState::held ? "held; resume goes on"
                                                                                 : "the program waits; resume goes on");
-            host().pass(settings_.slice);
+            host_of(rack_).pass(settings_.slice);
             break;
         case control::StreamState::rest:
             if (walk_ || over_) break;
@@ -269,7 +271,7 @@ void Machine::jog_all() {
         stop_wanted_ = true;
         failed(one.how.error());
     }
-    if (jogs_.any()) return host().pass(settings_.slice);
+    if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.why, {}));
 }
@@ -307,6 +309,7 @@ void Machine::change_positions() {
 /// What moves, or was to move, in a few words.
 std::string Machine::at_work() const {
     if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->line_driven());
+    if (service_.on()) return "the service of card " + service_.card();
     if (state_ == MachineState::moving || state_ == MachineState::hold)
         return fmt::format("line {}", stream_->line_driven());
     return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
@@ -386,6 +389,7 @@ void Machine::tell() {
     status_.single_step = single_step_;
     status_.feed_override = feed_;
     status_.rapid_override = rapid_;
+    status_.service = service_.card();
     if (settings_.on_status) settings_.on_status(status_);
     for (const auto& call : listeners_) call(status_);
 }

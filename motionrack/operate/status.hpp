@@ -19,7 +19,8 @@ enum class MachineState : std::uint8_t {
     jogging,
     hold,  ///< stands in a program, which goes on with resume
     stopping,
-    error_stop  ///< stopped by the machine; reset ends it
+    error_stop,  ///< stopped by the machine; reset ends it
+    service      ///< somebody calls the functions of a card's library; the controller drives nothing
 };
 /// "standstill", "error stop".
 std::string_view name_of(MachineState state);
@@ -98,6 +99,7 @@ struct Status {
     bool mist = false, flood = false;
     double feed_override = 1, rapid_override = 1;
     std::string homing;         ///< "X SLOW_WAIT, Y HOMED": how far the last homing came
+    std::string service;        ///< the card that is in service; empty: none
     std::vector<Alarm> alarms;  ///< oldest first
 };
 

@@ -120,6 +120,7 @@ constexpr std::array states = {
     StopState{"homing", "homes"},
     StopState{"jog", "jogs while a key is held"},
     StopState{"jog_along_a_line", "jogs along a sender's line"},
+    StopState{"service", "a card is in service: its functions are called by hand"},
 };
 
 }  // namespace

@@ -136,7 +136,8 @@ class Invariants {
     // the interval in which velocities are measured
     Instant base_at_{};
     double last_seconds_ = 0;
-    bool jumped_ = true;  ///< pulses ended without a ramp, or this is the begin: nothing to compare with
+    bool serviced_ = false;  ///< a card was in service in this interval
+    bool jumped_ = true;     ///< pulses ended without a ramp, or this is the begin: nothing to compare with
     bool braked_ = false, was_braked_ = false;  ///< a stop was in force in it, in the one before it
     // a stop
     Instant latched_at_{}, stands_by_{};

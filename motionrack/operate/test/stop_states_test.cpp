@@ -118,6 +118,18 @@ constexpr State states[] = {
      [](Operated& o, double) { o.at(0.05, [](Machine& m) {
                                    EXPECT_TRUE(m.jog_to({300, 0, 0, 0, 0, 0}, 20));
                                }); }},
+    {"service", MachineState::service,
+     [](Operated& o, double) {
+         o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.service().begin("m", {"anna", "", ""}, "w1", {})); });
+         const auto call = [&o](double seconds, const char* function,
+                                const std::map<std::string, std::int64_t, std::less<>>& arguments) {
+             o.at(seconds, [=](Machine& m) {
+                 EXPECT_TRUE(m.service().call({"m", function, arguments}, {}, "w1", [](const auto&) {}));
+             });
+         };
+         call(0.1, "SetRange", {{"data", 800'000}});
+         call(0.15, "TCurve_C", {{"axis", 1}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 1}});
+     }},
 };
 
 struct Source {

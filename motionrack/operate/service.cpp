@@ -1,0 +1,176 @@
+// Who may begin a service, what ends it, and what the machine has afterwards.
+#include <fmt/format.h>
+
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/operate/service.hpp>
+#include <motionrack/rack/bus_access.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+namespace {
+
+constexpr Duration look_at_stop_every = milliseconds(1);
+/// So often a stop is looked at; pulses end with the command.
+constexpr int most_looks = 100;
+
+}  // namespace
+
+Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::string& card) {
+    MOTIONRACK_TRY(const rack::Card* found, rack::card_named(rack, card));
+    const std::span<const FunctionInfo> functions = found->library_functions();
+    if (!functions.empty()) return functions;
+    return fail(Trouble::refused,
+                fmt::format("Card {} is an {}: it has no function library that is called by hand. Nothing was done.",
+                            card, found->map().name));
+}
+
+bool Service::moves_axes(const std::string& card) const {
+    for (const rack::RackAxis& axis : machine_.rack_.config().axes)
+        if (axis.card == card) return true;
+    return false;
+}
+
+// ---- orders
+
+Result<void> Service::check_begin(const std::string& card) const {
+    static constexpr const char* what = "The service was not begun";
+    if (on())
+        return fail(Trouble::refused,
+                    fmt::format("{}: card {} is in service. Nothing was changed; end that first.", what, card_));
+    MOTIONRACK_CHECK(library_of(machine_.rack_, card));
+    MOTIONRACK_CHECK(machine_.may_start(what));
+    if (moves_axes(card) || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
+    if (const rack::StopLatch& latch = machine_.rack_.stop_latch(); latch.latched())
+        return fail(Trouble::refused,
+                    fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
+    MOTIONRACK_CHECK(machine_.door_.check_closed(what));
+    if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
+        return fail(Trouble::refused,
+                    fmt::format("{}: an order is still carried out. Nothing was changed; try again at once.", what));
+    return {};
+}
+
+Result<void> Service::begin(const std::string& card, const StopOrigin& by, const std::string& session, Told ready) {
+    MOTIONRACK_CHECK(check_begin(card));
+    card_ = card;
+    by_ = by;
+    session_ = session;
+    begun_ = std::move(ready);
+    stop_ = false;
+    note_.clear();
+    machine_.enter(MachineState::service, fmt::format("card {} is in service by {}", card,
+                                                      by.who.empty() ? std::string("this program") : by.who));
+    return {};
+}
+
+Result<void> Service::end(Told ready) {
+    if (!on()) return fail(Trouble::refused, "No card is in service. Nothing was changed.");
+    ended_ = std::move(ready);
+    break_off();
+    return {};
+}
+
+Result<void> Service::call(Call call, const StopOrigin& by, const std::string& session, Answered ready) {
+    MOTIONRACK_TRY(const std::span<const FunctionInfo> functions, library_of(machine_.rack_, call.card));
+    MOTIONRACK_TRY(CheckedCall checked, check_call(functions, call.function, call.arguments));
+    if (on() && call.card != card_)
+        return fail(Trouble::refused, fmt::format("{} was not called: card {} is in service, not card {}. End that "
+                                                  "service first.",
+                                                  call.function, card_, call.card));
+    if (!on() && moves_axes(call.card))
+        return fail(Trouble::refused,
+                    fmt::format("{} was not called: card {} is driven by the controller. Begin its service first.",
+                                call.function, call.card));
+    if (!on()) MOTIONRACK_CHECK(begin(call.card, by, session, {}));
+    if (stop_) return fail(Trouble::refused, fmt::format("{} was not called: the service ends.", call.function));
+    if (pending_ || !working_.empty())
+        return fail(Trouble::refused,
+                    fmt::format("{} was not called: {} still works. Wait until it ends, or end the service.",
+                                call.function, pending_ ? pending_->name : working_));
+    pending_.emplace(Pending{std::move(checked), std::move(call.function), std::move(ready)});
+    return {};
+}
+
+void Service::end_of(const std::string& session) {
+    if (!on() || session != session_) return;
+    machine_.cancel({by_.who, by_.address, "Loss of control"});
+}
+
+// ---- the loop
+
+void Service::step() {
+    if (!stop_ && !library_) take();
+    if (!stop_ && pending_) work();
+    if (!stop_) host_of(machine_.rack_).pass(look_at_stop_every);
+    if (stop_) finish();
+}
+
+/// The controller lets go of the card; what it knew of its axes is void from here on, whatever comes.
+void Service::take() {
+    rack::Card& card = *machine_.rack_.card(card_);
+    std::string lost;
+    for (const rack::RunningAxis& axis : machine_.rack_.axes()) {
+        if (axis.card != card.motion()) continue;
+        machine_.trust_.lose(axis.config.letter);
+        lost += fmt::format("{}{}", lost.empty() ? "" : ", ", axis.config.letter);
+    }
+    note_ = fmt::format(" The service of card {} has ended", card_);
+    note_ += lost.empty()
+                 ? "."
+                 : fmt::format("; the position of {} is not trusted: home it, or declare where it stands.", lost);
+    machine_.rack_.set_stop_flag(&stop_);
+    machine_.group_holds_ = machine_.group_holds_ && lost.empty();
+    machine_.hands_over_ = true;
+    library_ = card.take_library();
+    const Result<void> begun = library_->begin();
+    machine_.hands_over_ = false;
+    if (!begun) {
+        stop_ = true;
+        machine_.status_.why = begun.error().message;
+    }
+    if (const Told told = std::exchange(begun_, {}))
+        told(begun ? Result<std::string>(fmt::format(
+                         "Card {} is in service: it was reset, and nothing else drives it.{}", card_,
+                         lost.empty() ? "" : fmt::format(" The position of {} is not trusted any more.", lost)))
+                   : tl::unexpected<Error>(begun.error()));
+}
+
+void Service::work() {
+    const Pending one = *std::exchange(pending_, std::nullopt);
+    working_ = one.name;
+    Result<CallAnswer> answer = library_->call(one.call.function, one.call.values);
+    working_.clear();
+    one.ready(std::move(answer));
+}
+
+/// Nothing of the card moves afterwards, and the controller has it as it wants it.
+void Service::finish() {
+    if (library_) {
+        library_->stop_now();
+        for (int i = 0; i < most_looks && library_->moving(); ++i) host_of(machine_.rack_).pass(look_at_stop_every);
+        library_.reset();
+    }
+    Result<void> taken;
+    if (machine_.group_holds_)
+        machine_.rack_.set_stop_flag(machine_.stream_->stop_flag());
+    else
+        taken = machine_.take_group();
+    const std::string sentence =
+        note_.empty() ? fmt::format("The service of card {} was not begun.", card_) : note_.substr(1);
+    card_.clear();
+    session_.clear();
+    stop_ = false;
+    if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(Trouble::stopped, "Not called. " + sentence));
+    if (const Told told = std::exchange(begun_, {})) told(fail(Trouble::stopped, sentence));
+    if (!taken) return machine_.failed(taken.error());
+    const bool any = std::find(machine_.enabled_.begin(), machine_.enabled_.end(), true) != machine_.enabled_.end();
+    if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())
+        machine_.enter(any ? MachineState::standstill : MachineState::disabled, sentence);
+    else if (machine_.state_ == MachineState::stopping)
+        machine_.status_.why += note_;
+    if (!machine_.rack_.stop_latch().latched()) note_.clear();
+    if (const Told told = std::exchange(ended_, {})) told(sentence);
+}
+
+}  // namespace motionrack::operate
