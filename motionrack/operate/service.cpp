@@ -45,6 +45,10 @@ Result<void> Service::check_begin(const std::string& card) const {
         return fail(Trouble::refused,
                     fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
     MOTIONRACK_CHECK(machine_.door_.check_closed(what));
+    std::string letters;
+    for (const rack::RackAxis& axis : machine_.rack_.config().axes)
+        if (axis.card == card) letters += axis.letter;
+    MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
     if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
         return fail(Trouble::refused,
                     fmt::format("{}: an order is still carried out. Nothing was changed; try again at once.", what));

@@ -114,6 +114,7 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
             {"pins", std::move(pins)},
             {"values", card.value_names()},
             {"quantities", card.quantity_names()},
+            {"functions", card.library_functions().size()},
             {"channels", std::move(channels)}};
 }
 

@@ -124,6 +124,7 @@ std::span<const Doer> control_doers();
 std::span<const Doer> motion_doers();
 std::span<const Doer> program_doers();
 std::span<const Doer> card_doers();
+std::span<const Doer> library_doers();
 std::span<const Doer> scope_doers();
 std::span<const Doer> mark_doers();
 std::span<const Doer> looking_doers();

@@ -51,6 +51,23 @@ Result<void> check_text(const AskRow& row, const FieldRow& field, const json& va
     return {};
 }
 
+/// Whole numbers that a double holds exactly.
+constexpr double most_whole = 9e15;
+
+Result<void> check_numbers(const AskRow& row, const FieldRow& field, const json& value) {
+    if (!value.is_object())
+        return wrong(
+            row, fmt::format("{} must be an object of whole numbers by name, not {}.", field.name, value.type_name()));
+    if (static_cast<double>(value.size()) > field.greatest)
+        return wrong(row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.greatest));
+    for (const auto& [name, one] : value.items())
+        if (!one.is_number() || one.get<double>() != std::floor(one.get<double>()) ||
+            std::fabs(one.get<double>()) > most_whole)
+            return wrong(row, fmt::format("{} of {} must be a whole number, not {}.", rack::in_quotes(name), field.name,
+                                          one.is_number() ? "any number" : one.type_name()));
+    return {};
+}
+
 Result<void> check_field(const AskRow& row, const FieldRow& field, const json& value) {
     if (value.is_null() && field.or_null) return {};
     switch (field.type) {
@@ -67,6 +84,8 @@ Result<void> check_field(const AskRow& row, const FieldRow& field, const json& v
             if (!value.is_boolean())
                 return wrong(row, fmt::format("{} must be true or false, not {}.", field.name, value.type_name()));
             return {};
+        case FieldType::numbers:
+            return check_numbers(row, field, value);
         case FieldType::texts:
             if (!value.is_array())
                 return wrong(row, fmt::format("{} must be a list of texts, not {}.", field.name, value.type_name()));

@@ -46,6 +46,11 @@ json schema_of(const FieldRow& field) {
             schema["items"] = {{"type", "string"}};
             schema["maxItems"] = static_cast<std::int64_t>(field.greatest);
             break;
+        case FieldType::numbers:
+            schema["type"] = "object";
+            schema["additionalProperties"] = {{"type", "integer"}};
+            schema["maxProperties"] = static_cast<std::int64_t>(field.greatest);
+            break;
     }
     if (field.or_null) schema["nullable"] = true;
     return schema;
@@ -145,6 +150,8 @@ std::string kind_of(const FieldRow& field) {
             return "true or false";
         case FieldType::texts:
             return fmt::format("list of texts, {} at most", field.greatest);
+        case FieldType::numbers:
+            return fmt::format("object of whole numbers by name, {} at most", field.greatest);
     }
     return {};
 }

@@ -13,6 +13,13 @@ namespace motionrack::panel {
 
 using nlohmann::json;
 
+namespace {
+
+/// Characters of a call's arguments in the journal: those of each function fit.
+constexpr std::size_t longest_arguments = 400;
+
+}  // namespace
+
 const std::string& Picture::status_text() const {
     std::call_once(written_, [this] { text_ = write_(status_); });
     return text_;
@@ -35,7 +42,7 @@ class Panel::Inside {
                    }),
           loss_(desk_) {
         for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), card_doers(),
-                                                  scope_doers(), mark_doers(), looking_doers()})
+                                                  library_doers(), scope_doers(), mark_doers(), looking_doers()})
             for (const Doer& doer : table) doers_[doer.name] = &doer;
         for (const std::span<const AskRow> table : {orders(), queries()})
             for (const AskRow& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
@@ -47,6 +54,7 @@ class Panel::Inside {
     /// Every slice: what changed is told; now and then a picture.
     void look(const operate::Status& status) {
         loss_.look();
+        look_for_control();
         logbook_.see(status);
         answer_orders();
         desk_.scope.slice(status.at);
@@ -74,6 +82,15 @@ class Panel::Inside {
     Desk& desk() { return desk_; }
 
   private:
+    /// A service ends with the control of the session that began it.
+    void look_for_control() {
+        operate::Service& service = desk_.machine.service();
+        if (!service.on()) return;
+        const auto holder = desk_.lease.holder();
+        if (holder && holder->session == service.session()) return;
+        desk_.machine.post([&service, session = service.session()] { service.end_of(session); });
+    }
+
     void show(const operate::Status& status) {
         std::atomic_store(&panel_.picture_, std::make_shared<const Picture>(status, writer_.writer(desk_)));
         desk_.channels.show(status.sequence, status.at);
@@ -133,7 +150,8 @@ class Panel::Inside {
         std::string out = fmt::format("{}: {}", caller.user.empty() ? "somebody" : caller.user, row.name);
         for (const auto& [name, value] : fields.items()) {
             std::string shown = text_of(value);
-            if (shown.size() > 60) shown = fmt::format("({} characters)", shown.size());
+            if (shown.size() > (value.is_object() ? longest_arguments : 60U))
+                shown = fmt::format("({} characters)", shown.size());
             out += fmt::format(" {}={}", name, shown);
         }
         return out;
@@ -193,7 +211,10 @@ void Panel::stop(const Caller& caller) {
 
 void Panel::left(std::string session) {
     operate::Machine& machine = inside_->desk().machine;
-    machine.post([&machine, session = std::move(session)] { machine.jogs().end_of(session); });
+    machine.post([&machine, session = std::move(session)] {
+        machine.jogs().end_of(session);
+        machine.service().end_of(session);
+    });
 }
 
 void Panel::subscribe(std::vector<std::string> channels,

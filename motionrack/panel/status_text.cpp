@@ -78,6 +78,22 @@ struct StatusWriter::Facts {
     std::vector<Axis> axes;
 };
 
+namespace {
+
+json alarms_of(const operate::Status& status) {
+    json out = json::array();
+    for (const operate::Alarm& alarm : status.alarms)
+        out.push_back({{"number", alarm.number},
+                       {"at", to_seconds(alarm.at)},
+                       {"text", alarm.text},
+                       {"active", alarm.active},
+                       {"acknowledged", alarm.acknowledged},
+                       {"source", alarm.source}});
+    return out;
+}
+
+}  // namespace
+
 StatusWriter::StatusWriter(operate::Machine& machine) {
     auto facts = std::make_shared<Facts>();
     const rack::RackConfig& config = machine.rack().config();
@@ -144,19 +160,12 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
                             {"max_speed", fact.max_speed},
                             {"leds", std::move(leds)}});
         }
-        json alarms = json::array();
-        for (const operate::Alarm& alarm : status.alarms)
-            alarms.push_back({{"number", alarm.number},
-                              {"at", to_seconds(alarm.at)},
-                              {"text", alarm.text},
-                              {"active", alarm.active},
-                              {"acknowledged", alarm.acknowledged},
-                              {"source", alarm.source}});
         json out = {
             {"at", to_seconds(status.at)},
             {"sequence", status.sequence},
             {"state", operate::name_of(status.state)},
             {"why", status.why},
+            {"service", status.service},
             {"simulation", true},
             {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
             {"axes", std::move(axes)},
@@ -169,7 +178,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
               {"remaining_s", noted->remaining_s ? json(*noted->remaining_s) : json()}}},
             {"homing", {{"runs", status.state == operate::MachineState::homing}, {"phases", phases_of(status.homing)}}},
             {"overrides", {{"feed", status.feed_override}, {"rapid", status.rapid_override}}},
-            {"alarms", std::move(alarms)},
+            {"alarms", alarms_of(status)},
             {"link", noted->link},
             {"clock", noted->clock}};
         json& control = out["control"] = {{"holder", nullptr}};

@@ -32,6 +32,10 @@ constexpr FieldRow texts(std::string_view name, double most, std::string_view ab
     return {name, FieldType::texts, required, 0, most, {}, {}, about};
 }
 
+constexpr FieldRow numbers(std::string_view name, double most, std::string_view about, bool required = true) {
+    return {name, FieldType::numbers, required, 0, most, {}, {}, about};
+}
+
 constexpr FieldRow axis = text("axis", 1, "letter of an axis");
 constexpr FieldRow card_name = text("card", 32, "name of a card of the rack");
 constexpr FieldRow sequence = integer(
@@ -83,6 +87,9 @@ constexpr std::array write_fields = {card_name, integer("bits", 8, 32, "width of
                                      integer("value", 0, 4294967295.0, "what is written")};
 constexpr std::array read_fields = {card_name, integer("bits", 8, 32, "width of the access: 8, 16 or 32"),
                                     integer("address", 0, 4294967295.0, "on the host's bus")};
+constexpr std::array service_fields = {card_name, flag("on", "false: its axes stop, and the controller has it again")};
+constexpr std::array call_fields = {card_name, text("function", 40, "name of a function of its library"),
+                                    numbers("arguments", 20, "as the query library declares them", false)};
 constexpr std::array check_fields_ = {text("text", longest_text, "the program, G-code"),
                                       text("name", 200, "for the answer", false)};
 constexpr std::array arm_fields = {
@@ -164,6 +171,16 @@ constexpr std::array order_rows = {
            "Reads from a card through its bus, with all effects that reading has, while the machine stands; from one "
            "that only measures at any time.",
            "value"},
+    AskRow{
+        "service", Role::maintain, true, service_fields,
+        "Takes a card out of the controller's hands, so that its library's functions can be called, or gives it back; "
+        "its positions are not trusted then. Begins while the machine stands; whoever has begun it must keep control.",
+        "text"},
+    AskRow{
+        "call", Role::maintain, true, call_fields,
+        "Calls a function of a card's library and waits until it has ended; of a card that the controller drives, in "
+        "its service.",
+        "text, value (the returned number)"},
     AskRow{"check", Role::observe, false, check_fields_,
            "Reads and plans a program as if it began here; nothing moves.",
            "ok, problems, lines, moves, seconds, length_mm, least, greatest, axes, path"},
@@ -193,6 +210,9 @@ constexpr std::array query_rows = {
            "registers, values, quantities, pins"},
     AskRow{"slopes", Role::observe, false, name_fields, "The slope table of a DataBoard 4002: speed over distance.",
            "slopes: name, points (counts, Hz); position, rate, hz, moving"},
+    AskRow{"library", Role::observe, false, name_fields, "The functions of a card's library, with their arguments.",
+           "functions: name, group, meaning, arguments (name, least, greatest, unit, meaning, start, values, sum), "
+           "returns, waits, own"},
     AskRow{"frames",
            Role::observe,
            false,

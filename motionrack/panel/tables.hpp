@@ -18,14 +18,15 @@ enum class FieldType : std::uint8_t {
     text,
     choice,  ///< a text, one of `words`
     flag,
-    texts  ///< a list of texts
+    texts,   ///< a list of texts
+    numbers  ///< an object of whole numbers by their names
 };
 
 struct FieldRow {
     std::string_view name;
     FieldType type = FieldType::number;
     bool required = true;
-    double least = 0, greatest = 0;  ///< of numbers; of texts and lists their greatest length
+    double least = 0, greatest = 0;  ///< of numbers; of texts, lists and objects their greatest length
     std::string_view unit;           ///< "mm or degrees", "s"
     std::string_view words;          ///< choice: "real|free|paused"
     std::string_view text;           ///< one line

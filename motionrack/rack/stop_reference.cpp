@@ -68,10 +68,10 @@ A door (`door = true` in `[safety]`, the wire `door`) that is opened holds the f
 and coolant off, stops jogs and searches for home, and raises an alarm; nothing begins to move while it is open.
 Closing it moves nothing: a resume does, and brings spindle and coolant back. A run has nobody to resume it, and ends.
 
-A card in service, whose library's functions somebody calls by hand, is driven by nothing else. Every source stops all of
-its axes at once, without a ramp, within 5 ms, and ends the service with the stop in force; so do, without one, the end
-of the service, lost control, a client that has gone, disabling, an open door and the end of the program. The controller
-then sets the card up again, and the positions of its axes are not trusted.
+A card in service, whose library's functions somebody calls by hand, is driven by nothing else. Every source stops all
+of its axes at once, without a ramp, within 5 ms, and ends the service with the stop in force; so do, without one, the
+end of the service, lost control, a client that has gone, disabling, an open door and the end of the program. The
+controller then sets the card up again, and the positions of its axes are not trusted.
 
 This is a simulation and its software. It is no safety function: a real machine needs an emergency stop that is
 wired without any software.

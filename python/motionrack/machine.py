@@ -47,7 +47,7 @@ class Status:
 
     seconds: float
     ticks: int
-    state: str  #: disabled, standstill, homing, moving, jogging, hold, stopping or error stop
+    state: str  #: disabled, standstill, homing, moving, jogging, hold, stopping, error stop or service
     why: str  #: the sentence that stopped it last, or why it holds
     axes: dict[str, AxisStatus]
     program: str
@@ -137,7 +137,7 @@ class Machine:
 
     @property
     def state(self) -> str:
-        """disabled, standstill, homing, moving, jogging, hold, stopping or error stop."""
+        """disabled, standstill, homing, moving, jogging, hold, stopping, error stop or service."""
         return self.status.state
 
     def trace_hash(self) -> str:

@@ -118,6 +118,8 @@ TEST(AService, IsNotBegunWhileSomethingMovesOrAStopIsInForce) {
     o.at(1.0, [](Machine& m) { m.reset(); });
     o.at(1.1, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
     refused(1.2, "the machine is disabled");
+    o.at(1.22, [](Machine& m) { EXPECT_TRUE(m.enable(true, "X")); });
+    refused(1.25, "axis Y is disabled");
     o.at(1.3, [](Machine& m) {
         const Result<void> begun = m.service().begin("glass", anna, "w1", {});
         ASSERT_FALSE(begun);

@@ -89,6 +89,22 @@ Result<CallAnswer> arc(LibraryChip& chip, ArcFunction function, const CIRCLEDATA
     return begun(chip, axes_of(places[8]));
 }
 
+namespace {
+
+/// The sentence of a homing, what it found, and how long each of its states took.
+std::string diagnosis(const HomeReport& report) {
+    std::string out = report.sentence;
+    for (const std::string& note : report.notes) out += ' ' + note;
+    out += fmt::format(" LP was {}, EP {}, where home is; the switch bounced {} times.", report.zero_lp, report.zero_ep,
+                       report.bounces);
+    if (const auto way = report.switch_to_index()) out += fmt::format(" From the switch to Z: {} pulses.", *way);
+    for (const HomeStay& stay : report.stays)
+        if (stay.took > Duration{0}) out += fmt::format(" {} {:.3f} s.", stay.state, to_seconds(stay.took));
+    return out;
+}
+
+}  // namespace
+
 Result<CallAnswer> home(LibraryChip& chip, int type, Values v) {
     using HomeFunction =
         Result<std::vector<HomeReport>> (*)(Driver&, unsigned, unsigned, std::int64_t, std::int64_t, std::int64_t);
@@ -96,10 +112,8 @@ Result<CallAnswer> home(LibraryChip& chip, int type, Values v) {
     MOTIONRACK_TRY(const std::vector<HomeReport> reports,
                    types[type - 1](chip.driver, chip.home_axes, static_cast<unsigned>(v[0]), v[1], v[2], v[3]));
     CallAnswer out;
-    for (const HomeReport& report : reports) {
-        out.text += fmt::format("{}{}", out.text.empty() ? "" : "\n", report.sentence);
-        for (const std::string& note : report.notes) out.text += fmt::format(" {}", note);
-    }
+    for (const HomeReport& report : reports)
+        out.text += fmt::format("{}{}", out.text.empty() ? "" : "\n", diagnosis(report));
     return out;
 }
 

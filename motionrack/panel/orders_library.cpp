@@ -1,0 +1,109 @@
+// Calls of a card's function library by hand: what there is, the service in which it is called, one call.
+#include <fmt/format.h>
+
+#include <array>
+#include <motionrack/operate/service.hpp>
+#include <motionrack/panel/desk.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+// ---- the declaration
+
+json argument_json(const ArgumentInfo& argument) {
+    json values = json::array();
+    for (const ValueInfo& one : argument.values) values.push_back({{"value", one.value}, {"meaning", one.meaning}});
+    return {{"name", argument.name}, {"least", argument.least},    {"greatest", argument.greatest},
+            {"unit", argument.unit}, {"start", argument.start},    {"values", std::move(values)},
+            {"sum", argument.sum},   {"meaning", argument.meaning}};
+}
+
+json function_json(const FunctionInfo& function) {
+    json arguments = json::array();
+    for (const ArgumentInfo& one : function.arguments) arguments.push_back(argument_json(one));
+    return {{"name", function.name},       {"group", function.group},
+            {"meaning", function.meaning}, {"arguments", std::move(arguments)},
+            {"returns", function.returns}, {"waits", function.waits},
+            {"own", function.own}};
+}
+
+Result<json> library_of(Desk& desk, const json& fields) {
+    MOTIONRACK_TRY(const auto functions,
+                   operate::library_of(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
+    json out = json::array();
+    for (const FunctionInfo& one : functions) out.push_back(function_json(one));
+    return json{{"functions", std::move(out)}};
+}
+
+// ---- orders
+
+operate::StopOrigin origin_of(const Caller& caller) {
+    return {caller.user, caller.address, {}};
+}
+
+void service(Desk& desk, const Caller& caller, const json& fields, const Ready& ready) {
+    const auto& card = fields.at("card").get_ref<const std::string&>();
+    const auto told = [ready](const Result<std::string>& text) {
+        ready(text ? Result<json>(json{{"text", *text}}) : tl::unexpected<Error>(text.error()));
+    };
+    operate::Service& service = desk.machine.service();
+    if (!fields.at("on").get<bool>() && service.on() && service.card() != card)
+        return ready(fail(Trouble::refused, fmt::format("Card {} is in service, not card {}. Nothing was changed.",
+                                                        service.card(), card)));
+    const Result<void> taken =
+        fields.at("on").get<bool>() ? service.begin(card, origin_of(caller), caller.session, told) : service.end(told);
+    if (!taken) ready(tl::unexpected<Error>(taken.error()));
+}
+
+/// Of a call that the library refused, or that ended otherwise, and of the begin of one that waits: whatever becomes of
+/// the program meanwhile, what it drove is known.
+void note_call(Desk& desk, const Caller& caller, const std::string& function, const std::string& what) {
+    const json data = {{"order", "call"}, {"user", caller.user}};
+    const Event& event = desk.book.add(
+        {0, desk.machine.now(), "order", fmt::format("{}: call {}: {}", caller.user, function, what), data});
+    if (desk.settings.journal != nullptr) desk.settings.journal->write(event.at, event.kind, event.text, text_of(data));
+}
+
+void call(Desk& desk, const Caller& caller, const json& fields, const Ready& ready) {
+    operate::Service::Call call{fields.at("card").get<std::string>(), fields.at("function").get<std::string>(), {}};
+    const json arguments = fields.value("arguments", json::object());
+    for (const auto& [name, value] : arguments.items())
+        call.arguments[name] = static_cast<std::int64_t>(value.get<double>());
+    const auto answered = [&desk, caller, function = call.function, ready](const Result<CallAnswer>& answer) {
+        if (!answer) {
+            note_call(desk, caller, function, answer.error().text());
+            return ready(tl::unexpected<Error>(answer.error()));
+        }
+        json out = {{"text", answer->text}};
+        if (answer->value) out["value"] = *answer->value;
+        ready(std::move(out));
+    };
+    const std::string card = call.card, function = call.function;
+    const Result<void> taken =
+        desk.machine.service().call(std::move(call), origin_of(caller), caller.session, answered);
+    if (!taken) return ready(tl::unexpected<Error>(taken.error()));
+    for (const FunctionInfo& one : *operate::library_of(desk.machine.rack(), card))
+        if (one.name == function && one.waits)
+            note_call(desk, caller, function, fmt::format("begun with {}", text_of(arguments)));
+}
+
+constexpr std::array library_rows = {
+    Doer{"service", nullptr,
+         [](Desk& desk, const Caller& caller, const json& fields, Ready ready) {
+             service(desk, caller, fields, ready);
+         }},
+    Doer{"call", nullptr,
+         [](Desk& desk, const Caller& caller, const json& fields, Ready ready) { call(desk, caller, fields, ready); }},
+    Doer{"library", [](Desk& desk, const Caller&, const json& fields) { return library_of(desk, fields); }},
+};
+
+}  // namespace
+
+std::span<const Doer> library_doers() {
+    return library_rows;
+}
+
+}  // namespace motionrack::panel
