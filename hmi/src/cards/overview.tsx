@@ -7,6 +7,7 @@ import { address, detail } from '../view';
 import { Databoard } from './databoard4002';
 import { Flex } from './ioflex02';
 import { Frames, Grating } from './grating_bus';
+import { Functions } from './library';
 import { Mcx } from './mcx314';
 import { Pins } from './pins';
 import { Laser } from './rtc5';
@@ -76,6 +77,7 @@ export function Cards(): JSX.Element {
       </nav>
       <div class="cardview" key={card.name}>
         {Own !== undefined && <Own card={card} />}
+        {card.functions > 0 && <Functions card={card} />}
         <Pins card={card} />
       </div>
     </>

@@ -15,7 +15,7 @@ export interface Hello {
 
 /** Names as the machine's states are written; blanks and underscores are the same. */
 export type StateName =
-  'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop';
+  'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop' | 'service';
 
 export const LEDS = [
   'soft_minus',
@@ -64,6 +64,8 @@ export interface Status {
   sequence: number;
   state: string;
   why: string;
+  /** The card whose functions are called by hand; empty: none. */
+  service?: string;
   simulation: boolean;
   clock: { mode: 'real' | 'free' | 'paused'; factor: number; late_ms: number };
   estop: { wired: boolean; pressed: boolean };

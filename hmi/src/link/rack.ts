@@ -59,6 +59,8 @@ export interface CardInfo {
   pins: PinInfo[];
   values: string[];
   quantities: string[];
+  /** Of its function library that can be called by hand; 0: there is none. */
+  functions: number;
   channels: string[];
 }
 export interface RackInfo {

@@ -44,7 +44,7 @@ export function whenPicture(call: (picture: Picture) => void): () => void {
 }
 
 /** Sends one request and waits for its answer. Throws Refusal with the program's sentence. */
-export function ask(fields: Fields): Promise<Reply> {
+export function ask(fields: Fields, give_up_ms = GIVE_UP_MS): Promise<Reply> {
   const open = socket;
   if (open?.readyState !== WebSocket.OPEN)
     return Promise.reject(
@@ -57,10 +57,10 @@ export function ask(fields: Fields): Promise<Reply> {
       reject(
         new Refusal({
           trouble: 'io',
-          message: `The program has not answered for ${GIVE_UP_MS / 1000} s. Look at the machine's state before you try again.`,
+          message: `The program has not answered for ${give_up_ms / 1000} s. Look at the machine's state before you try again.`,
         }),
       );
-    }, GIVE_UP_MS);
+    }, give_up_ms);
     waiting.set(id, {
       resolve: (reply) => {
         clearTimeout(timer);

@@ -22,6 +22,7 @@ const LOOKS = {
   hold: { icon: 'hold', word: 'Hold', tone: 'attention' },
   stopping: { icon: 'stopping', word: 'Stopping', tone: 'attention' },
   'error stop': { icon: 'alarm', word: 'Error stop', tone: 'alarm' },
+  service: { icon: 'hand', word: 'Service', tone: 'attention' },
 } satisfies Record<StateName, Look>;
 /** A program that is newer than the page may know states that the page does not. */
 const lookOf = (name: string): Look =>
