@@ -211,8 +211,8 @@ bool Session::locked() const {
     if (alarm_ || stopped_ || state == MachineState::error_stop || state == MachineState::service ||
         (state == MachineState::disabled && !never_enabled_))
         return true;
-    const auto& axes = machine_.rack().config().axes;
-    return std::any_of(axes.begin(), axes.end(), [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
+    return std::ranges::any_of(machine_.rack().config().axes,
+                               [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
 }
 
 State Session::state() const {

@@ -188,7 +188,6 @@ class Machine {
     void pass_event(const control::gcode::Step& step);
     void tools_off();
     void tell();
-    AxisStatus look_at(rack::RunningAxis& axis);
     void enter(MachineState state, std::string why = {});
 
     MachineSettings settings_;

@@ -359,20 +359,20 @@ void Machine::tools_off() {
     status_.mist = status_.flood = false;
 }
 
-AxisStatus Machine::look_at(rack::RunningAxis& axis) {
+static AxisStatus look_at(rack::RunningAxis& axis, bool trusted, bool enabled, Instant now) {
     AxisStatus out;
     out.letter = axis.config.letter;
     out.rotary = axis.config.index() >= 3;
-    out.trusted = trusted(axis.config);
-    out.enabled = enabled_[static_cast<std::size_t>(axis.config.index())];
+    out.trusted = trusted;
+    out.enabled = enabled;
     out.pulses = axis.card->pulse_counter(axis.channel);
     out.counts = axis.card->encoder_counter(axis.channel);
     const double origin = axis.card->counter_origin();
     out.commanded = origin + static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
     const double counts = axis.config.counts_per_unit();
     out.actual = counts > 0 ? origin + static_cast<double>(out.counts) / counts : out.commanded;
-    out.place = axis.machine->position(now());
-    out.speed = axis.speed(now());
+    out.place = axis.machine->position(now);
+    out.speed = axis.speed(now);
     return out;
 }
 
@@ -381,7 +381,9 @@ void Machine::tell() {
     ++status_.sequence;
     status_.state = state_;
     status_.axes.clear();
-    for (rack::RunningAxis& axis : rack_.axes()) status_.axes.push_back(look_at(axis));
+    for (rack::RunningAxis& axis : rack_.axes())
+        status_.axes.push_back(
+            look_at(axis, trusted(axis.config), enabled_[static_cast<std::size_t>(axis.config.index())], now()));
     status_.program = program_name_;
     status_.line = stream_->line_driven();
     status_.lines = line_count_;
