@@ -208,9 +208,8 @@ void Session::energise() {
 
 bool Session::locked() const {
     const MachineState state = machine_.state();
-    if (alarm_ || stopped_ || state == MachineState::error_stop || state == MachineState::service ||
-        (state == MachineState::disabled && !never_enabled_))
-        return true;
+    if (alarm_ || stopped_ || (state == MachineState::disabled && !never_enabled_)) return true;
+    if (state == MachineState::error_stop || state == MachineState::service) return true;
     return std::ranges::any_of(machine_.rack().config().axes,
                                [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
 }

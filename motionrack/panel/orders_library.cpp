@@ -85,7 +85,8 @@ void call(Desk& desk, const Caller& caller, const json& fields, const Ready& rea
     const Result<void> taken =
         desk.machine.service().call(std::move(call), origin_of(caller), caller.session, answered);
     if (!taken) return ready(tl::unexpected<Error>(taken.error()));
-    for (const FunctionInfo& one : *operate::library_of(desk.machine.rack(), card))
+    const auto functions = operate::library_of(desk.machine.rack(), card);
+    for (const FunctionInfo& one : *functions)
         if (one.name == function && one.waits)
             note_call(desk, caller, function, fmt::format("begun with {}", text_of(arguments)));
 }

@@ -202,8 +202,9 @@ TEST_P(AServiceWithAMovingAxis, StopsAtOnce) {
         EXPECT_EQ(m.state(), GetParam().after) << name_of(m.state()) << ' ' << m.status().why;
         EXPECT_FALSE(m.service().on());
         EXPECT_FALSE(m.status().axes[0].trusted);
-        if (m.state() != MachineState::disabled)
+        if (m.state() != MachineState::disabled) {
             EXPECT_NE(m.status().why.find("not trusted"), std::string::npos) << m.status().why;
+        }
     });
     o.run(0.8);
 }

@@ -50,7 +50,7 @@ constexpr std::array at_once_or_ramp = {ValueInfo{0, "at once"}, ValueInfo{1, "d
 constexpr std::array counters = {ValueInfo{0, "the logical position LP"}, ValueInfo{1, "the real position EP"}};
 constexpr std::array encoders = {ValueInfo{0, "quadrature A/B"}, ValueInfo{1, "up and down pulses"}};
 constexpr std::array divisions = {ValueInfo{0, "all"}, ValueInfo{1, "every second"}, ValueInfo{2, "every fourth"}};
-constexpr std::array level = {one_of("n", low_high, "the input acts at"), axes};
+constexpr std::array active_level = {one_of("n", low_high, "the input acts at"), axes};
 constexpr std::array limit_stop = {one_of("n", at_once_or_ramp, "a limit switch stops"), axes};
 constexpr std::array switch_all = {one_of("n", off_on, "of all axes")};
 constexpr std::array compared = {one_of("n", counters, "of all axes, COMP+ and COMP- are compared with")};
@@ -162,8 +162,8 @@ constexpr std::array rows = {
     FunctionRow{{"SetFP", arcs, "Finish point of lines and arcs whose own is 0.", finish}, set<&D::SetFP>},
     FunctionRow{{"SetP", arcs, "As SetFP; the source has both names.", finish}, set<&D::SetP>},
 
-    FunctionRow{{"HLMTP", signals, "Level at which the + limit switch acts.", level}, turn<&D::HLMTP>},
-    FunctionRow{{"HLMTM", signals, "Level at which the - limit switch acts.", level}, turn<&D::HLMTM>},
+    FunctionRow{{"HLMTP", signals, "Level at which the + limit switch acts.", active_level}, turn<&D::HLMTP>},
+    FunctionRow{{"HLMTM", signals, "Level at which the - limit switch acts.", active_level}, turn<&D::HLMTM>},
     FunctionRow{{"HLMTSig", signals, "How limit switches stop.", limit_stop}, turn<&D::HLMTSig>},
     FunctionRow{{"SLMTP", signals, "Software limit at COMP+.", switch_all}, turn_all<&D::SLMTP>},
     FunctionRow{{"SLMTM", signals, "Software limit at COMP-.", switch_all}, turn_all<&D::SLMTM>},
@@ -172,8 +172,8 @@ constexpr std::array rows = {
     FunctionRow{{"EncoderCWCCW", signals, "Which edges of A/B count.", division}, turn<&D::EncoderCWCCW>},
     FunctionRow{{"EnableALM", signals, "Alarm inputs.", switch_all}, turn_all<&D::EnableALM>},
     FunctionRow{{"EnableInPos", signals, "In-position inputs.", switch_all}, turn_all<&D::EnableInPos>},
-    FunctionRow{{"ALMSig", signals, "Level at which the alarm input acts.", level}, turn<&D::ALMSig>},
-    FunctionRow{{"InPosSig", signals, "Level at which the in-position input acts.", level}, turn<&D::InPosSig>},
+    FunctionRow{{"ALMSig", signals, "Level at which the alarm input acts.", active_level}, turn<&D::ALMSig>},
+    FunctionRow{{"InPosSig", signals, "Level at which the in-position input acts.", active_level}, turn<&D::InPosSig>},
 
     FunctionRow{
         {"HomeType1", homes, "Decelerates at the home switch. The axes are those of home_axes.", home_data, {}, true},

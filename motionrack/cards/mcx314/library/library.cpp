@@ -35,8 +35,8 @@ std::span<const FunctionInfo> library_functions() {
     return all;
 }
 
-void QuickStops::look() {
-    if (inner_.stop_requested()) port_.write(reg::WR0, static_cast<std::uint16_t>(xyzu << 8 | cmd::QUICK_STOP));
+void QuickStops::stop() {
+    port_.write(reg::WR0, static_cast<std::uint16_t>(xyzu << 8 | cmd::QUICK_STOP));
 }
 
 // ---- the library

@@ -183,6 +183,58 @@ TEST(ADeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
     EXPECT_FALSE(rig.library.moving());
 }
 
+/// A stop is asked for at the nth access.
+class StoppedAt final : public RegisterPort {
+  public:
+    StoppedAt(RegisterPort& port, std::atomic<bool>& stop) : port_(port), stop_(stop) {}
+    void write(std::uint32_t offset, std::uint16_t value) override {
+        const bool late = stop_;
+        count();
+        const int command = offset == reg::WR0 ? value & 0xff : 0;
+        drove_late = drove_late || (late && command >= 0x20 && command <= 0x23);
+        port_.write(offset, value);
+    }
+    std::uint16_t read(std::uint32_t offset) override {
+        count();
+        return port_.read(offset);
+    }
+    std::int64_t left = 1'000'000;  ///< accesses before it
+    bool drove_late = false;        ///< a drive was ordered after it
+
+  private:
+    void count() {
+        if (left-- == 0) stop_ = true;
+    }
+    RegisterPort& port_;
+    std::atomic<bool>& stop_;
+};
+
+TEST(ADeclaredLibrary, BeginsNoDriveAfterAStopBetweenAnyTwoAccesses) {
+    const Arguments order = {{"axis", 1}, {"m_Pulse", 5000}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}};
+    bool ended = false;
+    for (std::int64_t n = 0; !ended; ++n) {
+        SCOPED_TRACE(n);
+        DriverRig rig;
+        std::atomic<bool> stop{false};
+        StoppedAt port(rig.port, stop);
+        rig.port.set_stop_flag(&stop);
+        Library library(port, rig.port);
+        ASSERT_TRUE(library.begin());
+        const Result<CheckedCall> checked = check_call(library.functions(), "TCurve_F", order);
+        ASSERT_TRUE(checked) << checked.error().message;
+        port.left = n;
+        (void)library.call(checked->function, checked->values);
+        ended = !stop;  // the function had ended before
+        port.left = 1'000'000;
+        stop = true;
+        library.stop_now();
+        rig.kernel.run_until(rig.kernel.now() + milliseconds(1));
+        EXPECT_FALSE(library.moving());
+        EXPECT_FALSE(port.drove_late);
+        ASSERT_LT(n, 500);
+    }
+}
+
 TEST(ADeclaredLibrary, TellsHowAHomingFailed) {
     LibraryRig rig;
     ASSERT_TRUE(rig.call("SetRange", {{"data", 800'000}}));
