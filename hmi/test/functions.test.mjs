@@ -1,0 +1,74 @@
+// The functions of a card's library from the page: the service, a form, its answers, and STOP while a function waits.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { named, openTab, picture, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
+
+const all = suite(test);
+
+const panel = (tab) => tab.page.getByRole('region', { name: 'Functions of its library' });
+const calls = (tab) => panel(tab).getByRole('log', { name: 'Calls' });
+
+async function choose(tab, name) {
+  await panel(tab).getByLabel('Search functions').fill(name);
+  await panel(tab)
+    .getByRole('region', { name: 'List of functions' })
+    .getByRole('button', { name, exact: true })
+    .click();
+  await panel(tab).getByRole('form', { name, exact: true }).waitFor();
+}
+async function call(tab, name, texts = {}) {
+  await choose(tab, name);
+  for (const [label, text] of Object.entries(texts))
+    await panel(tab).getByLabel(label, { exact: true }).fill(String(text));
+  await panel(tab)
+    .getByRole('button', { name: `Call ${name}`, exact: true })
+    .click();
+}
+const answered = (tab, text) => calls(tab).getByText(text).first().waitFor();
+
+test('functions are called in the service of the card, and STOP ends one that waits', async () => {
+  const tab = await openTab(all.browser, all.server);
+  await takeControl(tab);
+  await tab.page.evaluate(() => (location.hash = '#/cards/motion'));
+  await choose(tab, 'SetRange');
+  const button = panel(tab).getByRole('button', { name: 'Call SetRange', exact: true });
+  assert.equal(await button.getAttribute('aria-disabled'), 'true', 'not before the service');
+  await panel(tab).getByRole('button', { name: 'Begin service' }).click();
+  await state(tab, 'service');
+  await answered(tab, /nothing else drives it/);
+  await call(tab, 'SetRange', { data: 800000 });
+  await answered(tab, 'Written.');
+  await call(tab, 'SetV', { data: 9000 });
+  await tab.page
+    .getByText(/must be 1 to/)
+    .first()
+    .waitFor();
+  await call(tab, 'TCurve_F', { m_Pulse: 500 });
+  await answered(tab, 'X drives.');
+  await call(tab, 'wait');
+  await answered(tab, 'X stands as commanded.');
+  await call(tab, 'ReadLPS');
+  await answered(tab, '500 pulses');
+  for (const scheme of ['light', 'dark'])
+    for (const width of [1280, 760]) {
+      await tab.page.emulateMedia({ colorScheme: scheme });
+      await tab.page.setViewportSize({ width, height: 900 });
+      await choose(tab, 'Line3D_S');
+      await panel(tab).scrollIntoViewIfNeeded();
+      await picture(tab, `functions-${scheme}-${width}`, 2200);
+    }
+  await call(tab, 'TCurve_C');
+  await answered(tab, /^TCurve_C/);
+  await call(tab, 'wait', { milliseconds: 60000 });
+  await until(() => named(tab, 'call').at(-1).function === 'wait', 'it waits');
+  await tab.page.keyboard.press('Escape');
+  await state(tab, 'error stop');
+  await answered(tab, /Stopped on request/);
+  assert.equal(tab.status.service, '');
+  await stopAndRelease(tab);
+  assert.deepEqual(
+    tab.troubles.filter((one) => !one.includes('409')),
+    [],
+  );
+  await tab.context.close();
+});
