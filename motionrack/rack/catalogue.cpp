@@ -8,6 +8,7 @@
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
+#include <motionrack/cards/mcx314/chip/by_name.hpp>
 #include <motionrack/cards/mcx314/chip/byte_bus.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -234,23 +235,7 @@ class Mcx314Card final : public MotionCard {
 };
 
 Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {
-    const auto one_of = [](std::string_view searched, bool per_axis) {
-        const auto names = mcx314::Chip::inspected_names(per_axis);
-        return std::find(names.begin(), names.end(), searched) != names.end();
-    };
-    const std::size_t channel =
-        name.size() > 2 && name[1] == '.' ? std::string_view("xyzu").find(name[0]) : std::string_view::npos;
-    if (channel != std::string_view::npos && one_of(name.substr(2), true))
-        return *chip_.inspect(name.substr(2), static_cast<int>(channel));
-    if (one_of(name, false)) return *chip_.inspect(name, 0);
-    // Without an axis: that of the axis whose registers the bus shows.
-    for (const RegisterInfo& reg : map().registers)
-        if (reg.name == name && reg.access != Access::write) return chip_.peek(reg.offset);
-    return fail(
-        Trouble::bad_input,
-        fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", name_,
-                    in_quotes(name), fmt::join(mcx314::Chip::inspected_names(false), ", "),
-                    fmt::join(mcx314::Chip::inspected_names(true), ", ")));
+    return mcx314::value_by_name(chip_, map(), name_, name, in_quotes(name));
 }
 
 std::vector<std::string> Mcx314Card::value_names() const {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <motionrack/base/read_whole_file.hpp>
+#include <motionrack/cards/mcx314/chip/by_name.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/frontends/mcx314lib/world.hpp>
@@ -117,22 +118,7 @@ void LoneCard::drive(std::string_view pin, double level) {
 }
 
 Result<std::int64_t> LoneCard::inspect(std::string_view name) const {
-    const auto known = [](std::string_view searched, bool per_axis) {
-        const auto names = mcx314::Chip::inspected_names(per_axis);
-        return std::find(names.begin(), names.end(), searched) != names.end();
-    };
-    const std::size_t axis =
-        name.size() > 2 && name[1] == '.' ? std::string_view("xyzu").find(name[0]) : std::string_view::npos;
-    if (axis != std::string_view::npos && known(name.substr(2), true))
-        return *chip_.inspect(name.substr(2), static_cast<int>(axis));
-    if (known(name, false)) return *chip_.inspect(name, 0);
-    for (const RegisterInfo& reg : mcx314::card_map().registers)
-        if (reg.name == name && reg.access != Access::write) return chip_.peek(reg.offset);
-    return fail(
-        Trouble::bad_input,
-        fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", name_,
-                    in_quotes(name), fmt::join(mcx314::Chip::inspected_names(false), ", "),
-                    fmt::join(mcx314::Chip::inspected_names(true), ", ")));
+    return mcx314::value_by_name(chip_, mcx314::card_map(), name_, name, in_quotes(name));
 }
 
 class ChipsAlone final : public World {

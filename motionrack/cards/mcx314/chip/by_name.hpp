@@ -1,0 +1,15 @@
+// Values of the chip by the names that people write.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <string_view>
+
+namespace motionrack::mcx314 {
+
+/// "x.LP", "MODE", or a readable register of `map` as the bus shows it; without effects. Errors: bad_input, with the
+/// names that there are; the sentence calls the card `card` and the name `quoted`.
+Result<std::int64_t> value_by_name(const Chip& chip, const CardMap& map, std::string_view card, std::string_view name,
+                                   std::string_view quoted);
+
+}  // namespace motionrack::mcx314
