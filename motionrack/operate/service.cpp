@@ -12,7 +12,7 @@ namespace {
 
 constexpr Duration look_at_stop_every = milliseconds(1);
 /// So often a stop is looked at; pulses end with the command.
-constexpr int most_looks = 100;
+constexpr int max_looks = 100;
 
 }  // namespace
 
@@ -25,10 +25,11 @@ Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::st
                             card, found->map().name));
 }
 
-bool Service::moves_axes(const std::string& card) const {
+std::string Service::axes_of(const std::string& card) const {
+    std::string letters;
     for (const rack::RackAxis& axis : machine_.rack_.config().axes)
-        if (axis.card == card) return true;
-    return false;
+        if (axis.card == card) letters += axis.letter;
+    return letters;
 }
 
 // ---- orders
@@ -40,14 +41,12 @@ Result<void> Service::check_begin(const std::string& card) const {
                     fmt::format("{}: card {} is in service. Nothing was changed; end that first.", what, card_));
     MOTIONRACK_CHECK(library_of(machine_.rack_, card));
     MOTIONRACK_CHECK(machine_.may_start(what));
-    if (moves_axes(card) || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
+    const std::string letters = axes_of(card);
+    if (!letters.empty() || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
     if (const rack::StopLatch& latch = machine_.rack_.stop_latch(); latch.latched())
         return fail(Trouble::refused,
                     fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
     MOTIONRACK_CHECK(machine_.door_.check_closed(what));
-    std::string letters;
-    for (const rack::RackAxis& axis : machine_.rack_.config().axes)
-        if (axis.card == card) letters += axis.letter;
     MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
     if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
         return fail(Trouble::refused,
@@ -82,7 +81,7 @@ Result<void> Service::call(Call call, const StopOrigin& by, const std::string& s
         return fail(Trouble::refused, fmt::format("{} was not called: card {} is in service, not card {}. End that "
                                                   "service first.",
                                                   call.function, card_, call.card));
-    if (!on() && moves_axes(call.card))
+    if (!on() && !axes_of(call.card).empty())
         return fail(Trouble::refused,
                     fmt::format("{} was not called: card {} is driven by the controller. Begin its service first.",
                                 call.function, call.card));
@@ -152,7 +151,7 @@ void Service::work() {
 void Service::finish() {
     if (library_) {
         library_->stop_now();
-        for (int i = 0; i < most_looks && library_->moving(); ++i) host_of(machine_.rack_).pass(look_at_stop_every);
+        for (int i = 0; i < max_looks && library_->moving(); ++i) host_of(machine_.rack_).pass(look_at_stop_every);
         library_.reset();
     }
     Result<void> taken;

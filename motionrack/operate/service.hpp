@@ -1,4 +1,4 @@
-// Service of a card: somebody calls the functions of its library one by one, and the controller drives nothing.
+// Service of a card: orders call the functions of its library one by one, and the controller drives nothing.
 //
 //   standstill ──begin──► service: chip reset, its axes not trusted ══ call, call, .. ══ end ──► standstill, home again
 //                            │ STOP, emergency stop, alarm, limit switch ──► axes stop at once ──► error stop
@@ -68,7 +68,8 @@ class Service {
         std::string name;
         Answered ready;
     };
-    bool moves_axes(const std::string& card) const;
+    /// The letters of the machine's axes that it moves.
+    std::string axes_of(const std::string& card) const;
     Result<void> check_begin(const std::string& card) const;
     void take();
     void work();

@@ -52,7 +52,7 @@ Result<void> check_text(const AskRow& row, const FieldRow& field, const json& va
 }
 
 /// Whole numbers that a double holds exactly.
-constexpr double most_whole = 9e15;
+constexpr double max_whole = 9e15;
 
 Result<void> check_numbers(const AskRow& row, const FieldRow& field, const json& value) {
     if (!value.is_object())
@@ -62,7 +62,7 @@ Result<void> check_numbers(const AskRow& row, const FieldRow& field, const json&
         return wrong(row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.greatest));
     for (const auto& [name, one] : value.items())
         if (!one.is_number() || one.get<double>() != std::floor(one.get<double>()) ||
-            std::fabs(one.get<double>()) > most_whole)
+            std::fabs(one.get<double>()) > max_whole)
             return wrong(row, fmt::format("{} of {} must be a whole number, not {}.", rack::in_quotes(name), field.name,
                                           one.is_number() ? "any number" : one.type_name()));
     return {};

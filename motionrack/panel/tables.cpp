@@ -174,7 +174,7 @@ constexpr std::array order_rows = {
     AskRow{
         "service", Role::maintain, true, service_fields,
         "Takes a card out of the controller's hands, so that its library's functions can be called, or gives it back; "
-        "its positions are not trusted then. Begins while the machine stands; whoever has begun it must keep control.",
+        "its positions are not trusted then. Begins while the machine stands; its session must keep control.",
         "text"},
     AskRow{
         "call", Role::maintain, true, call_fields,
