@@ -215,5 +215,23 @@ TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
     expect_end(driven, path.x, path.y);
 }
 
+TEST(AHost, LooksAtBrakingAxesEveryFewMicrosecondsAndNotAllTheTime) {
+    RackConfig config = router();
+    config.cards[0].mcx314.bus_access_ns = 60;
+    constexpr double asked = 0.5;
+    double seconds = 0, reads = 0;
+    const Driven driven = drive_with(config, "G1 X200 F6000\nM2\n", {{asked, "flag"}}, [&](Rack& rack) {
+        seconds = to_seconds(rack.kernel().now()) - asked;
+        const auto& inputs = rack.input_log().inputs();
+        reads = static_cast<double>(std::count_if(inputs.begin(), inputs.end(), [&](const sim::Input& input) {
+            return input.kind == sim::InputKind::register_read && to_seconds(input.at) >= asked;
+        }));
+    });
+    ASSERT_FALSE(driven.outcome.ended);
+    ASSERT_GT(seconds, 0.02) << "it braked";
+    EXPECT_LT(reads / seconds, 1.2e6) << "reads a second, of 16 million that the bus can do";
+    expect_lossless(driven);
+}
+
 }  // namespace
 }  // namespace motionrack::rack

@@ -15,7 +15,14 @@ namespace {
 // R of the second axis for R of the first: both axes step together, the path is sqrt(2) pulses long.
 constexpr double both_axes_factor = 1 + both_axes_extra;
 constexpr Duration joint_timeout = whole_seconds(3600);
-constexpr Duration brake_look = microseconds(50);
+constexpr Duration brake_look = microseconds(5);  // less than any piece takes
+
+/// True if the line is active. A wish to stop ends each wait at once, so that braking axes are looked at now and then.
+bool wait_for_interrupt(Interrupt& host, bool brakes) {
+    if (!brakes) return host.wait(joint_timeout);
+    host.pass(brake_look);
+    return false;
+}
 
 }  // namespace
 
@@ -181,7 +188,7 @@ Result<void> Axes::wait_for_joint(const Segment& queued) {
         const bool brakes = driver_.interrupt().stop_requested();
         if (brakes) MOTIONRACK_CHECK(brake());
         // The next piece is queued as soon as there is room for it, while the axes brake too.
-        woken = driver_.interrupt().wait(brakes ? brake_look : joint_timeout);
+        woken = wait_for_interrupt(driver_.interrupt(), brakes);
     }
 }
 
@@ -238,7 +245,7 @@ Result<void> Axes::wait_until_all_stand() {
         if (!status.interpolating() && status.error(xyzu)) driver_.SlowStop(xyzu);
         const bool brakes = driver_.interrupt().stop_requested();
         if (brakes) MOTIONRACK_CHECK(brake());
-        if (driver_.interrupt().wait(brakes ? brake_look : joint_timeout)) clear_interrupts();
+        if (wait_for_interrupt(driver_.interrupt(), brakes)) clear_interrupts();
     }
     clear_interrupts();
     return {};
