@@ -14,7 +14,7 @@ namespace motionrack::sim {
 enum class Phase : std::uint8_t { wires, cards, parts, observers };
 
 /// A device acts at the instants it asked for (Kernel::schedule), and is told of wires it listens to. Everything
-/// reached from act, on_wire, level_at and sync runs in virtual time: no allocation, no locks, no I/O, no text.
+/// reached from act, on_wire and level_at runs in virtual time: no allocation, no locks, no I/O, no text.
 class Device {
   public:
     virtual ~Device() = default;
@@ -30,8 +30,6 @@ class Device {
     virtual void forced_changed(int pin, bool forced, int level, Instant now) {
         (void)pin, (void)forced, (void)level, (void)now;
     }
-    /// Hand over whatever has been put off (edges to listeners) up to and including `now`.
-    virtual void sync(Instant now) { (void)now; }
     /// Everything that a snapshot must hold, as bytes of trivially copyable state.
     virtual std::span<std::byte> state() { return {}; }
     /// The part of it that Kernel::state_hash reads: all, unless it is large and a state that is read has a hash of it.
@@ -40,6 +38,13 @@ class Device {
     virtual bool fault(std::string_view name, double value, Instant now) {
         return (void)name, (void)value, (void)now, false;
     }
+};
+
+/// A device that puts off what its listeners need not have at once. The kernel calls sync at the end of each run.
+class DeferringDevice : public Device {
+  public:
+    /// Hands over whatever has been put off (edges to listeners) up to and including `now`, in virtual time.
+    virtual void sync(Instant now) = 0;
 };
 
 /// The bytes of a trivially copyable state, for Device::state.

@@ -14,6 +14,7 @@ constexpr std::size_t most_changes = 20'000;  // of wires at one event
 DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
     MOTIONRACK_ASSERT(!started_);
     devices_.push_back({&device, phase, std::move(name)});
+    if (auto* deferring = dynamic_cast<DeferringDevice*>(&device)) deferring_.push_back(deferring);
     due_.push_back({});
     return static_cast<DeviceId>(devices_.size() - 1);
 }
@@ -53,14 +54,11 @@ void Kernel::start() {
 
 // ---- running
 
-std::size_t Kernel::earliest() const {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < due_.size(); ++i) {
-        const Due& a = due_[i];
-        const Due& b = due_[best];
-        if (a.at < b.at || (a.at == b.at && a.order < b.order)) best = i;
-    }
-    return best;
+void Kernel::find_earliest() {
+    earliest_ = 0;
+    for (std::size_t i = 1; i < due_.size(); ++i)
+        if (due_[i].is_before(due_[earliest_])) earliest_ = i;
+    knows_earliest_ = true;
 }
 
 RunEnd Kernel::run_until(Instant until, RunBreak at) {
@@ -69,12 +67,14 @@ RunEnd Kernel::run_until(Instant until, RunBreak at) {
     deliver();
     const std::uint64_t reported = at == RunBreak::conditions ? state_.condition_count : 0;
     while (!break_ && !due_.empty()) {
-        const std::size_t next = earliest();
-        if (due_[next].at > until) break;
-        state_.now = due_[next].at;
-        due_[next].at = never;
+        if (!knows_earliest_) find_earliest();
+        Due& next = due_[earliest_];
+        if (next.at > until) break;
+        state_.now = next.at;
+        next.at = never;
+        knows_earliest_ = false;
         ++state_.events;
-        devices_[next].device->act(state_.now);
+        devices_[earliest_].device->act(state_.now);
         deliver();
         if (at == RunBreak::conditions && state_.condition_count != reported) break_ = true;
     }
@@ -88,14 +88,19 @@ void Kernel::settle() {
 }
 
 void Kernel::sync_all() {
-    for (Slot& slot : devices_) slot.device->sync(state_.now);
+    for (DeferringDevice* device : deferring_) device->sync(state_.now);
 }
 
 void Kernel::schedule(DeviceId device, Instant at) {
     Due& due = due_[index(device)];
     if (at == due.at) return;
+    const Instant before = due.at;
     due.at = std::max(at, state_.now);
     due.order = (std::uint64_t{static_cast<std::uint8_t>(devices_[index(device)].phase)} << 56) | ++state_.sequence;
+    if (index(device) == earliest_)
+        knows_earliest_ = knows_earliest_ && due.at < before;
+    else if (knows_earliest_ && due.is_before(due_[earliest_]))
+        earliest_ = index(device);
 }
 
 void Kernel::report(DeviceId device, std::uint16_t code, std::int64_t a, std::int64_t b) {
@@ -274,6 +279,7 @@ void Kernel::restore(const Snapshot& snapshot) {
     take(condition_bytes());  // their number has just been taken
     MOTIONRACK_ASSERT(at == snapshot.bytes.size());
     queue_head_ = queue_size_ = 0;
+    knows_earliest_ = false;
 }
 
 std::uint64_t Kernel::state_hash() {

@@ -161,6 +161,8 @@ class Kernel {
     struct Due {
         Instant at = never;
         std::uint64_t order = 0;  // phase in the top byte, then the sequence in which it was asked for
+
+        bool is_before(const Due& other) const { return at < other.at || (at == other.at && order < other.order); }
     };
     struct Change {
         WireId wire{};
@@ -175,7 +177,7 @@ class Kernel {
     };
 
     Device& owner_of(WireId wire) { return *devices_[index(wires_[index(wire)].lazy_owner)].device; }
-    std::size_t earliest() const;
+    void find_earliest();
     void deliver();
     void sync_all();
     void change(WireId wire, int level);
@@ -185,8 +187,11 @@ class Kernel {
     std::span<std::byte> condition_bytes();
 
     std::vector<Slot> devices_;
+    std::vector<DeferringDevice*> deferring_;  // those of devices_, in their order
     std::vector<Wire> wires_;
     std::vector<Due> due_;
+    std::size_t earliest_ = 0;  // of due_, while it is known
+    bool knows_earliest_ = false;
     std::vector<WireState> wire_state_;
     std::vector<Change> queue_;  // fixed capacity after start; queue_head_ .. queue_size_
     std::size_t queue_head_ = 0;

@@ -53,7 +53,7 @@ struct DcLaw {
     int direction() const;
 };
 
-class DcMotor final : public sim::Device, public sim::Motion {
+class DcMotor final : public sim::DeferringDevice, public sim::Motion {
   public:
     /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
     DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings,

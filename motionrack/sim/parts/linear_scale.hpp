@@ -47,7 +47,7 @@ struct LinearScaleSettings {
     std::int64_t places_nm = 1;           ///< ... are so many nm, 1 .. 1e9
 };
 
-class LinearScale final : public sim::Device, public sim::Motion, private sim::MotionListener {
+class LinearScale final : public sim::DeferringDevice, public sim::Motion, private sim::MotionListener {
   public:
     /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel, before it starts.
     LinearScale(sim::Kernel& kernel, const std::string& name, sim::Motion& place,

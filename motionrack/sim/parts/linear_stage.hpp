@@ -42,7 +42,7 @@ struct LinearStageSettings {
     double end_plus_nm = 1e9;
 };
 
-class LinearStage final : public sim::Device, public sim::Motion {
+class LinearStage final : public sim::DeferringDevice, public sim::Motion {
   public:
     /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
     LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& settings,

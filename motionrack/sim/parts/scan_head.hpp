@@ -21,7 +21,7 @@ struct ScanHeadWires {
     sim::WireId x, y, laser;
 };
 
-class ScanHead final : public sim::Device {
+class ScanHead final : public sim::DeferringDevice {
   public:
     /// Adds the device `name` to the kernel, before it starts and after the wires' owner.
     ScanHead(sim::Kernel& kernel, const std::string& name, const ScanHeadWires& wires, MarkingStation station);

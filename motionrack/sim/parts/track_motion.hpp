@@ -16,7 +16,7 @@
 
 namespace motionrack::parts {
 
-class TrackMotion final : public sim::Device, public sim::Motion {
+class TrackMotion final : public sim::DeferringDevice, public sim::Motion {
   public:
     /// Adds the device `name` to the kernel, before it starts. `track` must live as long; not 0 counts a unit.
     TrackMotion(sim::Kernel& kernel, const std::string& name, const Track& track, double counts_per_unit);

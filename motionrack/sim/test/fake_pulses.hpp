@@ -18,7 +18,7 @@ struct PulseLaw {
     std::int64_t direction = 0;
 };
 
-class FakePulses final : public Device, public Motion {
+class FakePulses final : public DeferringDevice, public Motion {
   public:
     FakePulses(Kernel& kernel, std::vector<PulseLaw> laws, const std::string& name = "pulses")
         : kernel_(kernel), laws_(std::move(laws)), id_(kernel.add(*this, Phase::cards, name)) {

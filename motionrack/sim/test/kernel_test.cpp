@@ -9,7 +9,7 @@ namespace motionrack::sim {
 namespace {
 
 /// A device whose parts are functions.
-class Puppet final : public Device {
+class Puppet final : public DeferringDevice {
   public:
     void act(Instant now) override {
         if (on_act) on_act(now);

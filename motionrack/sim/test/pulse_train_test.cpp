@@ -12,7 +12,7 @@ namespace {
 constexpr Duration clock = Duration{6};
 
 /// A device with a pulse train and nothing else.
-class Divider final : public Device, private PulseTrain::Owner {
+class Divider final : public DeferringDevice, private PulseTrain::Owner {
   public:
     explicit Divider(Kernel& k) : train(state_, clock), kernel(k), id(k.add(*this, Phase::cards, "divider")) {
         train.set_owner(this);

@@ -25,7 +25,7 @@
 
 namespace motionrack::databoard4002 {
 
-class Card final : public sim::Device,
+class Card final : public sim::DeferringDevice,
                    public sim::ByteDevice,
                    private sim::MotionListener,
                    private sim::PulseTrain::Owner {

@@ -23,7 +23,7 @@
 
 namespace motionrack::ioflex02 {
 
-class Card final : public sim::Device, public sim::RegisterDevice {
+class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
   public:
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});

@@ -38,7 +38,7 @@ enum ChipCondition : std::uint16_t {
 /// The sentence of a condition that a chip reported.
 std::string describe(const sim::Condition& condition, const std::string& card);
 
-class Chip final : public sim::Device, public sim::RegisterDevice {
+class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
   public:
     /// Adds the chip and its wires "<name>.<pin>" to the kernel. CLK is 16 MHz.
     Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& options = {});

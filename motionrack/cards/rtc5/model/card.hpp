@@ -16,7 +16,7 @@
 
 namespace motionrack::rtc5 {
 
-class Card final : public sim::Device, private Sink {
+class Card final : public sim::DeferringDevice, private Sink {
   public:
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
