@@ -96,18 +96,17 @@ void Rider::append(Part& part, const CurvePiece& piece) {
     set_feed(part, part.curve.size() - 1);
 }
 
-/// With the overrides, and without what an earlier plan knew.
+/// Of a piece, with the overrides.
+double Rider::feed_of(const Part& part, std::size_t i) const {
+    const double programmed = part.programmed[i];
+    if (!moves_[static_cast<std::size_t>(move_of(part.curve[i].line) - first_move_)].overridable) return programmed;
+    if (programmed < std::numeric_limits<double>::infinity()) return programmed * feed_override_;
+    return rapid_override_ < 1 ? rapid_override_ * fastest_of_axes(part.curve[i], limits_) : programmed;
+}
+
+/// Without what an earlier plan knew.
 void Rider::set_feed(Part& part, std::size_t i, double at_least) const {
-    CurvePiece& piece = part.curve[i];
-    const auto move = static_cast<std::size_t>(move_of(piece.line) - first_move_);
-    piece.feed = part.programmed[i];
-    if (moves_[move].overridable) {
-        if (piece.feed < std::numeric_limits<double>::infinity())
-            piece.feed *= feed_override_;
-        else if (rapid_override_ < 1)
-            piece.feed = rapid_override_ * fastest_of_axes(piece, limits_);
-    }
-    piece.feed = std::max(piece.feed, at_least);
+    part.curve[i].feed = std::max(feed_of(part, i), at_least);
     part.use[i] = {};
 }
 

@@ -118,6 +118,7 @@ class Rider {
     void gather(std::size_t most);
     void make_room();
     void append(Part& part, const CurvePiece& piece);
+    double feed_of(const Part& part, std::size_t i) const;
     void set_feed(Part& part, std::size_t i, double at_least = 0) const;
     bool is_ready(const Part& part, std::size_t from, bool early) const;
     void drop_passed();
@@ -130,7 +131,7 @@ class Rider {
     bool slow_down();
     bool ease_into_feeds();
     bool plan_to_end(std::size_t piece, const FeedState& along);
-    PieceUse use_for_stop(std::size_t piece, std::size_t& k) const;
+    PieceUse use_for_stop(std::size_t piece, std::size_t& k, double planned) const;
     std::optional<double> find_stop(const Spot& from);
     Part with_feeds(const Spot& from, std::span<const FeedPiece> stop) const;
     void take(const Spot& from, double seconds, double to);
@@ -161,6 +162,7 @@ class Rider {
     double ease_ = least_ease;  ///< how much longer than a stop a way into lower feeds may be
     double feed_override_ = 1, rapid_override_ = 1;
 
+    std::vector<CurvePiece> stop_curve_;
     std::vector<PieceUse> stop_use_;
     std::deque<RideMove> moves_;
     std::int64_t pushed_ = 0, first_move_ = 0;  ///< of moves_

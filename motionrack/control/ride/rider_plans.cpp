@@ -84,14 +84,13 @@ bool Rider::slow_down() {
     return true;
 }
 
-/// What is known of a piece, for a stop on it; `k`: the first part of the feed that is looked at, then the first that
-/// reaches there.
-PieceUse Rider::use_for_stop(std::size_t piece, std::size_t& k) const {
+/// What is known of a piece, for a stop on it, that is driven as fast as is planned, or as fast as `planned`; `k`: the
+/// first part of the feed that is looked at, then the first that reaches there.
+PieceUse Rider::use_for_stop(std::size_t piece, std::size_t& k, double planned) const {
     const CurvePiece& on = now_.curve[piece];
     PieceUse use = now_.use[piece];
     if (is_straight(on)) return use;
     while (k + 1 < now_.feed.size() && now_.feed[k + 1].begin <= on.begin) ++k;
-    double planned = 0;
     for (std::size_t i = k; i < now_.feed.size() && now_.feed[i].begin < on.begin + on.length; ++i)
         planned = std::max({planned, now_.feed[i].at(0).speed, now_.feed[i].last().speed});
     use.speed = std::min(use.speed, above_plan * planned);
@@ -105,14 +104,21 @@ std::optional<double> Rider::find_stop(const Spot& from) {
     double planned = -1;  // how far the planner's last plan goes; below 0: it found none
     std::vector<PieceUse> use;
     std::size_t k = feed_;
+    // Where it slows down for lower feeds, it slows down more for a stop: they need not be kept on its way.
+    const double feed = now_.curve[from.piece].feed, eases_from = feed > feed_of(now_, from.piece) ? feed : 0;
+    stop_curve_.clear();
+    const auto add_piece = [&](std::size_t i) {
+        stop_curve_.push_back(now_.curve[i]);
+        stop_curve_.back().feed = std::max(now_.curve[i].feed, std::min(eases_from, now_.programmed[i]));
+        use.push_back(use_for_stop(i, k, eases_from > 0 ? from.along.speed : 0));
+    };
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;
         while (last + 1 < now_.curve.size() && now_.curve[last + 1].begin < begin + distance) ++last;
-        const auto first = static_cast<std::ptrdiff_t>(from.piece), past = static_cast<std::ptrdiff_t>(last + 1);
-        while (use.size() <= last - from.piece) use.push_back(use_for_stop(from.piece + use.size(), k));
-        stop_use_.assign(use.begin(), use.begin() + (past - first));
-        const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_use_,
-                                         begin, begin + distance);
+        const std::size_t pieces = last + 1 - from.piece;
+        while (use.size() < pieces) add_piece(from.piece + use.size());
+        stop_use_.assign(use.begin(), use.begin() + static_cast<std::ptrdiff_t>(pieces));
+        const bool found = planner_.plan(start, {stop_curve_.data(), pieces}, stop_use_, begin, begin + distance);
         planned = found ? distance : -1;
         return found;
     };

@@ -235,6 +235,37 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     expect_limits(driven);
 }
 
+/// A line, the same in short ones, a circle, the same in chords.
+std::vector<std::vector<Move>> ways_at(double feed) {
+    std::vector<std::vector<Move>> out = {{long_line(feed)}, {}, {arc_from({}, 0, 30, 6)}, {}};
+    for (int i = 1; i <= 200; ++i) out[1].push_back(line_to({0.5 * i}));
+    for (int i = 1; i <= 600; ++i) out[3].push_back(line_to({30 * std::sin(0.01 * i), 30 - 30 * std::cos(0.01 * i)}, 0.02));
+    for (std::vector<Move>& way : out)
+        for (Move& move : way) move.feed = feed;
+    return out;
+}
+
+TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
+    for (const std::vector<Move>& way : ways_at(50)) {
+        const auto held_after = [&](double feed, double after) {
+            Driven driven(way, {});
+            while (driven.now < 0.5) driven.step(0.001, true);
+            driven.rider.set_overrides(feed, 1);
+            while (driven.now < 0.5 + after) driven.step(0.001, true);
+            driven.rider.hold();
+            const double asked = driven.now;
+            while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
+            expect_limits(driven);
+            return driven.now - asked;
+        };
+        const double alone = held_after(1, 0);
+        for (const double feed : {0.8, 0.4, 0.1, 0.02})
+            for (double after = 0.001; after < 1.2 * alone; after += 0.006)
+                EXPECT_LT(held_after(feed, after), alone + 0.03)
+                    << way.size() << " moves, feed " << feed << ", held " << after << " s after";
+    }
+}
+
 /// The bend alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down takes
 /// from the same.
 TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
