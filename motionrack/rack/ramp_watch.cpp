@@ -17,43 +17,54 @@ RampWatch::RampWatch(Rack& rack)
     }
 }
 
+std::int64_t RampWatch::count_of(std::size_t i, Instant now) const {
+    return rack_.axes()[watched_[i].axis].turned_by().count(now);
+}
+
 /// As if each axis had come with the rate that it has.
-void RampWatch::begin(Instant now) {
+void RampWatch::arm(Instant now) {
     state_ = {};
-    state_.on = 1;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
-        const sim::Motion& pulses = rack_.axes()[watched_[i].axis].turned_by();
-        const double each = pulses.rate(now) * to_seconds(period);
-        const std::int64_t count = pulses.count(now);
+        const double each = rack_.axes()[watched_[i].axis].turned_by().rate(now) * to_seconds(period);
+        const std::int64_t count = count_of(i, now);
         for (std::size_t k = 0; k < counts_kept; ++k)
             state_.counts[i][k] = count - std::llround(each * static_cast<double>(counts_kept - 1 - k));
     }
-    kernel_.schedule(id_, later(now, period));
+    if (!watched_.empty()) kernel_.schedule(id_, later(now, period));
 }
 
-void RampWatch::look(std::size_t i, std::int64_t count) {
+void RampWatch::keep(std::size_t i, std::int64_t count) {
     std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
     std::rotate(counts.begin(), counts.begin() + 1, counts.end());
     counts.back() = count;
+}
+
+void RampWatch::judge(std::size_t i) {
+    const std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
     const std::size_t looks = watched_[i].law.looks, last = counts_kept - 1;
-    if (watched_[i].law.jump_hz(counts[last - 2 * looks], counts[last - looks], count) > 0)
+    if (watched_[i].law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0)
         state_.jumped |= 1u << rack_.axes()[watched_[i].axis].config.index();
 }
 
 void RampWatch::act(Instant now) {
     kernel_.schedule(id_, later(now, period));
-    for (std::size_t i = 0; i < watched_.size(); ++i) look(i, rack_.axes()[watched_[i].axis].turned_by().count(now));
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        keep(i, count_of(i, now));
+        if (state_.judges != 0) judge(i);
+    }
 }
 
 /// The windows go on over what is not driven any more.
 void RampWatch::settle() {
-    if (state_.on == 0) return;
+    if (state_.judges == 0) return;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
-        const std::int64_t count = rack_.axes()[watched_[i].axis].turned_by().count(kernel_.now());
-        for (std::size_t k = 0; k < 2 * watched_[i].law.looks; ++k) look(i, count);
+        const std::int64_t count = count_of(i, kernel_.now());
+        for (std::size_t k = 0; k < 2 * watched_[i].law.looks; ++k) {
+            keep(i, count);
+            judge(i);
+        }
     }
-    state_.on = 0;
-    kernel_.schedule(id_, never);
+    state_.judges = 0;
 }
 
 void RampWatch::end() {

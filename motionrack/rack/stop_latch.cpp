@@ -98,6 +98,7 @@ void StopLatch::arm() {
     const Instant now = kernel_.now();
     state_.heard = kernel_.dropped_conditions() + kernel_.conditions().size();
     following_.begin();
+    ramps_.arm(now);
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const StopSource source = inputs_[i].source;
         if (is_active(inputs_[i]) && (source == StopSource::emergency_stop || source == StopSource::drive_alarm))
@@ -198,7 +199,7 @@ void StopLatch::trip(StopSource source, int input, Instant now) {
         state_.at = now;
         state_.cause = static_cast<std::int32_t>(source);
         state_.input = input;
-        ramps_.begin(now);
+        ramps_.begin();
         if (from != nullptr && is_behind(*from, now)) state_.behind = -from->direction;
     }
     if (from == nullptr || !left_to_card(*from, now)) halted_ = true;
@@ -310,6 +311,7 @@ Result<void> StopLatch::reset() {
     disarm();
     state_.armed = 1;
     following_.begin();
+    ramps_.arm(kernel_.now());
     return {};
 }
 

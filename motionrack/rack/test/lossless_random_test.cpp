@@ -18,5 +18,10 @@ TEST(LosslessAtRandom, NoAxisJumpsWhereAPieceHasFewPulses) {
     for (const std::uint64_t seed : {732885138, 732887488}) drive_one(seed);
 }
 
+// What an axis does in one chord is not what it did before.
+TEST(LosslessAtRandom, AStopAtTheBeginOfAChordKeepsThePosition) {
+    drive_one(864005568);
+}
+
 }  // namespace
 }  // namespace motionrack::rack
