@@ -196,8 +196,8 @@ TEST(CommandLine, InterruptedItStopsAlongThePathAndKeepsTheReport) {
     const auto folder = std::filesystem::temp_directory_path() / "motionrack_interrupt_test";
     std::filesystem::create_directories(folder);
     std::filesystem::remove(folder / "report.html");
-    // A program that goes on for hours of virtual time; the interrupt comes once it is listened to. Before it becomes the
-    // program, the shell's own copy listens too.
+    // A program that goes on for hours of virtual time; the interrupt comes once it is listened to. Before it becomes
+    // the program, the shell's own copy listens too.
     const Ran ran =
         run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; " + std::string(MOTIONRACK_PROGRAM) +
                         " run long.ngc --stream & job=$!; "

@@ -188,7 +188,7 @@ void Rider::begin() {
 
 /// Keeps the plan ahead of the motion.
 void Rider::tend(bool early) {
-    if (try_again()) {
+    if (patience_ <= 0) {
         bool tried = true, found = true;
         if (held_) {
             tried = !holding_, found = !tried || slow_down();

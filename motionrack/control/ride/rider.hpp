@@ -126,7 +126,6 @@ class Rider {
     void to_next_part();
     void begin();
     void tend(bool early);
-    bool try_again() const { return patience_ <= 0; }
     bool go_on();
     bool slow_down();
     bool ease_into_feeds();

@@ -239,7 +239,8 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
 std::vector<std::vector<Move>> ways_at(double feed) {
     std::vector<std::vector<Move>> out = {{long_line(feed)}, {}, {arc_from({}, 0, 30, 6)}, {}};
     for (int i = 1; i <= 200; ++i) out[1].push_back(line_to({0.5 * i}));
-    for (int i = 1; i <= 600; ++i) out[3].push_back(line_to({30 * std::sin(0.01 * i), 30 - 30 * std::cos(0.01 * i)}, 0.02));
+    for (int i = 1; i <= 600; ++i)
+        out[3].push_back(line_to({30 * std::sin(0.01 * i), 30 - 30 * std::cos(0.01 * i)}, 0.02));
     for (std::vector<Move>& way : out)
         for (Move& move : way) move.feed = feed;
     return out;
