@@ -1,5 +1,7 @@
 // The controller itself loses no step: whatever is wished while a program runs, and however short its moves are, the
 // pulses on the wires never change their rate by more than the motors can follow.
+#include <algorithm>
+
 #include "lossless_support.hpp"
 
 namespace motionrack::rack {
