@@ -131,7 +131,7 @@ void Kernel::change(WireId wire, int level) {
         return;  // it keeps its level, which is what its listeners heard last
     }
     w.level = level;
-    queue_[queue_size_++ % queue_capacity] = {wire, level};
+    queue_[queue_size_++ % queue_capacity] = {wire, 0, level};
 }
 
 void Kernel::deliver() {
@@ -247,23 +247,26 @@ void Kernel::each_piece(Visit visit, std::span<std::byte> (Device::*of)()) {
     for (Slot& slot : devices_) visit((slot.device->*of)());
 }
 
-/// Those that are kept, in the order of the ring.
-std::span<std::byte> Kernel::condition_bytes() {
+/// What a snapshot has behind the pieces: the conditions that are kept, in the order of the ring, and the changes of
+/// wires that were made between runs and nobody has heard yet.
+std::array<std::span<std::byte>, 2> Kernel::tail() {
+    MOTIONRACK_ASSERT(queue_head_ == 0);
     const auto kept = static_cast<std::size_t>(std::min<std::uint64_t>(state_.condition_count, condition_capacity));
-    return bytes_of_vector(conditions_).first(kept * sizeof(Condition));
+    return {bytes_of_vector(conditions_).first(kept * sizeof(Condition)),
+            bytes_of_vector(queue_).first(queue_size_ * sizeof(Change))};
 }
 
 Snapshot Kernel::snapshot() {
     MOTIONRACK_ASSERT(started_);
     Snapshot out;
-    std::size_t size = condition_bytes().size();
+    std::size_t size = tail()[0].size() + tail()[1].size();
     each_piece([&size](std::span<std::byte> piece) { size += piece.size(); }, &Device::state);
     out.bytes.reserve(size);
     const auto append = [&out](std::span<std::byte> piece) {
         out.bytes.insert(out.bytes.end(), piece.begin(), piece.end());
     };
     each_piece(append, &Device::state);
-    append(condition_bytes());
+    for (const std::span<std::byte> piece : tail()) append(piece);
     return out;
 }
 
@@ -276,9 +279,12 @@ void Kernel::restore(const Snapshot& snapshot) {
         at += piece.size();
     };
     each_piece(take, &Device::state);
-    take(condition_bytes());  // their number has just been taken
-    MOTIONRACK_ASSERT(at == snapshot.bytes.size());
     queue_head_ = queue_size_ = 0;
+    queue_size_ = (snapshot.bytes.size() - at - tail()[0].size()) / sizeof(Change);
+    MOTIONRACK_ASSERT(queue_size_ <= queue_capacity);
+    for (const std::span<std::byte> piece : tail()) take(piece);
+    MOTIONRACK_ASSERT(at == snapshot.bytes.size());
+    unsettled_ = false;
     knows_earliest_ = false;
 }
 
@@ -288,6 +294,7 @@ std::uint64_t Kernel::state_hash() {
         for (const std::byte b : piece) h = fnv_step(h, static_cast<std::uint64_t>(b));
     };
     each_piece(mix, &Device::hashed_state);
+    mix(tail()[1]);
     return h;
 }
 

@@ -166,6 +166,7 @@ class Kernel {
     };
     struct Change {
         WireId wire{};
+        std::uint16_t reserved = 0;  // padding would get into the state's hash
         std::int32_t level = 0;
     };
     struct State {
@@ -184,7 +185,7 @@ class Kernel {
     void mix(std::uint64_t value);
     template <class Visit>
     void each_piece(Visit visit, std::span<std::byte> (Device::*of)());
-    std::span<std::byte> condition_bytes();
+    std::array<std::span<std::byte>, 2> tail();
 
     std::vector<Slot> devices_;
     std::vector<DeferringDevice*> deferring_;  // those of devices_, in their order

@@ -336,6 +336,29 @@ TEST(Kernel, ASnapshotRestoredOverAWireChangeThatWasNotYetHeardForgetsIt) {
     EXPECT_EQ(kernel.level(a), 0);
 }
 
+TEST(Kernel, ASnapshotHasTheWireChangesThatNobodyHasHeardYet) {
+    struct World {
+        World() {
+            kernel.listen(a, kernel.add(ear, Phase::cards, "ear"), 0);
+            ear.on_wire_ = [this](int, int level, Instant) { ear.value = 10 * ear.value + level + 1; };
+            kernel.start();
+        }
+        Kernel kernel;
+        Puppet ear;
+        WireId a = kernel.add_wire("a", 0);
+    } first, copy;
+    first.kernel.set_wire(first.a, 1);
+    first.kernel.set_wire(first.a, 0);
+    const std::uint64_t before = first.kernel.state_hash();
+    copy.kernel.restore(first.kernel.snapshot());
+    EXPECT_EQ(copy.kernel.state_hash(), before);
+    EXPECT_EQ(first.kernel.state_hash(), before) << "a snapshot only looks";
+    for (World* one : {&first, &copy}) one->kernel.run_until(Instant{5});
+    EXPECT_EQ(first.ear.value, 21);
+    EXPECT_EQ(copy.ear.value, 21);
+    EXPECT_EQ(copy.kernel.state_hash(), first.kernel.state_hash());
+}
+
 TEST(Kernel, TheTraceHashTellsHistoriesApartThatEndAlike) {
     auto hash = [](Instant when, int times) {
         Kernel kernel;
