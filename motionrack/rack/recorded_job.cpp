@@ -130,7 +130,7 @@ void RecordedJob::between_runs(const std::atomic<bool>* stop_asked) {
     faults_->apply_due();
     if (stop_asked != nullptr && stop_asked->load(std::memory_order_relaxed))
         if (const std::optional<Instant> at = orders_->ask_stop(); at && recorder_) recorder_->input({*at, "stop"});
-    if (waves_) waves_->drain();
+    if (waves_) waves_->drain_settled();
     if (recorder_) recorder_->drain();
 }
 

@@ -66,7 +66,7 @@ void Session::run_to(Instant until) {
         look();
         const sim::RunEnd end = rack_.kernel().run_until(
             std::min(until, next_look_), on_condition_ ? sim::RunBreak::conditions : sim::RunBreak::none);
-        if (end == sim::RunEnd::broken && recorder_) recorder_->drain();
+        if (end == sim::RunEnd::broken && recorder_) recorder_->drain_settled();
         tell_conditions();
         if (end == sim::RunEnd::reached && now() >= until) break;
     }
@@ -77,7 +77,7 @@ void Session::run_to(Instant until) {
 void Session::look() {
     if (now() < next_look_) return;
     recorder_->look();
-    recorder_->drain();
+    recorder_->drain_settled();
     const Duration period = recorder_->register_period();
     next_look_ = (now() / period + 1) * period;
 }
@@ -85,7 +85,7 @@ void Session::look() {
 /// While a program, a homing or a card's host has the rack's time.
 void Session::between() {
     look();
-    if (recorder_) recorder_->drain();
+    if (recorder_) recorder_->drain_settled();
     tell_conditions();
 }
 

@@ -31,6 +31,9 @@ bool matches(std::string_view pattern, std::string_view text) {
 }
 
 constexpr Duration longest_pulse = microseconds(5);
+/// Of a pulse: its end is told when the next one comes, or when there was time for two; and so is each of the counts of
+/// an encoder that it makes.
+constexpr Duration told_within = 2 * longest_pulse;
 constexpr Duration direction_lead = nanoseconds(250);
 
 }  // namespace
@@ -56,7 +59,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
     }
     /// No pulse has come for long enough: the last one is over.
     void settle(Instant now) {
-        if (!high_ || now - last_ < 2 * longest_pulse) return;
+        if (!high_ || now - last_ < told_within) return;
         recorder_.push(last_ + longest_pulse, step_, 0);
         high_ = false;
     }
@@ -108,6 +111,7 @@ void WireTap::follow(sim::WireId wire, bool wanted) {
 WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
     : rack_(rack), patterns_(settings.signals), tap_(settings.tap), register_period_(settings.register_period) {
     buffer_.reserve(buffer_size);
+    lag_ = told_within;
 }
 
 WaveRecorder::~WaveRecorder() {
@@ -183,6 +187,8 @@ void WaveRecorder::choose_axes() {
             const std::size_t a = add({name, "enc_a", false, 1, now.a != 0}),
                               b = add({name, "enc_b", false, 1, now.b != 0});
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
+            const std::int64_t counts = axis.config.encoder_counts_per_rev / axis.config.pulses_per_rev();
+            lag_ = std::max(lag_, (counts + 1) * told_within);
             heard_.emplace_back(axis.encoder_ears.get(), lines_.back().get());
         }
     }
@@ -192,6 +198,7 @@ void WaveRecorder::choose_wires() {
     const sim::Kernel& kernel = rack_.kernel();
     const std::map<std::string, double> volts = volts_of_wires(rack_.config());
     wire_signals_.assign(kernel.wire_count(), -1);
+    wires_begin_ = signals_.size();
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
         const auto wire = static_cast<sim::WireId>(i);
         const std::string* chosen = wanted_name(wire);
@@ -209,6 +216,7 @@ void WaveRecorder::choose_wires() {
         signal.initial = kernel.level(wire);
         wire_signals_[i] = static_cast<std::int64_t>(add(std::move(signal)));
     }
+    wires_end_ = signals_.size();
 }
 
 void WaveRecorder::choose_counters() {
@@ -252,15 +260,27 @@ void WaveRecorder::look_at_cards(Instant now) {
 }
 
 void WaveRecorder::drain() {
+    write_before(never);
+}
+
+void WaveRecorder::drain_settled() {
+    write_before(rack_.kernel().now() - lag_);
+}
+
+void WaveRecorder::write_before(Instant end) {
     const Instant now = rack_.kernel().now();
     for (const auto& ear : steps_) ear->settle(now);
-    std::stable_sort(buffer_.begin(), buffer_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
-    for (const Event& event : buffer_) {
-        last_ = std::max(last_, event.at);  // a pulse's end may be told after a later change
-        sink_->change(event.signal, event.value, last_);
+    std::stable_sort(buffer_.begin(), buffer_.end(), [this](const Event& a, const Event& b) {
+        return a.at != b.at ? a.at < b.at : place(a) < place(b);
+    });
+    const auto rest =
+        std::partition_point(buffer_.begin(), buffer_.end(), [end](const Event& event) { return event.at < end; });
+    for (auto event = buffer_.begin(); event != rest; ++event) {
+        last_ = std::max(last_, event->at);  // behind drain() a pulse's end may be told after a later change
+        sink_->change(event->signal, event->value, last_);
+        ++changes_;
     }
-    changes_ += buffer_.size();
-    buffer_.clear();
+    buffer_.erase(buffer_.begin(), rest);
 }
 
 /// Parts of the rack keep that they are listened to, so this comes behind all that can fail.

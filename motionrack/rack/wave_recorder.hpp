@@ -63,6 +63,9 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     void look() { look_at_cards(rack_.kernel().now()); }
     /// Between runs: writes what has come together.
     void drain();
+    /// Between runs: the same but for the last microseconds, of which more may be told: the file does not hang on when
+    /// this is called.
+    void drain_settled();
     /// Ends the file and listens no more. Errors: io; it goes on then, so that it can be tried again.
     Result<void> finish();
     /// The last finish() failed.
@@ -81,6 +84,11 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
         std::size_t signal = 0;
         std::int64_t value = 0;
     };
+    /// The place of an event among those of its instant. Edges are handed over some time later, so their place is by
+    /// their signals; wires come before them, as they changed.
+    std::size_t place(const Event& event) const {
+        return wires_begin_ <= event.signal && event.signal < wires_end_ ? 0 : event.signal + 1;
+    }
     /// Hears the pulses of one axis.
     class StepEar;
     /// Hears the encoder of one axis.
@@ -107,6 +115,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     void stop_listening();
     void push(Instant at, std::size_t signal, std::int64_t value);
     void look_at_cards(Instant now);
+    void write_before(Instant end);
 
     static constexpr std::size_t buffer_size = 1 << 21;
 
@@ -114,13 +123,15 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::string> patterns_;
     WireTap* tap_;
     Duration register_period_;
+    Duration lag_{0};  // so much later an edge may be told
     sim::DeviceId id_{};
     bool is_device_ = false;
     bool recording_ = false;
     bool failed_ = false;
     std::vector<WaveSignal> signals_;
     std::unique_ptr<WaveSink> sink_;
-    std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
+    std::size_t wires_begin_ = 0, wires_end_ = 0;  // the signals that are wires of the kernel
+    std::vector<std::int64_t> wire_signals_;       // signal of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepEar>> steps_;
     std::vector<std::unique_ptr<LineEar>> lines_;
     std::vector<std::pair<EdgeFork*, sim::EdgeListener*>> heard_;  ///< which ear listens to which edges
