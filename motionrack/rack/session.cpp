@@ -161,6 +161,7 @@ Result<std::unique_ptr<Session>> Session::copy() {
     out->rack_.copy_from(rack_);
     out->desk_.copy_from(desk_);
     out->ran_ = ran_;
+    out->trace_unit_ = trace_unit_;
     return out;
 }
 

@@ -203,19 +203,22 @@ TEST(CWorld, RecordsSignalsAtAnyTime) {
 TEST(CWorld, RecordsInTheUnitOfTimeThatShowsEveryEdgeOrTheOneThatIsAskedFor) {
     const std::string vcd = temporary("u.vcd");
     World world;
-    const auto unit_of = [&](const char* signals) {
-        EXPECT_EQ(mr_trace_start(world, vcd.c_str(), signals), MR_OK) << mr_last_error();
-        world.pass(1'000);
-        EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+    const auto unit_in = [&](World& of, const char* signals) {
+        EXPECT_EQ(mr_trace_start(of, vcd.c_str(), signals), MR_OK) << mr_last_error();
+        of.pass(1'000);
+        EXPECT_EQ(mr_trace_stop(of), MR_OK) << mr_last_error();
         const std::string text = text_of_file(vcd);
         const std::size_t at = text.find("$timescale ");
         return text.substr(at + 11, text.find(" $end", at) - at - 11);
     };
+    const auto unit_of = [&](const char* signals) { return unit_in(world, signals); };
     EXPECT_EQ(unit_of("X.step"), "100 ns");
     ASSERT_EQ(mr_trace_unit(world, 0.1), MR_OK) << mr_last_error();
     EXPECT_EQ(unit_of("X.step"), "100 ps");
     ASSERT_EQ(mr_trace_unit(world, 1'000), MR_OK) << mr_last_error();
     EXPECT_EQ(unit_of("X.step"), "1 us");
+    World copy(world.rack);
+    EXPECT_EQ(unit_in(copy, "X.step"), "1 us") << "a copy records as the first does";
     for (const double wrong : {-1.0, 125.0, 0.05, 0.12, 1e300, nan_value})
         EXPECT_EQ(mr_trace_unit(world, wrong), MR_REFUSED) << wrong;
     EXPECT_EQ(unit_of("X.step"), "1 us") << "a refusal changes nothing";
