@@ -36,7 +36,7 @@ void AxisMachine::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& en
     // The rotor within its count: remainder of rotor * num / den, 0 .. den-1.
     std::int64_t rest = static_cast<std::int64_t>(Wide{first - batch.step} * num - Wide{disc} * den);
     count_ = encoder.seen(disc);
-    std::int64_t last = floor_div((last_ - origin_).count(), batch.tick.count()) + 1;
+    std::int64_t last = ceil_div((last_ - origin_).count(), batch.tick.count());
     for (std::uint32_t i = 0; i < size; ++i) {
         const std::int64_t at = batch.at[i];
         rest += batch.step * num;
