@@ -1,0 +1,149 @@
+// Two racks of one story, and what they differ in.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <motionrack/rack/session.hpp>
+#include <motionrack/rack/test/cut.hpp>
+#include <sstream>
+#include <tests/text_of.hpp>
+
+namespace motionrack::rack::cut {
+namespace {
+
+namespace fs = std::filesystem;
+
+void carry_out(Session& session, const Order& order) {
+    switch (order.kind) {
+        case Order::write:
+            static_cast<void>(session.write(order.on, order.bits, order.address, order.value));
+            return;
+        case Order::read:
+            static_cast<void>(session.read(order.on, order.bits, order.address));
+            return;
+        case Order::wire:
+            static_cast<void>(session.set_wire(order.on, order.level));
+            return;
+        case Order::fault:
+            static_cast<void>(session.fault(order.what, order.on));
+    }
+}
+
+/// In up to six pieces, some of no length, some that end with a card's clock; in between the rack is asked.
+void pass_in_pieces(Session& session, std::uint64_t ns, Random& random) {
+    constexpr std::uint64_t clock = 125;
+    const std::uint64_t begin = session.now_ns();
+    std::vector<std::uint64_t> ends{begin, begin + ns};
+    for (std::uint64_t i = below(random, 6); i-- > 0;) {
+        const std::uint64_t end = begin + below(random, ns + 1);
+        ends.push_back(below(random, 2) == 0 ? end : std::max(begin, end / clock * clock));
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        ASSERT_TRUE(session.advance(ends[i] - ends[i - 1]));
+        static_cast<void>(session.part("X.position_mm"));
+        static_cast<void>(session.peek("c1", "RR0"));
+    }
+}
+
+std::vector<std::string> told(Session& session, std::uint64_t after) {
+    std::vector<std::string> out;
+    for (const sim::Condition& one : session.rack().kernel().conditions(after))
+        out.push_back(
+            fmt::format("{} {} {} {} {}", one.at.count(), static_cast<int>(one.device), one.code, one.a, one.b));
+    return out;
+}
+
+/// Which devices are not in the same state, and from which byte on.
+std::string difference(Session& one, Session& other) {
+    std::string out;
+    sim::Kernel &a = one.rack().kernel(), &b = other.rack().kernel();
+    for (std::size_t i = 0; i < a.device_count(); ++i) {
+        const auto id = static_cast<sim::DeviceId>(i);
+        const std::span<std::byte> left = a.device(id).hashed_state(), right = b.device(id).hashed_state();
+        const auto at = std::mismatch(left.begin(), left.end(), right.begin(), right.end()).first;
+        if (at != left.end()) out += fmt::format(" {} at byte {};", a.device_name(id), at - left.begin());
+    }
+    if (a.events() != b.events()) out += fmt::format(" {} events and {};", a.events(), b.events());
+    return out.empty() ? " the kernel" : out;
+}
+
+/// The first line that is not in both.
+std::string difference(const std::string& one, const std::string& other) {
+    std::istringstream a(one), b(other);
+    std::string left, right;
+    for (int line = 1;; ++line) {
+        const bool more = !std::getline(a, left).fail(), also = !std::getline(b, right).fail();
+        if (!more && !also) return "";
+        if (more != also || left != right)
+            return fmt::format("line {} of the recording\n  {}\n  {}", line, more ? left : "", also ? right : "");
+    }
+}
+
+struct World {
+    World(const std::string& text, const char* end, bool records)
+        : session(std::move(*Session::open(text))),
+          path((fs::temp_directory_path() / fmt::format("motionrack_cut_{}_{}.csv", ::getpid(), end)).string()) {
+        EXPECT_TRUE(!records || session->start_trace(path, "*"));
+    }
+    ~World() { fs::remove(path); }
+    /// Runs end with each of them, and go on.
+    void hear_conditions() {
+        hears = true;
+        session->on_condition([](const Session::Told&) {});
+    }
+    void become_its_copy() {
+        session = std::move(*session->copy());
+        if (hears) hear_conditions();
+    }
+    std::string recorded() { return session->stop_trace() ? text_of(path) : std::string(); }
+    std::unique_ptr<Session> session;
+    std::string path;
+    bool hears = false;
+};
+
+}  // namespace
+
+std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders) {
+    std::vector<Step> out;
+    for (int i = 0; i < count; ++i) {
+        Step& step = out.emplace_back();
+        step.orders = orders(random);
+        step.ns = spread(random, 50, 3e7);
+    }
+    return out;
+}
+
+void expect_the_same_however_it_is_cut(const Bench& bench, std::uint64_t seed) {
+    SCOPED_TRACE(fmt::format("{}, MOTIONRACK_SEED={}", bench.name, seed));
+    const Story story = bench.story(seed);
+    Random knife(seed + 1);
+    const bool records = seed % 4 == 0;
+    World whole(story.text, "whole", records), cut(story.text, "cut", records);
+    if (seed % 2 == 0) cut.hear_conditions();
+    std::uint64_t heard = 0;
+    for (std::size_t i = 0; i < story.steps.size(); ++i) {
+        const Step& step = story.steps[i];
+        if (!records && below(knife, 20) == 0) cut.become_its_copy();
+        for (const Order& order : step.orders) {
+            carry_out(*whole.session, order);
+            carry_out(*cut.session, order);
+        }
+        ASSERT_TRUE(whole.session->advance(step.ns));
+        pass_in_pieces(*cut.session, step.ns, knife);
+        const std::vector<std::string> news = told(*whole.session, heard);
+        ASSERT_EQ(news, told(*cut.session, heard)) << "step " << i;
+        heard += news.size();
+        ASSERT_EQ(whole.session->rack().kernel().trace_hash(), cut.session->rack().kernel().trace_hash())
+            << "step " << i;
+        ASSERT_EQ(whole.session->state_hash(), cut.session->state_hash())
+            << "step " << i << ":" << difference(*whole.session, *cut.session);
+    }
+    if (!records) return;
+    const std::string left = whole.recorded(), right = cut.recorded();
+    ASSERT_TRUE(left == right) << difference(left, right);
+}
+
+}  // namespace motionrack::rack::cut

@@ -1,0 +1,90 @@
+// However time is cut into calls, the same history: what random racks go through, and the comparison of two of them.
+//
+//   seed ──► story: steps of orders and time ──┬──► rack that passes each step's time in one call ──┐ hash, conditions,
+//                                              └──► in pieces, asked and copied in between ────────┴ recordings: equal
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <tests/environment.hpp>
+#include <utility>
+#include <vector>
+
+namespace motionrack::rack::cut {
+
+using Random = std::mt19937_64;
+
+inline std::uint64_t below(Random& random, std::uint64_t end) {
+    return random() % end;
+}
+
+/// From `least` to `most`, each order of magnitude as often as another.
+inline std::uint64_t spread(Random& random, double least, double most) {
+    const double part = static_cast<double>(below(random, 1'000'001)) * 1e-6;
+    return static_cast<std::uint64_t>(least * std::pow(most / least, part));
+}
+
+/// The same for each of the racks: one access of the host, a switch, a fault.
+struct Order {
+    enum Kind { write, read, wire, fault } kind = write;
+    std::string on;         ///< a card; a wire; what a fault is of
+    std::string what = {};  ///< the fault
+    int bits = 16;
+    std::uint32_t address = 0, value = 0;
+    double level = 0;  ///< NaN releases the wire
+};
+using Orders = std::vector<Order>;
+
+inline Order bus(const char* card, int bits, std::uint32_t address, std::uint64_t value) {
+    return {Order::write, card, {}, bits, address, static_cast<std::uint32_t>(value), 0};
+}
+inline Order look(const char* card, int bits, std::uint32_t address) {
+    return {Order::read, card, {}, bits, address, 0, 0};
+}
+inline Order level(std::string wire, double value) {
+    return {Order::wire, std::move(wire), {}, 0, 0, 0, value};
+}
+inline Order fault(std::string what, std::string of) {
+    return {Order::fault, std::move(of), std::move(what), 0, 0, 0, 0};
+}
+
+struct Step {
+    Orders orders;
+    std::uint64_t ns = 0;  ///< that pass after them
+};
+
+/// A rack file, and what a host and the world do to it.
+struct Story {
+    std::string text;
+    std::vector<Step> steps;
+};
+
+/// A kind of rack: the story of a seed.
+struct Bench {
+    const char* name;
+    Story (*story)(std::uint64_t seed);
+};
+
+inline void PrintTo(const Bench& bench, std::ostream* out) {
+    *out << bench.name;
+}
+
+/// All kinds of card, alone and together.
+std::vector<Bench> benches();
+std::vector<Bench> mcx314_benches();
+
+/// Something that is done to a card, perhaps by several accesses. The MCX314 is c1, with the axes X and B.
+Orders anything_to_pulse_chip(Random& random);
+
+/// Gives each step a time of its own.
+std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders);
+
+/// Fails if the two racks of a story differ. Every fourth seed is recorded.
+void expect_the_same_however_it_is_cut(const Bench& bench, std::uint64_t seed);
+
+}  // namespace motionrack::rack::cut

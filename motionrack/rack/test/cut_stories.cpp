@@ -1,0 +1,141 @@
+// What happens to each kind of card: of each one thing at a time, drawn at random.
+#include <fmt/format.h>
+
+#include <array>
+#include <motionrack/rack/test/cut.hpp>
+
+namespace motionrack::rack::cut {
+namespace {
+
+constexpr int steps = 60;
+
+Orders databoard4002(Random& random) {
+    Orders out;
+    const auto send = [&](char letter, std::initializer_list<std::uint64_t> bytes) {
+        out.push_back(bus("d1", 8, 3, static_cast<unsigned char>(letter)));
+        for (const std::uint64_t one : bytes) out.push_back(bus("d1", 8, 0, one & 0xFF));
+    };
+    out.push_back(bus("d1", 8, 1, 13));
+    switch (below(random, 8)) {
+        case 0: {
+            const std::uint64_t rate = 16'383 - below(random, 4'000);
+            send('R', {rate, rate >> 8});
+            break;
+        }
+        case 1:
+        case 2: {
+            const std::uint64_t way = below(random, 4'000) - 2'000;
+            send('N', {way, way >> 8, way >> 16});
+            send('G', {});
+            break;
+        }
+        case 3:
+            send("QALMO" [below(random, 5)], {});
+            break;
+        case 4: {
+            const char* const pin = std::array{"d1.esl", "d1.esr", "d1.ems", "d1.ref"}[below(random, 4)];
+            out.push_back(level(pin, static_cast<double>(below(random, 2))));
+            break;
+        }
+        case 5:
+            out.push_back(look("d1", 8, static_cast<std::uint32_t>(below(random, 2))));
+            break;
+        case 6:
+            out.push_back(bus("d1", 8, 5, random() & 0xFF));
+            break;
+        default: {
+            const auto port = static_cast<std::uint32_t>(below(random, 8));
+            out.push_back(bus("d1", 8, port, random() & 0xFF));
+        }
+    }
+    return out;
+}
+
+Orders ioflex02(Random& random) {
+    const auto bit = [&] { return static_cast<double>(below(random, 2)); };
+    switch (below(random, 5)) {
+        case 0:
+            return {look("p1", 16, 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40)))};
+        case 1: {
+            const auto place = 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40));
+            return {bus("p1", 16, place, below(random, 16))};
+        }
+        case 2: {  // both lines at once: no step of an encoder
+            const double a = bit(), b = bit();
+            return {level("p1.a0", a), level("p1.b0", b)};
+        }
+        default: {
+            const char* const line = std::array{"a", "b", "z", "cal"}[below(random, 4)];
+            const std::string wire = fmt::format("p1.{}{}", line, below(random, 4));
+            return {level(wire, bit())};
+        }
+    }
+}
+
+Orders rtc5(Random& random) {
+    if (below(random, 3) == 0) return {look("s", 32, 4 * static_cast<std::uint32_t>(below(random, 16)))};
+    const char* const pin = std::array{"s.start_n", "s.mcbsp", "s.stop_n"}[below(random, 3)];
+    return {level(pin, static_cast<double>(below(random, 2)))};
+}
+
+Orders any_of_them(Random& random) {
+    constexpr std::array<Orders (*)(Random&), 4> all = {&databoard4002, &ioflex02, &rtc5, &anything_to_pulse_chip};
+    return all[below(random, all.size())](random);
+}
+
+constexpr const char* databoard4002_text = "[card.d1]\ntype = \"databoard4002\"\nselect = 13\n";
+constexpr const char* ioflex02_text = "[card.p1]\ntype = \"ioflex02\"\n";
+constexpr const char* rtc5_text = R"([card.s]
+type = "rtc5"
+list_memory = 2000
+[belt.line]
+card = "s"
+speed_mm_s = 100
+counts_per_mm = 100
+[scanner.head]
+card = "s"
+)";
+constexpr const char* mcx314_text = R"([card.c1]
+type = "mcx314"
+[axis.X]
+card = "c1"
+channel = "x"
+[axis.X.switches]
+limit_plus_mm = 301
+home_mm = 1
+[axis.B]
+card = "c1"
+channel = "y"
+)";
+
+template <Orders (*orders)(Random&)>
+std::vector<Step> many(std::uint64_t seed) {
+    Random random(seed);
+    return steps_of(random, steps, orders);
+}
+
+}  // namespace
+
+std::vector<Bench> benches() {
+    return {
+        {"databoard4002",
+         [](std::uint64_t seed) {
+             return Story{databoard4002_text, many<&databoard4002>(seed)};
+         }},
+        {"ioflex02",
+         [](std::uint64_t seed) {
+             return Story{ioflex02_text, many<&ioflex02>(seed)};
+         }},
+        {"rtc5",
+         [](std::uint64_t seed) {
+             return Story{rtc5_text, many<&rtc5>(seed)};
+         }},
+        {"all_cards",
+         [](std::uint64_t seed) {
+             const std::string text = std::string(mcx314_text) + databoard4002_text + ioflex02_text + rtc5_text;
+             return Story{text, many<&any_of_them>(seed)};
+         }},
+    };
+}
+
+}  // namespace motionrack::rack::cut
