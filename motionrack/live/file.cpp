@@ -47,6 +47,23 @@ Result<File> File::open(const std::string& path, int flags) {
     return File(descriptor);
 }
 
+/// A lock of the open file, not of the process: closing another descriptor of the same file does not end it.
+Result<void> File::keep(std::uint64_t from, std::uint64_t length, const std::string& named) const {
+    struct flock range {};
+    range.l_type = F_WRLCK;
+    range.l_whence = SEEK_SET;
+    range.l_start = static_cast<off_t>(from);
+    range.l_len = static_cast<off_t>(length);
+    if (::fcntl(descriptor_, F_OFD_SETLK, &range) == 0) return {};
+    if (errno == EAGAIN || errno == EACCES)
+        return fail(Trouble::refused,
+                    fmt::format("The card at {} is open already, in another program or in this one: two that write to "
+                                "a card confuse it. Nothing was opened. Close it there first.",
+                                named));
+    return fail(Trouble::io, fmt::format("{} cannot be kept from other programs: {}. Nothing was opened.", named,
+                                         std::strerror(errno)));
+}
+
 File::~File() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }

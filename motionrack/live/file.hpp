@@ -1,6 +1,7 @@
 // An open file that closes itself, and sentences for what Linux refuses.
 #pragma once
 
+#include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <string>
 #include <utility>
@@ -20,6 +21,10 @@ class File {
     }
     ~File();
     int descriptor() const { return descriptor_; }
+    /// Keeps these bytes from everybody else who asks for them by this file, until it is closed or the process ends,
+    /// however it ends. `named`: how sentences call the file. Errors: refused, another program has them, or this one
+    /// has by another File; io.
+    Result<void> keep(std::uint64_t from, std::uint64_t length, const std::string& named) const;
 
   private:
     explicit File(int descriptor) : descriptor_(descriptor) {}

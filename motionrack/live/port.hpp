@@ -5,7 +5,8 @@
 //                  ──► line:   a UIO node, or looking again and again
 //                  ──► clock:  the computer's monotonic one
 //
-// Linux. One thread at a time, one program at a time: two masters on one card confuse it.
+// Linux. One thread at a time, one program at a time: two masters on one card confuse it. So an open port has a lock on
+// its bytes of the file; a second one on them is refused. A card that is reached by two files has two locks.
 #pragma once
 
 #include <atomic>
@@ -24,8 +25,8 @@ namespace motionrack::live {
 class Port final : public RegisterPort, public Interrupt {
   public:
     /// Opens the files and makes the mapping; no register is touched. `map` tells how far the card's registers go; each
-    /// is 16 bits wide. Errors: io (not there, no permission, too short, cannot be mapped), refused (accesses that
-    /// would not reach the card as they must), with the remedy.
+    /// is 16 bits wide. Errors: io (not there, no permission, too short, cannot be mapped), refused (open already;
+    /// accesses that would not reach the card as they must), with the remedy.
     static Result<std::unique_ptr<Port>> open(const PortSpec& spec, const CardMap& map,
                                               std::unique_ptr<Clock> clock = nullptr);
 

@@ -18,10 +18,13 @@ namespace motionrack::live {
 
 namespace {
 
+constexpr std::uint64_t map_apart = 1ull << 41;  ///< between the locks of two maps: more than any offset
+
 class MappedWords final : public Words {
   public:
-    MappedWords(void* mapping, std::size_t length, std::size_t first, int width)
-        : mapping_(mapping),
+    MappedWords(File file, void* mapping, std::size_t length, std::size_t first, int width)
+        : file_(std::move(file)),
+          mapping_(mapping),
           length_(length),
           first_(static_cast<volatile std::uint8_t*>(mapping) + first),
           width_(width) {}
@@ -52,6 +55,7 @@ class MappedWords final : public Words {
     }
 
   private:
+    File file_;  ///< has the lock
     void* mapping_;
     std::size_t length_;
     volatile std::uint8_t* first_;
@@ -113,7 +117,7 @@ Result<std::uint64_t> number_in(const std::filesystem::path& path) {
     return value;
 }
 
-Result<std::unique_ptr<Words>> map_words(const PortSpec& spec, const File& file, std::uint64_t at, std::uint64_t start,
+Result<std::unique_ptr<Words>> map_words(const PortSpec& spec, File file, std::uint64_t at, std::uint64_t start,
                                          std::uint64_t length) {
     // `start`: where in the file the mapping may begin; `at`: the first register, counted from there.
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -128,7 +132,7 @@ Result<std::unique_ptr<Words>> map_words(const PortSpec& spec, const File& file,
                                 error == EPERM ? "The kernel is locked down (Secure Boot); UIO still works."
                                                : "If it is a region of I/O ports, use port: instead."));
     }
-    return std::make_unique<MappedWords>(mapping, mapped, at - skipped, spec.width);
+    return std::make_unique<MappedWords>(std::move(file), mapping, mapped, at - skipped, spec.width);
 }
 
 }  // namespace
@@ -159,6 +163,8 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
     const bool has_size = S_ISREG(facts.st_mode);
     if (has_size && static_cast<std::uint64_t>(facts.st_size) < needed)
         return too_short(spec, static_cast<std::uint64_t>(facts.st_size), needed);
+    // Cards at other places of the same file (/dev/port, maps of a node) are others'.
+    MOTIONRACK_CHECK(file.keep(static_cast<std::uint64_t>(spec.map) * map_apart + spec.offset, length, spec.path));
 
     if (spec.reach == Reach::port) {
         // Linux cuts every access to its /dev/port into bytes, the low one first.
@@ -171,13 +177,14 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
                             spec.path));
         return std::make_unique<FileWords>(std::move(file), spec.offset, spec.width);
     }
-    if (spec.reach == Reach::memory) return map_words(spec, file, spec.offset, 0, length);
+    if (spec.reach == Reach::memory) return map_words(spec, std::move(file), spec.offset, 0, length);
 
     const auto folder = std::filesystem::path("/sys/class/uio") / std::filesystem::path(spec.path).filename();
     MOTIONRACK_TRY(const UioMap map, read_uio_map(folder, spec.map));
     if (map.size < needed) return too_short(spec, map.size, needed);
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    return map_words(spec, file, map.offset + spec.offset, static_cast<std::uint64_t>(spec.map) * page, length);
+    return map_words(spec, std::move(file), map.offset + spec.offset, static_cast<std::uint64_t>(spec.map) * page,
+                     length);
 }
 
 }  // namespace motionrack::live

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -119,6 +120,39 @@ TEST(LivePort, RefusesCardsWhoseRegistersAreNotWords) {
     const Folder folder;
     EXPECT_THAT(refusal("memory:" + folder.file("card", std::string(64, '\0')), wide_card),
                 HasSubstr("not words of 16 bits"));
+}
+
+TEST(LivePort, KeepsItsCardFromASecondPortUntilItEnds) {
+    const Folder folder;
+    const std::string path = folder.file("card", std::string(64, '\0'));
+    for (const char* kind : {"memory:", "port:"}) {
+        auto first = open(kind + path);
+        ASSERT_TRUE(first) << first.error().message;
+        for (const char* other : {"memory:", "port:"}) {
+            const auto second = open(other + path + ",offset=2");
+            ASSERT_FALSE(second);
+            EXPECT_EQ(second.error().trouble, Trouble::refused);
+            EXPECT_THAT(second.error().message, HasSubstr("The card at " + path + " is open already"));
+        }
+        EXPECT_EQ(refusal("memory:" + path + ",offset=8"), "") << "another card in the same file";
+        first->reset();
+        EXPECT_EQ(refusal("memory:" + path), "");
+    }
+}
+
+TEST(LivePort, KeepsItsCardFromOtherPrograms) {
+    const Folder folder;
+    const std::string path = folder.file("card", std::string(8, '\0'));
+    const auto port = open("memory:" + path);
+    ASSERT_TRUE(port) << port.error().message;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const bool refused = refusal("port:" + path).find("is open already") != std::string::npos;
+        ::_exit(refused ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
 }
 
 TEST(LivePort, AnAccessThatTheComputerRefusesIsToldAndIsTheLast) {
