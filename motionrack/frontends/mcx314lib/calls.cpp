@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <mcx314lib.h>
 
+#include <motionrack/cards/mcx314/driver/own_names.hpp>
 #include <motionrack/frontends/mcx314lib/calls.hpp>
 
 namespace motionrack::mcx314lib {
@@ -10,27 +11,6 @@ namespace {
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string last_error;
-
-/// Functions of the C++ library that its sentences name, and what they are called here.
-struct Name {
-    std::string_view there, here;
-};
-constexpr Name names[] = {
-    {"ContStart", "mcx314_contour_begin"},    {"ContLine", "mcx314_contour_line"},
-    {"ContArc", "mcx314_contour_arc"},        {"ContEnd", "mcx314_contour_end"},
-    {"BP2D or BP3D", "mcx314_pattern_begin"}, {"BP2D", "mcx314_pattern_begin"},
-    {"BP3D", "mcx314_pattern_begin"},         {"BPStack", "mcx314_pattern_steps"},
-    {"BPStart", "mcx314_pattern_start"},      {"BPEnd", "mcx314_pattern_end"},
-    {"SetOutput", "mcx314_set_output"},
-};
-
-std::string named_as_here(std::string_view sentence) {
-    std::string out(sentence);
-    for (const Name& name : names)
-        for (std::size_t at = 0; (at = out.find(name.there, at)) != std::string::npos; at += name.here.size())
-            out.replace(at, name.there.size(), name.here);
-    return out;
-}
 
 }  // namespace
 
@@ -41,7 +21,7 @@ calls::Process<Bench>& process() {
 
 void failed(const char* who, std::string_view sentence) noexcept {
     try {
-        process().failed(last_error, who, named_as_here(sentence));
+        process().failed(last_error, who, mcx314::with_own_names(sentence, "mcx314_"));
     } catch (...) {
         last_error.clear();
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <motionrack/cards/mcx314/driver/home_series.hpp>
+#include <motionrack/cards/mcx314/driver/own_names.hpp>
 #include <motionrack/cards/mcx314/library/calls.hpp>
 #include <vector>
 
@@ -53,7 +54,13 @@ Result<void> Library::begin() {
 Result<CallAnswer> Library::call(std::size_t function, std::span<const std::int64_t> values) {
     const functions::FunctionRow& row = rows().at(function);
     MOTIONRACK_ASSERT(values.size() == row.info.arguments.size());
-    MOTIONRACK_TRY(CallAnswer answer, row.call(chip_, values));
+    Result<CallAnswer> called = row.call(chip_, values);
+    if (!called) {
+        Error error = std::move(called).error();
+        error.message = with_own_names(error.message, "");
+        return tl::unexpected<Error>(std::move(error));
+    }
+    CallAnswer answer = *std::move(called);
     if (answer.value && answer.text.empty()) answer.text = fmt::format("{} {}", *answer.value, row.info.returns);
     return answer;
 }

@@ -113,6 +113,15 @@ TEST(ADeclaredLibrary, NamesWhatThereIsWhereANameIsWrong) {
               "ReadLPS: axis is 3, but must be 1 (X), 2 (Y), 4 (Z), 8 (U). Nothing was done.");
 }
 
+TEST(ADeclaredLibrary, CallsItsFunctionsByTheirNamesInSentencesToo) {
+    LibraryRig rig;
+    const Result<CallAnswer> early = rig.call("contour_end");
+    ASSERT_FALSE(early);
+    EXPECT_EQ(early.error().message,
+              "contour_end: no chain with a segment is open. Nothing was written. Call contour_begin and contour_line "
+              "first.");
+}
+
 TEST(ADeclaredLibrary, MovesAndReads) {
     LibraryRig rig;
     EXPECT_FALSE(rig.call("TCurve_F", {{"axis", 1}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}, {"m_Pulse", 500}}))
