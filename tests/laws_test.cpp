@@ -135,8 +135,9 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"mcx314lib/windows", {"base", "sim", "mcx314lib", "mcx314/map", "mcx314/chip"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
     {"python",
-     {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/map",
-      "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver", "rtc5/model"}},
+     {"base", "sim", "control", "trace", "rack", "operate", "live", "mcx314/driver", "mcx314/library",
+      "databoard4002/map", "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver",
+      "rtc5/model"}},
 };
 
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {

@@ -14,15 +14,17 @@ goes wrong is a :class:`motionrack.Error` with a sentence.
 from __future__ import annotations
 
 from . import _core
-from ._core import Databoard4002, GratingCard, Ioflex02, Mcx314, Rtc5, SlopeTable, SpeedMeter, SpeedScale
+from ._core import Databoard4002, GratingCard, Ioflex02, Mcx314, Mcx314Library, Rtc5, SlopeTable, SpeedMeter, SpeedScale
 from ._version import __version__
-from .cards import Card, Cards, Channel, Register, Word
+from .cards import Card, Cards, Channel
 from .errors import BadInput, Error, FileTrouble, MachineFault, NoSuchName, Refused, Stopped, Timeout
+from .live import LiveCard
 from .machine import Alarm, AxisStatus, Machine, Status
 from .outcome import AxisOutcome, Block, Homing, Outcome, ProgramEvent, Warning, Worst
 from .parts import Part, Parts, Wires
 from .rack import Rack, Snapshot
 from .recording import Recording, Waves
+from .registers import Register, Word
 from .trace import Trace
 
 
@@ -51,9 +53,11 @@ __all__ = [
     "GratingCard",
     "Homing",
     "Ioflex02",
+    "LiveCard",
     "Machine",
     "MachineFault",
     "Mcx314",
+    "Mcx314Library",
     "NoSuchName",
     "Outcome",
     "Part",

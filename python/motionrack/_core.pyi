@@ -98,9 +98,40 @@ def wait_interrupt(world: World, card: str, ticks: int) -> bool: ...
 def view(world: World, card: str, clearing: bool) -> str: ...
 def svg_timeline(title: str, seconds: npt.ArrayLike, charts: Sequence[tuple[str, Sequence[tuple[str, str, npt.ArrayLike]]]], spans: Sequence[tuple[str, float, float]], width: int, height: int) -> str: ...
 
+class LivePort:
+    """A real card behind a live port, with a stop that holds; motionrack.LiveCard has its registers by their names."""
+    def __init__(self, place: str, type: str) -> None:
+        """Opens the port; no register is touched. BadInput, FileTrouble, Refused."""
+    def map(self) -> dict[str, Any]:
+        """What is declared of the card."""
+    def now(self) -> float:
+        """Seconds of the computer's clock since it was opened. Refused once it was closed."""
+    def read(self, offset: int) -> int:
+        """One access, with all effects, at the byte offset of a register; 16 bits."""
+    def write(self, offset: int, value: int) -> None:
+        """One access, with all effects, at the byte offset of a register; value 0 to 65535."""
+    def view(self, clearing: bool) -> str:
+        """What all registers show, in words."""
+    def wait_interrupt(self, timeout: float) -> bool:
+        """Whether its interrupt came within timeout s."""
+    def quick_stop(self) -> None:
+        """All axes end their pulses, and nothing is written until reset_stop."""
+    def reset_stop(self) -> None:
+        """The stop does not hold any more; nothing moves by that."""
+    def stopped(self) -> bool:
+        """Whether a stop holds."""
+    def close(self) -> None:
+        """Stops all axes and lets the card go."""
+    def closed(self) -> bool:
+        """Whether it was closed."""
+
+
 class Mcx314:
     """The MCX314's function library, under its source's names and in its register units. `axes` is a mask: X 1, Y 2, Z 4, U 8 and their sums; `axis` is a channel: 0 X, 1 Y, 2 Z, 3 U."""
     def __init__(self, world: World, card: str) -> None: ...
+    @staticmethod
+    def of_live_port(card: LivePort) -> Mcx314:
+        """Of a real card. Refused where it has a driver."""
     def RESET(self) -> None:
         """Software reset of the chip; waits its 875 ns."""
     def initialise(self) -> None:
@@ -260,6 +291,627 @@ class Mcx314:
     @staticmethod
     def plan(pulses: int | None, R: int, SV: int, V: int, A: int, D: int | None = None, K: int | None = None, AO: int | None = None) -> dict[str, Any]:
         """What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an S-curve; D: another deceleration; AO: None, as the library sets it."""
+
+
+class Mcx314Library:
+    """The 57 functions of the MCX314's source under their names and with their arguments, then those that it names without listing them; the same on a virtual card and on a real one. Arguments are whole numbers, by place or by name. `axis` is a mask, X 1, Y 2, Z 4, U 8 and their sums, also where one axis is asked for.
+
+BadInput: an argument is missing, not known, or out of its range. Refused: the card cannot take it now, such as while an axis drives, or another thread uses the card. Stopped: a stop came, or holds. MachineFault: a limit, an alarm or the emergency input stopped an axis. FileTrouble: the computer refuses an access to a real card. The first two are raised before anything is written."""
+    def __init__(self, world: World, card: str) -> None:
+        """Of a virtual card. Not beside another driver of it."""
+    @staticmethod
+    def of_live_port(card: LivePort) -> Mcx314Library:
+        """Of a real card. Refused where it has a driver."""
+    def SetPulseMode(self, axis: int, mode: int) -> str:
+        """Pulse output: two pulse trains, or pulse and direction. Source: 4.3 Initial.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+mode: pulse output; 0 (two pulse trains), 1 (pulse and direction).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetMultiple(self, axis: int, data: int) -> str:
+        """The multiple M: pulses a second = V x M. One of these three comes before the first drive. Source: 4.3 Initial.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: the multiple M = 8,000,000 / R; 1 to 500.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetRange(self, data: int) -> str:
+        """R of all axes; R = 800,000 is M = 10. Source: 4.3 Initial.
+
+data: R of all axes: M = 8,000,000 / R; 16000 to 8000000.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetMaxSpeed(self, data: int) -> str:
+        """The smallest multiple with which V reaches this speed, of all axes. Source: 4.3 Initial.
+
+data: greatest speed that V reaches; 1 to 4000000 pulses/s.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetSV(self, axis: int, data: int) -> str:
+        """Initial speed. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: speed; 1 to 8000 x M pulses/s.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetV(self, axis: int, data: int) -> str:
+        """Drive speed; acts also while driving. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: speed; 1 to 8000 x M pulses/s.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetA(self, axis: int, data: int) -> str:
+        """Acceleration. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetD(self, axis: int, data: int) -> str:
+        """Deceleration, in force from then on. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetAA(self, axis: int, data: int) -> str:
+        """K, the acceleration's rate. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetAO(self, axis: int, data: int) -> str:
+        """Pulses kept for the end at SV. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: kept for the end at SV; 0 to 65535 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Pulse(self, axis: int, data: int) -> str:
+        """Output pulses of a fixed drive. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: the sign is the direction; -268435455 to 268435455 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def AutoDec(self) -> str:
+        """The chip finds the deceleration of all axes itself. Source: 4.4 Basic motion.
+
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ManualDec(self, axis: int, DecPulse: int) -> str:
+        """Fixed drives decelerate after so many pulses. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ManDec(self, axis: int, DecPulse: int) -> str:
+        """As ManualDec; the source has both names. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def TCurve_F(self, axis: int, m_SV: int, m_V: int, m_A: int, m_Pulse: int) -> str:
+        """Fixed drive with T-curve. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+m_SV: initial speed; 1 to 8000 x M pulses/s.
+m_V: drive speed; 1 to 8000 x M pulses/s.
+m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
+m_Pulse: the sign is the direction; -268435455 to 268435455 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def TCurve_C(self, axis: int, m_SV: int, m_V: int, m_A: int) -> str:
+        """Continuous drive with T-curve in + direction, until it is stopped. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+m_SV: initial speed; 1 to 8000 x M pulses/s.
+m_V: drive speed; 1 to 8000 x M pulses/s.
+m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SCurve_F(self, axis: int, m_SV: int, m_V: int, m_A: int, m_K: int, m_Pulse: int) -> str:
+        """Fixed drive with S-curve. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+m_SV: initial speed; 1 to 8000 x M pulses/s.
+m_V: drive speed; 1 to 8000 x M pulses/s.
+m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
+m_K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
+m_Pulse: the sign is the direction; -268435455 to 268435455 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SCurve_C(self, axis: int, m_SV: int, m_V: int, m_A: int, m_K: int) -> str:
+        """Continuous drive with S-curve in + direction, until it is stopped. Source: 4.4 Basic motion.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+m_SV: initial speed; 1 to 8000 x M pulses/s.
+m_V: drive speed; 1 to 8000 x M pulses/s.
+m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
+m_K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Line2D_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
+        """Line of two axes at constant speed. Source: 4.5.1 Lines.
+
+V: drive speed; 1 to 8000 x M pulses/s.
+PX: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Line3D_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
+        """Line of three axes at constant speed. Source: 4.5.1 Lines.
+
+V: drive speed; 1 to 8000 x M pulses/s.
+PX: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Line2D_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
+        """Line of two axes with T-curve. Source: 4.5.1 Lines.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+PX: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Line3D_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
+        """Line of three axes with T-curve. Source: 4.5.1 Lines.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+PX: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Line2D_S(self, SV: int, V: int, A: int, D: int, K: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
+        """Line of two axes with S-curve. Source: 4.5.1 Lines.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
+PX: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def Line3D_S(self, SV: int, V: int, A: int, D: int, K: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
+        """Line of three axes with S-curve. Source: 4.5.1 Lines.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
+PX: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
+axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def CircleCW_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
+        """Arc clockwise at constant speed; the first axis points right, the second up. Source: 4.5.2 Arcs.
+
+V: drive speed; 1 to 8000 x M pulses/s.
+PX: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+CX: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def CircleCCW_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
+        """Arc counterclockwise at constant speed. Source: 4.5.2 Arcs.
+
+V: drive speed; 1 to 8000 x M pulses/s.
+PX: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+CX: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def CircleCW_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
+        """Arc clockwise with T-curve. Source: 4.5.2 Arcs.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+PX: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+CX: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def CircleCCW_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
+        """Arc counterclockwise with T-curve. Source: 4.5.2 Arcs.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+PX: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PY: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PZ: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+PU: finish point, from the start; all 0: a full circle; -8388608 to 8388607 pulses.
+CX: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetCP(self, axis: int, data: int) -> str:
+        """Centre of arcs whose own centre is 0. Source: 4.5.2 Arcs.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: centre of arcs, from the start; -8388608 to 8388607 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetC(self, axis: int, data: int) -> str:
+        """As SetCP; the source has both names. Source: 4.5.2 Arcs.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: centre of arcs, from the start; -8388608 to 8388607 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetFP(self, axis: int, data: int) -> str:
+        """Finish point of lines and arcs whose own is 0. Source: 4.5.2 Arcs.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: finish point of lines and arcs, from the start; -8388608 to 8388607 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetP(self, axis: int, data: int) -> str:
+        """As SetFP; the source has both names. Source: 4.5.2 Arcs.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: finish point of lines and arcs, from the start; -8388608 to 8388607 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def HLMTP(self, n: int, axis: int) -> str:
+        """Level at which the + limit switch acts. Source: 4.6 Signals.
+
+n: the input acts at; 0 (Low), 1 (High).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def HLMTM(self, n: int, axis: int) -> str:
+        """Level at which the - limit switch acts. Source: 4.6 Signals.
+
+n: the input acts at; 0 (Low), 1 (High).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def HLMTSig(self, n: int, axis: int) -> str:
+        """How limit switches stop. Source: 4.6 Signals.
+
+n: a limit switch stops; 0 (at once), 1 (decelerating).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SLMTP(self, n: int) -> str:
+        """Software limit at COMP+. Source: 4.6 Signals.
+
+n: of all axes; 0 (off), 1 (on).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SLMTM(self, n: int) -> str:
+        """Software limit at COMP-. Source: 4.6 Signals.
+
+n: of all axes; 0 (off), 1 (on).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SLMTSig(self, n: int) -> str:
+        """What the software limits are compared with. Source: 4.6 Signals.
+
+n: of all axes, COMP+ and COMP- are compared with; 0 (the logical position LP), 1 (the real position EP).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def EncoderMode(self, n: int, axis: int) -> str:
+        """Kind of the encoder inputs. Source: 4.6 Signals.
+
+n: encoder inputs; 0 (quadrature A/B), 1 (up and down pulses).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def EncoderCWCCW(self, n: int, axis: int) -> str:
+        """Which edges of A/B count. Source: 4.6 Signals.
+
+n: edges of A/B that count; 0 (all), 1 (every second), 2 (every fourth).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def EnableALM(self, n: int) -> str:
+        """Alarm inputs. Source: 4.6 Signals.
+
+n: of all axes; 0 (off), 1 (on).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def EnableInPos(self, n: int) -> str:
+        """In-position inputs. Source: 4.6 Signals.
+
+n: of all axes; 0 (off), 1 (on).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ALMSig(self, n: int, axis: int) -> str:
+        """Level at which the alarm input acts. Source: 4.6 Signals.
+
+n: the input acts at; 0 (Low), 1 (High).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def InPosSig(self, n: int, axis: int) -> str:
+        """Level at which the in-position input acts. Source: 4.6 Signals.
+
+n: the input acts at; 0 (Low), 1 (High).
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def HomeType1(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
+        """Decelerates at the home switch. The axes are those of home_axes. Source: 4.7 Home.
+
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def HomeType2(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
+        """As 1, then back at SV and slowly to the switch again. Source: 4.7 Home.
+
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def HomeType3(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
+        """As 1, then on at SV to the encoder's index Z. Source: 4.7 Home.
+
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def HomeType4(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
+        """As 3 slowly, then as 2. Source: 4.7 Home.
+
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: acceleration; 1 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def LPS(self, axis: int, data: int) -> str:
+        """Sets the logical position. Source: 4.8 Positions.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: what the logical position becomes; -2147483648 to 2147483647 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def EPS(self, axis: int, data: int) -> str:
+        """Sets the real (encoder) position. Source: 4.8 Positions.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: what the real position becomes; -2147483648 to 2147483647 counts.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ReadLPS(self, axis: int) -> int:
+        """The logical position of one axis. Source: 4.8 Positions.
+
+axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
+Gives: pulses.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ReadEPS(self, axis: int) -> int:
+        """The real position of one axis. Source: 4.8 Positions.
+
+axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
+Gives: counts.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ReadCV(self, axis: int) -> int:
+        """Present speed of one axis; 0 at rest. Source: 4.8 Positions.
+
+axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
+Gives: x M pulses/s.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def ReadCA(self, axis: int) -> int:
+        """Present acceleration of one axis. Source: 4.8 Positions.
+
+axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
+Gives: x 125 M pulses/s2.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetCompP(self, axis: int, data: int) -> str:
+        """COMP+, the + software limit. Source: 4.8 Positions.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: place of the software limit; -2147483648 to 2147483647 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def SetCompM(self, axis: int, data: int) -> str:
+        """COMP-, the - software limit. Source: 4.8 Positions.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+data: place of the software limit; -2147483648 to 2147483647 pulses.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def RESET(self) -> str:
+        """Resets the chip; all registers and the multiple have to be set again. Source: 4.8 Positions.
+
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def home_axes(self, axis: int) -> str:
+        """The axes that HomeType1 to HomeType4 home, all at once; X at first. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def stop(self, axis: int) -> str:
+        """Stops axes, decelerating, with everything that is interpolated with them. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def stop_now(self, axis: int) -> str:
+        """Stops axes at once. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def wait(self, axis: int, milliseconds: int) -> str:
+        """Waits until none of the axes drives. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+milliseconds: how long at most; 0 to 60000 ms.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def moving(self, axis: int) -> int:
+        """Those of the axes that drive. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: mask of axes.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def at_limit(self, axis: int) -> int:
+        """Those of the axes at a limit switch or beyond a software limit. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: mask of axes.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def report(self, axis: int) -> str:
+        """Whether axes drive, where they are, why they stopped. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def asymmetric(self, axis: int, on: int) -> str:
+        """Whether decelerations take D. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+on: decelerations take D instead of A; 0 (off), 1 (on).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def set_output(self, axis: int, output: int, level: int) -> str:
+        """A general output: servo on, brakes. The source names it without listing it.
+
+axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+output: OUT0 to OUT7; 0 to 7.
+level: level; 0 (Low), 1 (High).
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def contour_begin(self, SV: int, V: int, A: int, D: int) -> str:
+        """Opens a contour with its speeds. The source names it without listing it.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: 0: constant speed V; 0 to 8000 x 125 M pulses/s2.
+D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def contour_line(self, axis: int, PX: int, PY: int, PZ: int, PU: int, V: int) -> str:
+        """The next line; waits until the chip takes it. The source names it without listing it.
+
+axis: two or three axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+PX: from the segment's start; -8388608 to 8388607 pulses.
+PY: from the segment's start; -8388608 to 8388607 pulses.
+PZ: from the segment's start; -8388608 to 8388607 pulses.
+PU: from the segment's start; -8388608 to 8388607 pulses.
+V: from here on; 0: unchanged; 0 to 8000 x M pulses/s.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def contour_arc(self, axis: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, clockwise: int, V: int) -> str:
+        """The next arc; waits until the chip takes it. The source names it without listing it.
+
+axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
+PX: from the segment's start; -8388608 to 8388607 pulses.
+PY: from the segment's start; -8388608 to 8388607 pulses.
+PZ: from the segment's start; -8388608 to 8388607 pulses.
+PU: from the segment's start; -8388608 to 8388607 pulses.
+CX: from the segment's start; -8388608 to 8388607 pulses.
+CY: from the segment's start; -8388608 to 8388607 pulses.
+CZ: from the segment's start; -8388608 to 8388607 pulses.
+CU: from the segment's start; -8388608 to 8388607 pulses.
+clockwise: direction; 0 (counterclockwise), 1 (clockwise).
+V: from here on; 0: unchanged; 0 to 8000 x M pulses/s.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def contour_end(self) -> int:
+        """Drives the last segment and waits for the end. The source names it without listing it.
+
+Gives: segments.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def pattern_begin(self, SV: int, V: int, A: int, DecPoint: int, axis: int) -> str:
+        """Opens a bit pattern of two or three axes. The source names it without listing it.
+
+SV: initial speed; 1 to 8000 x M pulses/s.
+V: drive speed; 1 to 8000 x M pulses/s.
+A: 0: constant speed V; 0 to 8000 x 125 M pulses/s2.
+DecPoint: then it decelerates; with A; 0 to 268435455 steps.
+axis: two or three axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def pattern_steps(self, plus1: int, minus1: int, plus2: int, minus2: int, plus3: int, minus3: int) -> str:
+        """Sixteen steps of each axis; three words fit before the start. The source names it without listing it.
+
+plus1: 16 steps in + direction, the lowest bit first; 0 to 65535.
+minus1: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
+plus2: 16 steps in + direction, the lowest bit first; 0 to 65535.
+minus2: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
+plus3: 16 steps in + direction, the lowest bit first; 0 to 65535.
+minus3: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+    def pattern_start(self) -> str:
+        """Starts the pattern. The source names it without listing it.
+
+Gives: a sentence.
+Errors: BadInput, Refused, Stopped, FileTrouble."""
+    def pattern_end(self) -> str:
+        """Waits for the end. The source names it without listing it.
+
+Gives: a sentence.
+Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
 
 
 class SpeedScale:

@@ -6,6 +6,7 @@
     card.WR0 = 0x0120        an access of the bus
     card.x.LP                what belongs to a channel
     card.driver.TCurve_F(1, 100, 2000, 200, 12000)
+    card.library.TCurve_F(1, 100, 2000, 200, 12000)      as on a real card, see LiveCard
 """
 
 from __future__ import annotations
@@ -16,159 +17,7 @@ from typing import Any
 from . import _core
 from ._time import ticks_of
 from .errors import BadInput, NoSuchName, Refused, Timeout
-
-
-def _field(reg: Mapping[str, Any], name: str) -> tuple[str, int, str]:
-    for field in reg["fields"]:
-        if field[0].lower() == name.lower():
-            return field[0], field[1], field[2]
-    known = ", ".join(field[0] for field in reg["fields"])
-    raise BadInput(f"Register {reg['name']} has no field {name}; it has: {known or 'none'}. Nothing was done.")
-
-
-def _shift(mask: int) -> int:
-    return (mask & -mask).bit_length() - 1
-
-
-class Word(int):
-    """What a register showed: a whole number whose fields are attributes, ``word.DRV``."""
-
-    _reg: Mapping[str, Any]
-
-    def __new__(cls, value: int, reg: Mapping[str, Any]) -> Word:
-        word = super().__new__(cls, value)
-        word._reg = reg
-        return word
-
-    def __getattr__(self, name: str) -> int:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            _, mask, _ = _field(self._reg, name)
-        except BadInput as error:
-            raise AttributeError(str(error)) from None
-        return (int(self) & mask) >> _shift(mask)
-
-    @property
-    def fields(self) -> dict[str, int]:
-        """All fields by their names."""
-        return {name: (int(self) & mask) >> _shift(mask) for name, mask, _ in self._reg["fields"]}
-
-    def __dir__(self) -> list[str]:
-        return ["fields", *(field[0] for field in self._reg["fields"])]
-
-    def __repr__(self) -> str:
-        shown = ", ".join(f"{name}={value}" for name, value in self.fields.items() if value)
-        digits = -(-self._reg["width"] // 4)
-        return f"{self._reg['name']} {int(self):0{digits}X}h" + (f" ({shown})" if shown else "")
-
-
-class Register:
-    """One register of a card, or of one of its channels.
-
-    Its fields are attributes, looked at without effect: ``card.RR0.DRV``. ``read`` and ``write`` are accesses of the
-    bus: they have all their effects and take the card's bus time.
-    """
-
-    __slots__ = ("_card", "_reg", "_name")
-
-    def __init__(self, card: Card, reg: Mapping[str, Any], channel: str = "") -> None:
-        self._card = card
-        self._reg = reg
-        self._name = f"{channel}.{reg['name']}" if channel else str(reg["name"])
-
-    @property
-    def name(self) -> str:
-        """As the card's reference page has it; of a channel with its name in front."""
-        return self._name
-
-    @property
-    def meaning(self) -> str:
-        """What it is, in a line."""
-        return str(self._reg["meaning"])
-
-    @property
-    def offset(self) -> int:
-        """Byte offset in the card's map."""
-        return int(self._reg["offset"])
-
-    @property
-    def width(self) -> int:
-        """Bits, 1 to 32."""
-        return int(self._reg["width"])
-
-    @property
-    def access(self) -> str:
-        """``"read"``, ``"write"``, or ``"read_clears"``: reading it clears it."""
-        return str(self._reg["access"])
-
-    def peek(self) -> Word:
-        """What it holds, without any effect; takes no time. BadInput where the card keeps no such word."""
-        return Word(self._card.peek(self._name), self._reg)
-
-    def read(self) -> Word:
-        """Reads it over the bus, with all effects; of a register that exists once a channel:
-        that of the channel the card shows."""
-        if self.access == "write":
-            raise Refused(
-                f"Register {self._name} can only be written; nothing was done. Use peek() to see what was written."
-            )
-        return Word(self._card.read(self.offset, self._bits()), self._reg)
-
-    def write(self, value: int | None = None, **fields: int) -> None:
-        """Writes it over the bus, with all effects: a word (0 to 2**width - 1), fields by their names,
-        or fields over a word."""
-        if self.access != "write":
-            raise Refused(f"Register {self._name} can only be read; nothing was written.")
-        word = 0 if value is None else int(value)
-        if value is None and not fields:
-            raise Refused(f"Nothing is given to be written to register {self._name}.")
-        if not 0 <= word < 1 << self.width:
-            raise Refused(
-                f"{word} does not fit into register {self._name}: 0 to {(1 << self.width) - 1}. Nothing was written."
-            )
-        for key, number in fields.items():
-            name, mask, _ = _field(self._reg, key)
-            if not 0 <= int(number) << _shift(mask) <= mask:
-                raise Refused(
-                    f"{number} does not fit into field {name} of {self._name}: 0 to {mask >> _shift(mask)}. Nothing "
-                    "was written."
-                )
-            word = (word & ~mask) | int(number) << _shift(mask)
-        self._card.write(self.offset, word, self._bits())
-
-    def _bits(self) -> int:
-        return next(bits for bits in (8, 16, 32) if self.width <= bits)
-
-    def __getattr__(self, name: str) -> int:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            _field(self._reg, name)
-        except BadInput as error:
-            raise AttributeError(str(error)) from None
-        return int(getattr(self.peek(), name))
-
-    def __int__(self) -> int:
-        return int(self.peek())
-
-    __index__ = __int__
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, int):
-            return NotImplemented
-        return int(self) == other
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(field[0] for field in self._reg["fields"])]
-
-    def __repr__(self) -> str:
-        try:
-            return f"<{self.peek()!r}: {self.meaning}>"
-        except BadInput:
-            return f"<{self._name}: {self.meaning}>"
+from .registers import Register
 
 
 class Channel:
@@ -212,6 +61,7 @@ class Card:
             ("_about", about),
             ("_registers", registers),
             ("_driver", None),
+            ("_library", None),
         ):
             object.__setattr__(self, key, value)
 
@@ -220,6 +70,7 @@ class Card:
     _about: dict[str, Any]
     _registers: dict[str, Any]
     _driver: Any
+    _library: _core.Mcx314Library | None
 
     # ---- what it is ----
 
@@ -324,6 +175,20 @@ class Card:
         driver = kind(self._world, self._name, **settings)
         object.__setattr__(self, "_driver", driver)
         return driver
+
+    @property
+    def library(self) -> _core.Mcx314Library:
+        """The functions of its source with their own arguments, checked as on a real card
+        (:attr:`LiveCard.library`). Not beside ``driver``. Refused for cards that are no mcx314."""
+        if self._library is None:
+            if self.type != "mcx314":
+                raise Refused(
+                    f"Card {self._name} is a {self.type}, whose source has no functions with whole numbers. Nothing "
+                    "was done. Use driver."
+                )
+            object.__setattr__(self, "_library", _core.Mcx314Library(self._world, self._name))
+        assert self._library is not None
+        return self._library
 
     # ---- names as attributes ----
 

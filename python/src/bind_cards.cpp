@@ -6,6 +6,7 @@
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/register_view.hpp>
 #include <python/src/bindings.hpp>
+#include <python/src/map_dict.hpp>
 #include <python/src/turn.hpp>
 
 namespace motionrack::python {
@@ -61,8 +62,9 @@ py::dict dict_of(const MachineInfo& machine) {
     return out;
 }
 
-/// Everything that is declared of a card.
-py::dict dict_of(const CardMap& map) {
+}  // namespace
+
+py::dict map_dict(const CardMap& map) {
     py::dict out;
     out["name"] = text(map.name);
     out["title"] = text(map.title);
@@ -80,6 +82,8 @@ py::dict dict_of(const CardMap& map) {
     return out;
 }
 
+namespace {
+
 const rack::RackCard& config_of_card(World& world, const std::string& name) {
     for (const rack::RackCard& card : world.config().cards)
         if (card.name == name) return card;
@@ -94,7 +98,7 @@ py::dict describe(World& world, const std::string& name) {
     const rack::CardType& type = *rack::find_card_type(config.type);
     py::dict out;
     out["type"] = config.type;
-    out["map"] = dict_of(card.map());
+    out["map"] = map_dict(card.map());
     py::list channels, values, quantities, pins;
     for (int i = 0; i < type.channel_count(); ++i)
         if (!type.channel_name(i).empty()) channels.append(text(type.channel_name(i)));

@@ -6,6 +6,7 @@
 #include <motionrack/cards/mcx314/driver/home_series.hpp>
 #include <python/src/bind_mcx314.hpp>
 #include <python/src/bindings.hpp>
+#include <python/src/live_card.hpp>
 
 namespace motionrack::python {
 
@@ -215,6 +216,13 @@ void bind_mcx314(py::module_& m) {
               return Mcx314{world, std::make_unique<Driver>(port, port)};
           }),
           py::arg("world"), py::arg("card"));
+    c.def_static(
+        "of_live_port",
+        [](const std::shared_ptr<LiveCard>& card) {
+            card->claim("driver");
+            return Mcx314{card, std::make_unique<Driver>(card->registers(), card->interrupt())};
+        },
+        py::arg("card"), "Of a real card. Refused where it has a driver.");
     bind_parameters(c);
     bind_drives(c);
     bind_mcx314_moves(c);

@@ -6,6 +6,11 @@
 
 namespace motionrack::python {
 
+template <>
+struct HostOf<mcx314::Driver> {
+    using type = Host;
+};
+
 using Mcx314 = Driven<mcx314::Driver>;
 using Mcx314Class = py::class_<Mcx314>;
 

@@ -15,6 +15,8 @@ void bind_machine(py::module_& m);
 void bind_cards(py::module_& m);
 void bind_pictures(py::module_& m);
 void bind_mcx314(py::module_& m);
+void bind_library(py::module_& m);
+void bind_live(py::module_& m);
 
 void bind_databoard4002(py::module_& m);
 void bind_ioflex02(py::module_& m);

@@ -11,7 +11,9 @@ PYBIND11_MODULE(_core, m) {
     bind_machine(m);
     bind_cards(m);
     bind_pictures(m);
+    bind_live(m);
     bind_mcx314(m);
+    bind_library(m);
     bind_databoard4002(m);
     bind_ioflex02(m);
     bind_grating_bus(m);

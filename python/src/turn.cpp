@@ -1,7 +1,6 @@
 // Who has a rack, and Ctrl-C.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <motionrack/rack/bus_access.hpp>
 #include <python/src/turn.hpp>
@@ -11,29 +10,29 @@ namespace motionrack::python {
 namespace {
 
 /// What Python raised while worlds ran without its lock; touched with the lock only.
-std::vector<std::pair<const World*, py::error_already_set>>& raised_meanwhile() {
+std::vector<std::pair<const Host*, py::error_already_set>>& raised_meanwhile() {
     // It outlives the interpreter.
     // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): what is raised is put there
-    static auto* const all = new std::vector<std::pair<const World*, py::error_already_set>>();
+    static auto* const all = new std::vector<std::pair<const Host*, py::error_already_set>>();
     return *all;
 }
 
 }  // namespace
 
-Turn::Turn(World& world, For what) : world_(world) {
+Turn::Turn(Host& host, For what) : host_(host) {
     const std::thread::id me = std::this_thread::get_id();
     std::thread::id nobody{};
-    if (world_.owner.compare_exchange_strong(nobody, me)) {
+    if (host_.owner.compare_exchange_strong(nobody, me)) {
         mine_ = true;
         return;
     }
-    if (nobody != me) refuse("Another thread is running this rack; nothing was done. One thread at a time.");
+    if (nobody != me) refuse("Another thread is using this rack or card. Nothing was done. One thread at a time.");
     if (what == For::moving)
-        refuse("The rack is in the middle of a run; nothing was done. A progress call may look, not move.");
+        refuse("The rack or card is in the middle of a run. Nothing was done. A progress call may look, not move.");
 }
 
 Turn::~Turn() {
-    if (mine_) world_.owner = std::thread::id{};
+    if (mine_) host_.owner = std::thread::id{};
 }
 
 Duration duration(double seconds) {
@@ -53,31 +52,38 @@ rack::Card& card_of_type(World& world, const std::string& name, std::string_view
     return card;
 }
 
+void SignalLook::look(Host& host) {
+    const auto present = std::chrono::steady_clock::now();  // a run of many short slices does not ask every time
+    if (present - last_ < std::chrono::milliseconds(20)) return;
+    last_ = present;
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) stop_because(host, py::error_already_set());
+}
+
 void attend(World& world) {
-    using Clock = std::chrono::steady_clock;
-    world.on_look([&world, last = Clock::time_point{}]() mutable {
-        const auto present = Clock::now();  // a run of many short slices does not ask every time
-        if (present - last < std::chrono::milliseconds(20)) return;
-        last = present;
-        const py::gil_scoped_acquire lock;
-        if (PyErr_CheckSignals() != 0) stop_because(world, py::error_already_set());
-    });
+    world.on_look([&world, signals = SignalLook()]() mutable { signals.look(world); });
 }
 
-void stop_because(World& world, py::error_already_set error) {
-    if (!world.stopped()) raised_meanwhile().emplace_back(&world, std::move(error));
-    world.stop();
+void stop_because(Host& host, py::error_already_set error) {
+    host.stop();
+    for (const auto& [which, raised] : raised_meanwhile())
+        if (which == &host) return;  // the first is what ended it
+    raised_meanwhile().emplace_back(&host, std::move(error));
 }
 
-void raise_what_python_raised(World& world) {
-    world.go_on();
+void end_call(Host& host) {
     auto& all = raised_meanwhile();
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].first != &world) continue;
+        if (all[i].first != &host) continue;
         py::error_already_set error = all[i].second;
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+        try {
+            host.end_call();
+        } catch (const Raised&) {  // what the next call says, too
+        }
         throw error;
     }
+    host.end_call();
 }
 
 }  // namespace motionrack::python

@@ -1,9 +1,10 @@
-// One call from Python into a rack: one thread at a time, without Python's lock while it runs, Ctrl-C heard between
-// runs.
+// One call from Python into a rack or a real card: one thread at a time, without Python's lock while it runs, Ctrl-C
+// heard between runs.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
+#include <chrono>
 #include <memory>
 #include <python/src/raised.hpp>
 #include <python/src/world.hpp>
@@ -14,25 +15,25 @@ namespace motionrack::python {
 
 namespace py = pybind11;
 
-/// While one lives its thread has the rack. Throws a refusal where another thread has it, or where this one is in the
-/// middle of a run (a progress call); there it may only look.
+/// While one lives its thread has the rack, or the card. Throws a refusal where another thread has it, or where this
+/// one is in the middle of a run (a progress call); there it may only look.
 class Turn {
   public:
     enum class For : std::uint8_t { looking, moving };
-    Turn(World& world, For what);
+    Turn(Host& host, For what);
     ~Turn();
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
 
   private:
-    World& world_;
+    Host& host_;
     bool mine_ = false;
 };
 
 /// Runs `call` without Python's lock; it gives a Result<T> or a plain value. `timeout`: a failure of the machine after
 /// that time is a time-out. What Python raised meanwhile (KeyboardInterrupt, a progress call's exception) goes on.
 template <class Call>
-auto alone(World& world, Call call, Duration timeout = never);
+auto alone(Host& host, Call call, Duration timeout = never);
 
 /// The same for what only looks: it keeps Python's lock and may be called from a progress call.
 template <class Call>
@@ -42,12 +43,21 @@ auto looking(World& world, Call call) {
     return call();
 }
 
+/// Asks Python whether a signal came (Ctrl-C), now and then; without Python's lock.
+class SignalLook {
+  public:
+    /// Stops the host where one did, and what Python made of it goes on when the run has ended.
+    void look(Host& host);
+
+  private:
+    std::chrono::steady_clock::time_point last_{};
+};
 /// Lets World ask Python between runs.
 void attend(World& world);
 /// What Python raised ends the run, and goes on when it has ended. With Python's lock.
-void stop_because(World& world, py::error_already_set error);
-/// Throws what Python raised while the world ran; the world goes on afterwards.
-void raise_what_python_raised(World& world);
+void stop_because(Host& host, py::error_already_set error);
+/// Ends the call and throws what Python raised while it ran.
+void end_call(Host& host);
 
 /// Whole ticks of 100 ps from Python.
 inline Duration ticks(std::int64_t count) {
@@ -64,26 +74,27 @@ struct is_result<Result<T>> : std::true_type {};
 }  // namespace detail
 
 template <class Call>
-auto alone(World& world, Call call, Duration timeout) {
+auto alone(Host& host, Call call, Duration timeout) {
     using Value = decltype(call());
-    const Turn turn(world, Turn::For::moving);
-    const Instant began = world.now();
+    const Turn turn(host, Turn::For::moving);
+    host.check_call();
+    const Instant began = host.now();
     if constexpr (std::is_void_v<Value>) {
         {
             const py::gil_scoped_release free;
             call();
         }
-        raise_what_python_raised(world);
+        end_call(host);
     } else {
         Value result = [&] {
             const py::gil_scoped_release free;
             return call();
         }();
-        raise_what_python_raised(world);
+        end_call(host);
         if constexpr (detail::is_result<Value>::value) {
             if (!result) {
                 const bool machine = result.error().trouble == Trouble::machine;
-                raise(std::move(result).error(), machine && timeout != never && world.now() - began >= timeout);
+                raise(std::move(result).error(), machine && timeout != never && host.now() - began >= timeout);
             }
             if constexpr (!std::is_void_v<typename Value::value_type>) return *std::move(result);
         } else {
@@ -92,10 +103,16 @@ auto alone(World& world, Call call, Duration timeout) {
     }
 }
 
+/// What a driver's card is in: a rack, where not said otherwise.
+template <class Driver>
+struct HostOf {
+    using type = World;
+};
+
 /// A driver with the world whose card it drives.
 template <class Driver>
 struct Driven {
-    std::shared_ptr<World> world;
+    std::shared_ptr<typename HostOf<Driver>::type> world;
     std::unique_ptr<Driver> driver;
 };
 

@@ -6,7 +6,6 @@
 //                      └─► Bell ──break_run──► between(): faults that are due, samples, recordings, Ctrl-C
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <motionrack/rack/fault_plan.hpp>
@@ -15,9 +14,9 @@
 #include <motionrack/rack/wave_recorder.hpp>
 #include <optional>
 #include <python/src/bell.hpp>
+#include <python/src/host.hpp>
 #include <python/src/sampler.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace motionrack::python {
@@ -31,10 +30,10 @@ struct GivenProgram {
     bool block_delete = false;
 };
 
-class World {
+class World final : public Host {
   public:
     explicit World(const rack::RackConfig& config);
-    ~World();
+    ~World() override;
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
@@ -46,7 +45,7 @@ class World {
     const rack::WireDesk& desk() { return running(), *desk_; }
     bool started() const { return rack_ && rack_->started(); }
     bool closed() const { return rack_ == nullptr; }
-    Instant now() { return rack().kernel().now(); }
+    Instant now() override { return rack().kernel().now(); }
     void close();
 
     // ---- before it is started
@@ -103,17 +102,11 @@ class World {
     void on_look(std::function<void()> call) { look_ = std::move(call); }
     /// Of a program, about every 50 ms of virtual time; empty: nobody.
     void on_progress(std::function<void(const rack::JobProgress&)> call) { progress_ = std::move(call); }
-    void stop() { stop_ = true; }
-    bool stopped() const { return stop_; }
-    void go_on() { stop_ = false; }
     /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look.
     /// While a driver or a job runs the rack, its host calls this.
     void between();
     /// After something else had the host's slices (a job, a homing).
     void listen_again();
-
-    /// The thread that has the rack; see Turn.
-    std::atomic<std::thread::id> owner{};
 
   private:
     bool is_built_like(World& other);
@@ -124,7 +117,6 @@ class World {
     control::gcode::Settings reading_of(const GivenProgram& program) const;
 
     rack::RackConfig config_;
-    std::atomic<bool> stop_{false};
     GivenProgram program_;
     std::vector<std::string> fault_texts_;
     Duration sample_period_ = milliseconds(1);

@@ -21,6 +21,7 @@ PACKAGE = Path(motionrack.__file__).parent
 sys.path.insert(0, str(ROOT / "python" / "tools"))
 DRIVERS = (
     motionrack.Mcx314,
+    motionrack.Mcx314Library,
     motionrack.Databoard4002,
     motionrack.Ioflex02,
     motionrack.GratingCard,

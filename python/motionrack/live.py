@@ -1,0 +1,226 @@
+"""A real card of this computer, behind a live port.
+
+    with motionrack.LiveCard("port:/dev/port,offset=0x300,width=8") as card:
+        card.library.RESET()
+        card.library.SetRange(800000)
+        card.library.TCurve_F(1, 100, 2000, 400, 2000)
+        card.library.wait(1, 10000)
+        print(card.library.ReadLPS(1), card.RR0.read().DRV)
+
+The block ends with the axes at rest, however it ends. docs/howto/live-port.md says what to do before.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import weakref
+from types import TracebackType
+from typing import Any
+
+from . import _core
+from .errors import BadInput, Error, Stopped, Timeout
+from .registers import Register
+
+ExceptionKind = type[BaseException]  # a card's own `type` hides Python's
+_open: weakref.WeakSet[LiveCard] = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all() -> None:
+    for card in list(_open):
+        with contextlib.suppress(Error):
+            card.close()
+
+
+class LiveCard:
+    """A real card: its registers are attributes by the names of its map, in capitals or not; ``library`` has the
+    functions of its source.
+
+    Ctrl-C, an exception in a ``with`` block, its end, :meth:`close` and :meth:`quick_stop` stop all axes, at once and
+    without a ramp. Ctrl-C is heard while a call waits, by Python's main thread. A stop holds: until :meth:`reset_stop`
+    nothing is written, and calls raise Stopped. What ends without these (a signal other than Ctrl-C, loss of power)
+    leaves the axes driving: limit switches and emergency stop belong to the card, not to the program.
+
+    One thread at a time, the others are Refused; only :meth:`quick_stop` may come from any. While it is open no second
+    port can be opened on its registers, in this program or another one of motionrack.
+    """
+
+    _port: _core.LivePort
+    _about: dict[str, Any]
+    _registers: dict[str, Any]
+    _driver: _core.Mcx314 | None
+    _library: _core.Mcx314Library | None
+    _place: str
+
+    def __init__(self, place: str, type: str = "mcx314") -> None:
+        """Opens the card at ``place``; no register is touched, and nothing of the card is reset.
+
+        ``place``: ``"uio:/dev/uio0"``, ``"memory:PATH"`` (a file that can be mapped: a PCI memory region),
+        ``"port:PATH"`` (a file with two bytes an access: a PCI I/O region, ``/dev/port``), then ``,offset=N`` bytes
+        (0 to 2**40), ``,stride=N`` bytes (2 to 4096), ``,width=8``, ``,map=N`` (0 to 4), ``,interrupt=PATH``,
+        ``,gap_ns=N`` (0 to 10**9). ``type``: only an ``"mcx314"`` has a map that a real card has, behind registers
+        that live ports reach.
+
+        BadInput: what is wrong with place or type. FileTrouble: not there, no permission, too short. Refused: open
+        already, or it would not be reached as it must. Nothing is opened then.
+        """
+        port = _core.LivePort(place, type)
+        about = port.map()
+        registers = {str(reg["name"]).lower(): reg for reg in about["registers"]}
+        for key, value in (
+            ("_port", port),
+            ("_about", about),
+            ("_registers", registers),
+            ("_driver", None),
+            ("_library", None),
+            ("_place", place),
+        ):
+            object.__setattr__(self, key, value)
+        _open.add(self)
+
+    # ---- what it is ----
+
+    @property
+    def place(self) -> str:
+        """Where it is, as it was opened."""
+        return self._place
+
+    @property
+    def type(self) -> str:
+        """``"mcx314"``."""
+        return str(self._about["name"])
+
+    @property
+    def title(self) -> str:
+        """What it is, in a line."""
+        return str(self._about["title"])
+
+    @property
+    def map(self) -> dict[str, Any]:
+        """Everything that is declared of the card: registers, commands, machines (of states) and pins."""
+        return dict(self._about)
+
+    @property
+    def registers(self) -> dict[str, Register]:
+        """All registers by their names. Those that there are once an axis belong to the axis of the last command."""
+        return {str(reg["name"]): Register(self, reg) for reg in self._about["registers"]}
+
+    @property
+    def seconds(self) -> float:
+        """The computer's clock since it was opened, s. Refused once it was closed."""
+        return self._port.now()
+
+    # ---- its function library ----
+
+    @property
+    def library(self) -> _core.Mcx314Library:
+        """The functions of the card's source under their names, each with the arguments, ranges and sentences of its
+        declaration. It takes the card for what it is after ``RESET()``. Refused beside ``driver``, and once the card
+        was closed."""
+        if self._library is None:
+            object.__setattr__(self, "_library", _core.Mcx314Library.of_live_port(self._port))
+        assert self._library is not None
+        return self._library
+
+    @property
+    def driver(self) -> _core.Mcx314:
+        """The library as virtual cards have it in :attr:`Card.driver`, with times in s: after ``initialise()`` a
+        program is the same on both. Refused beside ``library``, and once the card was closed."""
+        if self._driver is None:
+            object.__setattr__(self, "_driver", _core.Mcx314.of_live_port(self._port))
+        assert self._driver is not None
+        return self._driver
+
+    # ---- stops ----
+
+    def quick_stop(self) -> None:
+        """All axes end their pulses, at once and without a ramp; a call of another thread ends with Stopped. From any
+        thread, in every state. It holds until :meth:`reset_stop`. FileTrouble where the computer refuses the write."""
+        self._port.quick_stop()
+
+    def reset_stop(self) -> None:
+        """A stop does not hold any more. Nothing moves by that, and what was driven is not driven to its end."""
+        self._port.reset_stop()
+
+    @property
+    def stopped(self) -> bool:
+        """Whether a stop holds."""
+        return self._port.stopped()
+
+    def close(self) -> None:
+        """Stops all axes at once and lets the card go; again it does nothing. Refused in the middle of a call of this
+        thread. FileTrouble where the stop could not be written; it is closed all the same."""
+        self._port.close()
+        _open.discard(self)
+
+    @property
+    def closed(self) -> bool:
+        """Whether it was closed."""
+        return self._port.closed()
+
+    def __enter__(self) -> LiveCard:
+        return self
+
+    def __exit__(self, kind: ExceptionKind | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    # ---- looking, reading, writing ----
+
+    def read(self, offset: int, bits: int = 16) -> int:
+        """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also
+        while a stop holds. BadInput, FileTrouble."""
+        self._check_bits(bits)
+        return self._port.read(offset)
+
+    def write(self, offset: int, value: int, bits: int = 16) -> None:
+        """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. What library or driver
+        has set is not known to them then. BadInput, Refused, Stopped, FileTrouble."""
+        self._check_bits(bits)
+        self._port.write(offset, value)
+
+    def peek(self, name: str) -> int:
+        """Always BadInput: a real card shows nothing without an access."""
+        raise BadInput(
+            f"Register {name} of a real card cannot be looked at without an access. Nothing was read. Use read()."
+        )
+
+    def view(self, clearing: bool = False) -> str:
+        """What its registers show, in words; ``clearing``: RR3 too, which reading clears. It writes WR0, with NOP and
+        read commands, which move nothing; also while a stop holds. FileTrouble."""
+        return self._port.view(clearing)
+
+    def wait_interrupt(self, timeout: float) -> None:
+        """Until its interrupt comes, at most ``timeout`` s (0 to 9e8, or infinite), then Timeout. Stopped; Refused
+        without ``interrupt=`` (a UIO node has its own)."""
+        if not self._port.wait_interrupt(timeout):
+            if self.stopped:
+                raise Stopped(f"The card at {self._place} was stopped while it was waited for its interrupt.")
+            raise Timeout(f"The card at {self._place} asked for no interrupt within {timeout:g} s.")
+
+    def _check_bits(self, bits: int) -> None:
+        if bits != 16:
+            raise BadInput(f"The registers of a real {self.type} have 16 bits, not {bits}. Nothing was done.")
+
+    # ---- names as attributes ----
+
+    def __getattr__(self, name: str) -> Register:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        reg = self._registers.get(name.lower())
+        if reg is None:
+            raise AttributeError(f"The {self.type} has no register {name}.")
+        return Register(self, reg)
+
+    def __setattr__(self, name: str, value: int) -> None:
+        reg = self._registers.get(name.lower())
+        if reg is None:
+            raise AttributeError(f"The {self.type} has no register {name}; nothing was written.")
+        Register(self, reg).write(value)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(str(reg["name"]) for reg in self._about["registers"])]
+
+    def __repr__(self) -> str:
+        state = "closed" if self.closed else "stopped" if self.stopped else "open"
+        return f"<real {self.type} at {self._place}: {state}>"

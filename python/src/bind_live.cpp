@@ -1,0 +1,34 @@
+// Real cards: opening, stopping, registers by hand. motionrack/live.py has them by their names.
+#include <python/src/bindings.hpp>
+#include <python/src/live_card.hpp>
+#include <python/src/map_dict.hpp>
+
+namespace motionrack::python {
+
+void bind_live(py::module_& m) {
+    py::class_<LiveCard, std::shared_ptr<LiveCard>>(
+        m, "LivePort",
+        "A real card behind a live port, with a stop that holds; motionrack.LiveCard has its registers by their names.")
+        .def(py::init<const std::string&, const std::string&>(), py::arg("place"), py::arg("type"),
+             "Opens the port; no register is touched. BadInput, FileTrouble, Refused.")
+        .def(
+            "map", [](const LiveCard& card) { return map_dict(card.map()); }, "What is declared of the card.")
+        .def(
+            "now", [](LiveCard& card) { return to_seconds(card.now()); },
+            "Seconds of the computer's clock since it was opened. Refused once it was closed.")
+        .def("read", &LiveCard::read, py::arg("offset"),
+             "One access, with all effects, at the byte offset of a register; 16 bits.")
+        .def("write", &LiveCard::write, py::arg("offset"), py::arg("value"),
+             "One access, with all effects, at the byte offset of a register; value 0 to 65535.")
+        .def("view", &LiveCard::view, py::arg("clearing"), "What all registers show, in words.")
+        .def(
+            "wait_interrupt", [](LiveCard& card, double timeout) { return card.wait_interrupt(duration(timeout)); },
+            py::arg("timeout"), "Whether its interrupt came within timeout s.")
+        .def("quick_stop", &LiveCard::quick_stop, "All axes end their pulses, and nothing is written until reset_stop.")
+        .def("reset_stop", &LiveCard::reset_stop, "The stop does not hold any more; nothing moves by that.")
+        .def("stopped", &LiveCard::stopped, "Whether a stop holds.")
+        .def("close", &LiveCard::close, "Stops all axes and lets the card go.")
+        .def("closed", &LiveCard::closed, "Whether it was closed.");
+}
+
+}  // namespace motionrack::python

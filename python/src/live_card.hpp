@@ -1,0 +1,101 @@
+// A real card as Python has it: a live port with a stop that holds, and Ctrl-C heard while a call waits.
+//
+//   Python ──► Turn ──► LiveCard ──► Driver, Library ──► GuardedPort ──► live::Port ──► card
+//   Ctrl-C, quick_stop() ──► stop flag ──► Ears, QuickStops ── all axes, at once ──► ┘
+//
+// A stop is taken in every state and from every thread. It ends the call that runs, and nothing is written to the card
+// from then on but the stop, until reset_stop().
+#pragma once
+
+#include <memory>
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/cards/mcx314/library/library.hpp>
+#include <motionrack/live/port.hpp>
+#include <python/src/host.hpp>
+#include <python/src/turn.hpp>
+#include <string>
+
+namespace motionrack::python {
+
+class LiveCard final : public Host {
+  public:
+    /// Opens the port; no register is touched. Throws bad_input (the place, the type), io, refused.
+    LiveCard(const std::string& place, const std::string& type);
+    /// As close(), without a word.
+    ~LiveCard() override;
+    LiveCard(const LiveCard&) = delete;
+    LiveCard& operator=(const LiveCard&) = delete;
+
+    const std::string& place() const { return place_; }
+    const CardMap& map() const { return map_; }
+    /// Since it was opened. Throws a refusal once it was closed.
+    Instant now() override { return open_port().now(); }
+    /// Throws a refusal once it was closed, and what says of a stop.
+    void check_call() const override;
+    /// Writes the stop, where there is one, and throws what the computer has refused.
+    void end_call() override;
+
+    /// All axes end their pulses, at once, and so does a call of another thread. Throws what the computer refuses.
+    void quick_stop();
+    void reset_stop() { stop_ = false; }
+    /// Stops all axes and lets the card go, for other programs too. Throws what the computer refuses; closed it is.
+    void close();
+    bool closed() const { return port_ == nullptr; }
+
+    /// What a driver gets: its writes end with a stop. Once: a second driver would not know what the first has set.
+    /// Throws a refusal.
+    void claim(const std::string& driver);
+    RegisterPort& registers() { return guarded_; }
+    Interrupt& interrupt() { return stops_; }
+
+    /// Accesses by hand, at the offset of a register that can be read or written. Throw bad_input.
+    std::uint16_t read(std::uint32_t offset);
+    void write(std::uint32_t offset, std::int64_t value);
+    /// What all registers show, in words; writes WR0, with NOP and read commands, also while a stop holds.
+    std::string view(bool clearing);
+    /// Throws a refusal where the port has no interrupt.
+    bool wait_interrupt(Duration timeout);
+
+  private:
+    /// The computer's time for drivers: waits look whether a signal came.
+    class Ears final : public Interrupt {
+      public:
+        explicit Ears(LiveCard& card) : card_(card) {}
+        bool wait(Duration timeout) override;
+        void pass(Duration duration) override;
+        Instant now() const override { return card_.port_->now(); }
+        bool stop_requested() const override { return card_.stopped(); }
+
+      private:
+        LiveCard& card_;
+        SignalLook signals_;
+    };
+    /// The port, which is there while the card is open.
+    class Registers final : public RegisterPort {
+      public:
+        explicit Registers(LiveCard& card) : card_(card) {}
+        void write(std::uint32_t offset, std::uint16_t value) override { card_.port_->write(offset, value); }
+        std::uint16_t read(std::uint32_t offset) override { return card_.port_->read(offset); }
+
+      private:
+        LiveCard& card_;
+    };
+
+    live::Port& open_port() const;
+    void check_trouble() const;
+    void check_offset(std::uint32_t offset, bool written) const;
+    /// Waits for the call of another thread, which a stop ends, and has the card for `act`.
+    template <class Act>
+    void when_free(Act act);
+
+    std::string place_;
+    const CardMap& map_;
+    std::unique_ptr<live::Port> port_;
+    Registers port_now_{*this};
+    Ears ears_{*this};
+    mcx314::QuickStops stops_{port_now_, ears_};
+    mcx314::GuardedPort guarded_{port_now_, ears_};
+    std::string driver_;
+};
+
+}  // namespace motionrack::python
