@@ -5,7 +5,7 @@ import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
 import { channelNames, type CardInfo } from '../link/rack';
-import { mayOperate, notice, order } from '../link/orders';
+import { mayOperate, notice, order, whyInService } from '../link/orders';
 import { axisOf } from '../link/state';
 import { typed, unitName, whole } from '../parts/numbers';
 import { Button, Choice, Field, Led, Panel } from '../parts/ui';
@@ -106,7 +106,7 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
   const distance = useSignal('10');
   const speed = useSignal('20');
   const letter = letters.includes(chosen.value) ? chosen.value : letters[0];
-  const why = mayOperate() || (letter === undefined ? 'No axis is on this card.' : '');
+  const why = mayOperate() || whyInService() || (letter === undefined ? 'No axis is on this card.' : '');
   const unit = unitName(letter === undefined ? 'mm' : (axisOf(letter)?.unit ?? 'mm'));
   const move = (direction: 1 | -1): void => {
     const [by, at] = [typed(distance.value), typed(speed.value)];
@@ -148,6 +148,7 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
           Home {letter}
         </Button>
       </div>
+      {whyInService() !== '' && <p class="hint">{whyInService()}</p>}
     </Panel>
   );
 }

@@ -87,3 +87,9 @@ export function whyNot(needed: Role, control = false): string {
 
 export const mayOperate = (): string => whyNot('operate', true);
 export const mayMaintain = (): string => whyNot('maintain', true);
+
+/** Why the controller moves nothing now: a card is in service; empty: none is. */
+export function whyInService(): string {
+  const card = state.status.value?.service ?? '';
+  return card === '' ? '' : `Card ${card} is in service: nothing else drives the machine. End the service first.`;
+}

@@ -176,4 +176,14 @@ describe('what is not allowed', () => {
     const { mayMaintain, mayOperate } = await orders();
     expect([mayOperate(), mayMaintain()]).toEqual(['', '']);
   });
+
+  test('names the card that is in service, while one is', async () => {
+    const { program } = await connected();
+    const { whyInService } = await orders();
+    expect(whyInService()).toBe('');
+    program.show({ state: 'service', service: 'motion' });
+    expect(whyInService()).toBe('Card motion is in service: nothing else drives the machine. End the service first.');
+    program.show({ state: 'standstill', service: '' });
+    expect(whyInService()).toBe('');
+  });
 });
