@@ -121,6 +121,10 @@ typedef struct {
     uint64_t event_look_ns; /* the same in the loop that waits for an event */
     uint64_t call_ns;       /* from the return of one access to the first look for the next */
     unsigned stretch_2; /* positions of slope type 2: the BASIC program doubles them, the assembler program does not */
+    /* 0: a text that was put on the screen has cost STAT, and the stops after it are not reported. As printed, PRINTSTR
+     * of the assembler program leaves its function code for OS8 in A; which bits it has is not, and here none is a
+     * stop's. */
+    int keeps_status;
     const char *left, *right, *emergency, *in_position, *fatal;
 } listing;
 
@@ -131,6 +135,7 @@ static const listing assembler = {"assembler",
                                   19 * T_STATE,
                                   96 * T_STATE,
                                   1,
+                                  0,
                                   "LEFT MARGIN.",
                                   "RIGHT MARGIN.",
                                   "EMERGENCY STOP.",
@@ -143,6 +148,7 @@ static const listing basic = {"basic",
                               1 * MS,
                               2 * MS,
                               2,
+                              1,
                               "LEFT MARGIN STOP.",
                               "RIGHT MARGIN STOP.",
                               "EMERGENCY STOP.",
@@ -212,6 +218,12 @@ static void store_slope(host* h, const listing* l, unsigned stretch) {
     out_strobe(h, l, C2, 'O');
 }
 
+/* One of the stops in STAT; what is left of STAT. */
+static uint8_t say_stop(host* h, const listing* l, const char* text, uint8_t status) {
+    say(h, text);
+    return l->keeps_status ? status : 0;
+}
+
 /* GOPOSIT; FNGoPosition, 1860. Gives up (which the programs do not) when nothing happens for `patience_ns`. */
 static void go_position(host* h, const listing* l, unsigned target, uint64_t patience_ns) {
     uint8_t event = 0;
@@ -236,9 +248,9 @@ static void go_position(host* h, const listing* l, unsigned target, uint64_t pat
         event = in_strobe(h, l, DATA);
         if ((event & 32) == 0) continue;
         status = in(h, STAT);
-        if (status & LEFT) say(h, l->left);
-        if (status & RIGHT) say(h, l->right);
-        if (status & EMERGENCY) say(h, l->emergency);
+        if (status & LEFT) status = say_stop(h, l, l->left, status);
+        if (status & RIGHT) status = say_stop(h, l, l->right, status);
+        if (status & EMERGENCY) status = say_stop(h, l, l->emergency, status);
     }
 }
 
