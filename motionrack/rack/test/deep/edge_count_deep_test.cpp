@@ -1,0 +1,27 @@
+// A thousand moves a card. MOTIONRACK_SEED=N picks the moves, MOTIONRACK_MOVES=N how many.
+#include <motionrack/rack/test/edge_count.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+std::uint64_t moves() {
+    return cases("MOTIONRACK_MOVES", 1'000);
+}
+
+class RecordedEdgesOfAThousandMoves : public testing::TestWithParam<char> {};
+INSTANTIATE_TEST_SUITE_P(Axis, RecordedEdgesOfAThousandMoves, testing::Values('x', 'y', 'z', 'u'));
+
+TEST_P(RecordedEdgesOfAThousandMoves, AreTheLogicalPositionOfTheMcx314) {
+    for (const bool is_one_pulse : {false, true}) count_mcx314(moves(), GetParam(), is_one_pulse);
+}
+
+TEST(RecordedEdgesOfAThousand, MovesAreThePositionOfTheDataBoard4002) {
+    count_databoard4002(moves());
+}
+
+TEST(RecordedEdgesOfAThousand, InstantsAreTheFramesOfTheGratingBus) {
+    for (const char* card : {"c1", "c2"}) count_grating_bus(moves(), card);
+}
+
+}  // namespace
+}  // namespace motionrack::rack
