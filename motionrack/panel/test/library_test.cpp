@@ -96,7 +96,7 @@ TEST(ALibraryOnThePage, IsCalledAndWrittenDown) {
              {"anna: service card=\"m\" on=true", "service: card m is in service by anna.",
               "anna: call arguments={\"axis\":1,\"m_A\":100,\"m_Pulse\":500,\"m_SV\":100,\"m_V\":1000} card=\"m\" "
               "function=\"TCurve_F\"",
-              "anna: call contour_end: ContEnd: no chain", "standstill: The service of card m has ended"})
+              "anna: call contour_end: contour_end: no chain", "standstill: The service of card m has ended"})
             EXPECT_THAT(all, HasSubstr(entry));
     });
     a.run(1.3);
