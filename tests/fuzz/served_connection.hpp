@@ -17,7 +17,7 @@
 #include <functional>
 #include <memory>
 #include <motionrack/frontends/server/door_orders.hpp>
-#include <motionrack/frontends/server/listener.hpp>
+#include <motionrack/frontends/server/socket.hpp>
 #include <motionrack/rack/config.hpp>
 #include <string>
 #include <string_view>
@@ -124,7 +124,7 @@ class ServedConnection {
         server::Peer peer;
         peer.address = peer.local = peer.network = "127.0.0.1";
         peer.loopback = true;
-        server::serve_plain(std::move(socket), std::move(peer), hall_);
+        server::serve(server::Transport(std::move(socket)), std::move(peer), hall_);
     }
 
     void poll() {

@@ -6,12 +6,11 @@
 
 #include <boost/asio/post.hpp>
 #include <motionrack/frontends/server/listener.hpp>
+#include <motionrack/frontends/server/socket.hpp>
 
 namespace motionrack::server {
 
-namespace asio = boost::asio;
 using asio::ip::tcp;
-using boost::system::error_code;
 
 namespace {
 
@@ -118,10 +117,7 @@ void Listener::take(tcp::socket socket) {
     peer.loopback = plain(remote.address()).is_loopback();
     peer.secure = tls_ != nullptr;
     peer.network = network_of(peer.address);
-    if (tls_)
-        serve_tls(std::move(socket), *tls_, std::move(peer), hall_);
-    else
-        serve_plain(std::move(socket), std::move(peer), hall_);
+    serve(tls_ ? Transport(std::move(socket), *tls_) : Transport(std::move(socket)), std::move(peer), hall_);
 }
 
 void Listener::end() {

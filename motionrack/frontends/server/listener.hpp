@@ -29,11 +29,6 @@ class Reserve {
     std::vector<int> files_;
 };
 
-/// Begins to serve a connection that was taken.
-void serve_plain(boost::asio::ip::tcp::socket socket, Peer peer, std::shared_ptr<Hall> hall);
-void serve_tls(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context& tls, Peer peer,
-               std::shared_ptr<Hall> hall);
-
 class Listener {
   public:
     /// `acceptor` does not block.

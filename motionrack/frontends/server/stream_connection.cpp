@@ -1,12 +1,9 @@
 // A WebSocket below a client.
-#pragma once
-
 #include <fmt/format.h>
 
 #include <array>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 #include <motionrack/frontends/server/socket.hpp>
 #include <optional>
 
@@ -14,11 +11,12 @@ namespace motionrack::server {
 
 namespace websocket = boost::beast::websocket;
 
-template <class Stream>
-class StreamConnection final : public Open, public Wire, public std::enable_shared_from_this<StreamConnection<Stream>> {
+namespace {
+
+class StreamConnection final : public Open, public Wire, public std::enable_shared_from_this<StreamConnection> {
   public:
     /// Takes the seat of `before`.
-    StreamConnection(Stream stream, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before)
+    StreamConnection(Transport stream, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before)
         : socket_(std::move(stream)),
           request_(std::move(request)),
           hall_(std::move(hall)),
@@ -34,7 +32,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         socket_.read_message_max(limits.frame);
         socket_.auto_fragment(false);
         socket_.text(true);
-        socket_.async_accept(request_, [self = this->shared_from_this()](error_code error) {
+        socket_.async_accept(request_, [self = shared_from_this()](error_code error) {
             if (error || self->left_) return;
             self->opened_ = true;
             self->hall_->clients.add(self->client_);
@@ -48,7 +46,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         writes_ = true;
         std::array<asio::const_buffer, 2> pieces = {asio::buffer(message.own), {}};
         if (message.shared) pieces[1] = asio::buffer(*message.shared);
-        socket_.async_write(pieces, [self = this->shared_from_this()](error_code error, std::size_t) {
+        socket_.async_write(pieces, [self = shared_from_this()](error_code error, std::size_t) {
             self->writes_ = false;
             if (error) return self->leave();
             if (self->reason_) return self->say_goodbye();
@@ -59,11 +57,11 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
     void allow(std::size_t bytes) override { socket_.read_message_max(bytes); }
 
     void close(int code, std::string_view reason) override {
-        if (!opened_) return beast::get_lowest_layer(socket_).close();  // its handshake is still being written
+        if (!opened_) return socket_.next_layer().tcp().close();  // its handshake is still being written
         reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
         if (!writes_) return say_goodbye();
         // Who does not read gets no reason either.
-        if (code == websocket::close_code::try_again_later) beast::get_lowest_layer(socket_).close();
+        if (code == websocket::close_code::try_again_later) socket_.next_layer().tcp().close();
     }
 
     // ---- Open
@@ -73,11 +71,11 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
     static constexpr std::size_t kept = 256 * 1024;  ///< bytes of a buffer that stay with a connection
 
     void say_goodbye() {
-        socket_.async_close(*reason_, [self = this->shared_from_this()](error_code) { self->leave(); });
+        socket_.async_close(*reason_, [self = shared_from_this()](error_code) { self->leave(); });
     }
 
     void read() {
-        socket_.async_read(buffer_, [self = this->shared_from_this()](error_code error, std::size_t) {
+        socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
             if (error) return self->leave();
             const auto bytes = self->buffer_.cdata();
             self->client_->message({static_cast<const char*>(bytes.data()), bytes.size()}, self->socket_.got_text());
@@ -94,7 +92,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         hall_->seats.leave(this);
     }
 
-    websocket::stream<Stream> socket_;
+    websocket::stream<Transport, false> socket_;
     Request request_;
     std::shared_ptr<Hall> hall_;
     std::shared_ptr<Client> client_;
@@ -102,5 +100,13 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
     std::optional<websocket::close_reason> reason_;
     bool opened_ = false, writes_ = false, left_ = false;
 };
+
+}  // namespace
+
+void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before) {
+    std::make_shared<StreamConnection>(std::move(transport), std::move(request), std::move(peer), std::move(hall),
+                                       before)
+        ->begin();
+}
 
 }  // namespace motionrack::server

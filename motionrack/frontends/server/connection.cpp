@@ -1,4 +1,4 @@
-// A connection on a stream, plain or TLS: HTTP, one request after the other, until one of them asks for a WebSocket.
+// A connection: HTTP, one request after the other, until one of them asks for a WebSocket.
 //
 //   handshake ─► head ─► admitted? ─no─► answer ──────────────────► close, with the rest of the body read away
 //                 ▲         │ yes
@@ -6,12 +6,9 @@
 //                 └──────────────────────────────────────────┘
 //
 // What does not come in time ends the connection without a word.
-#pragma once
-
 #include <fmt/format.h>
 
 #include <array>
-#include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/string.hpp>
@@ -24,35 +21,29 @@
 
 namespace motionrack::server {
 
-template <class Stream>
-class Connection final : public Open, public std::enable_shared_from_this<Connection<Stream>> {
-  public:
-    static constexpr bool secure = !std::is_same_v<Stream, beast::tcp_stream>;
+namespace {
 
-    Connection(Stream stream, Peer peer, std::shared_ptr<Hall> hall)
+class Connection final : public Open, public std::enable_shared_from_this<Connection> {
+  public:
+    Connection(Transport stream, Peer peer, std::shared_ptr<Hall> hall)
         : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
         hall_->seats.arrive(this, peer_.network);
     }
     ~Connection() override { hall_->seats.leave(this); }
 
     void begin() {
-        if constexpr (secure) {
-            expire(limits().header);
-            stream_.async_handshake(asio::ssl::stream_base::server,
-                                    [self = this->shared_from_this()](error_code error) {
-                                        if (!error) self->read_head(self->limits().header);
-                                    });
-        } else {
-            read_head(limits().header);
-        }
+        expire(limits().header);
+        stream_.handshake(Done([self = shared_from_this()](error_code error) {
+            if (!error) self->read_head(self->limits().header);
+        }));
     }
 
     void end(std::string_view why) override {
-        const auto self = keep_ ? std::move(keep_) : this->shared_from_this();
+        const auto self = keep_ ? std::move(keep_) : shared_from_this();
         hall_->seats.leave(this);
         if (std::exchange(ended_, true)) return;
-        auto& socket = beast::get_lowest_layer(stream_);
-        if (!secure && !busy_) {  // it waits for a request: there is room for a last word
+        auto& socket = stream_.tcp();
+        if (!stream_.secure() && !busy_) {  // it waits for a request: there is room for a last word
             const std::string& text = last_word(why);
             error_code error;
             socket.socket().non_blocking(true, error);
@@ -69,17 +60,16 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     }
     const Limits& limits() const { return hall_->service->settings().limits; }
     void expire(std::chrono::milliseconds time) {
-        beast::get_lowest_layer(stream_).expires_after(peer_.spare ? std::min(time, limits().spare_time) : time);
+        stream_.tcp().expires_after(peer_.spare ? std::min(time, limits().spare_time) : time);
     }
 
     void read_head(std::chrono::milliseconds time) {
         parser_.emplace();
         parser_->body_limit(boost::none);  // the head decides
         expire(time);
-        http::async_read_header(stream_, buffer_, *parser_,
-                                [self = this->shared_from_this()](error_code error, std::size_t) {
-                                    if (!self->ended_) self->took_head(error);
-                                });
+        http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
+            if (!self->ended_) self->took_head(error);
+        });
     }
 
     void took_head(error_code error) {
@@ -121,15 +111,14 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
     void go_on() {
         static constexpr std::string_view text = "HTTP/1.1 100 Continue\r\n\r\n";
-        asio::async_write(stream_, asio::buffer(text),
-                          [self = this->shared_from_this()](error_code error, std::size_t) {
-                              if (!error) self->read_body();
-                          });
+        asio::async_write(stream_, asio::buffer(text), [self = shared_from_this()](error_code error, std::size_t) {
+            if (!error) self->read_body();
+        });
     }
 
     void read_body() {
         expire(limits().body);
-        http::async_read(stream_, buffer_, *parser_, [self = this->shared_from_this()](error_code error, std::size_t) {
+        http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
             if (self->ended_) return;
             if (error == http::error::body_limit) return self->too_large();
             if (is_http(error))
@@ -145,9 +134,9 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         expire_never();
         busy_ = true;
         const bool keep_alive = parser_->keep_alive();
-        keep_ = this->shared_from_this();
+        keep_ = shared_from_this();
         hall_->service->handle(head_, admission_, parser_->get().body(),
-                               [weak = this->weak_from_this(), keep_alive](HttpAnswer one) {
+                               [weak = weak_from_this(), keep_alive](HttpAnswer one) {
                                    const auto self = weak.lock();
                                    if (!self || self->ended_) return;
                                    self->keep_.reset();
@@ -155,7 +144,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
                                });
     }
 
-    void expire_never() { beast::get_lowest_layer(stream_).expires_never(); }
+    void expire_never() { stream_.tcp().expires_never(); }
 
     void answer(HttpAnswer one, bool keep_alive) {
         busy_ = true;
@@ -164,7 +153,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         response_ = response_of(one, head_only, keep_alive && !peer_.spare);
         body_ = std::move(one.body);
         expire(limits().body);
-        http::async_write(stream_, *response_, [self = this->shared_from_this()](error_code error, std::size_t) {
+        http::async_write(stream_, *response_, [self = shared_from_this()](error_code error, std::size_t) {
             self->busy_ = false;
             if (error) return;
             if (self->response_->keep_alive() && !self->ended_) return self->read_head(self->limits().idle);
@@ -175,26 +164,22 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     /// Says that nothing more comes and reads away what still does, so that the answer is not lost with it.
     void goodbye() {
         expire(limits().spare_time);
-        if constexpr (secure) {
-            stream_.async_shutdown([self = this->shared_from_this()](error_code) { self->shut(); });
-        } else {
-            shut();
-        }
+        stream_.shut_down(Done([self = shared_from_this()](error_code) { self->shut(); }));
     }
     void shut() {
         error_code error;
-        beast::get_lowest_layer(stream_).socket().shutdown(asio::ip::tcp::socket::shutdown_send, error);
+        stream_.tcp().socket().shutdown(asio::ip::tcp::socket::shutdown_send, error);
         if (!error) drain();
     }
     void drain() {
-        beast::get_lowest_layer(stream_).async_read_some(
-            asio::buffer(rest_), [self = this->shared_from_this()](error_code error, std::size_t bytes) {
-                self->drained_ += bytes;
-                if (!error && self->drained_ < self->limits().big_body) self->drain();
-            });
+        stream_.tcp().async_read_some(asio::buffer(rest_),
+                                      [self = shared_from_this()](error_code error, std::size_t bytes) {
+                                          self->drained_ += bytes;
+                                          if (!error && self->drained_ < self->limits().big_body) self->drain();
+                                      });
     }
 
-    Stream stream_;
+    Transport stream_;
     Peer peer_;
     std::shared_ptr<Hall> hall_;
     beast::flat_buffer buffer_{16 * 1024};
@@ -209,5 +194,11 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     bool ended_ = false;
     std::shared_ptr<Connection> keep_;  ///< itself, while only the panel has something to do for it
 };
+
+}  // namespace
+
+void serve(Transport transport, Peer peer, std::shared_ptr<Hall> hall) {
+    std::make_shared<Connection>(std::move(transport), std::move(peer), std::move(hall))->begin();
+}
 
 }  // namespace motionrack::server

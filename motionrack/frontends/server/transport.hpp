@@ -1,0 +1,129 @@
+// What carries the bytes of a connection: TCP, or TLS over TCP. HTTP and WebSockets see one type, whose operations take
+// whatever waits for them as one type too: they are compiled once, and not for each of both.
+#pragma once
+
+#include <array>
+#include <boost/asio/async_result.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/beast/core/role.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <memory>
+#include <optional>
+
+namespace motionrack::server {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using boost::system::error_code;
+
+/// What is called once, with the end of an operation.
+class Done {
+  public:
+    template <class Handler>
+    explicit Done(Handler handler) : held_(std::make_unique<Held<Handler>>(std::move(handler))) {}
+    void operator()(error_code error, std::size_t bytes = 0) {
+        Holder& held = *held_;
+        held.call(std::move(held_), error, bytes);
+    }
+
+  private:
+    struct Holder {
+        Holder() = default;
+        Holder(const Holder&) = delete;
+        Holder& operator=(const Holder&) = delete;
+        virtual ~Holder() = default;
+        /// `self` is gone before the handler runs, which may begin the next operation.
+        virtual void call(std::unique_ptr<Holder> self, error_code error, std::size_t bytes) = 0;
+    };
+    template <class Handler>
+    struct Held final : Holder {
+        explicit Held(Handler one) : handler(std::move(one)) {}
+        void call(std::unique_ptr<Holder> self, error_code error, std::size_t bytes) override {
+            Handler own = std::move(handler);
+            self.reset();
+            if constexpr (std::is_invocable_v<Handler&, error_code, std::size_t>)
+                own(error, bytes);
+            else
+                own(error);
+        }
+        Handler handler;
+    };
+    std::unique_ptr<Holder> held_;
+};
+
+/// The first buffers of a sequence, whatever its type is: a read or a write takes some bytes, not all.
+template <class Buffer>
+class FirstBuffers {
+  public:
+    template <class Sequence>
+    explicit FirstBuffers(const Sequence& sequence) {
+        const auto end = asio::buffer_sequence_end(sequence);
+        for (auto one = asio::buffer_sequence_begin(sequence); one != end && size_ < buffers_.size(); ++one) {
+            const Buffer buffer(*one);
+            if (buffer.size() > 0) buffers_[size_++] = buffer;
+        }
+    }
+    const Buffer* begin() const { return buffers_.data(); }
+    const Buffer* end() const { return buffers_.data() + size_; }
+
+  private:
+    std::array<Buffer, 16> buffers_;
+    std::size_t size_ = 0;
+};
+
+class Transport {
+  public:
+    using executor_type = beast::tcp_stream::executor_type;
+
+    explicit Transport(asio::ip::tcp::socket socket);
+    Transport(asio::ip::tcp::socket socket, asio::ssl::context& tls);
+    Transport(Transport&&) noexcept;
+    Transport& operator=(Transport&&) = delete;
+    ~Transport();
+
+    bool secure() const;
+    /// What is below TLS, and has the timer.
+    beast::tcp_stream& tcp();
+    executor_type get_executor() { return tcp().get_executor(); }
+
+    /// Of TLS; without it both are done at once.
+    void handshake(Done done);
+    void shut_down(Done done);
+
+    void read_some(const FirstBuffers<asio::mutable_buffer>& into, Done done);
+    void write_some(const FirstBuffers<asio::const_buffer>& from, Done done);
+    /// Ends a WebSocket.
+    void tear_down(beast::role_type role, Done done);
+
+    // ---- what Beast asks of a stream
+    template <class Sequence, class Handler>
+    auto async_read_some(const Sequence& into, Handler&& handler) {
+        return asio::async_initiate<Handler, void(error_code, std::size_t)>(
+            [this](auto own, const FirstBuffers<asio::mutable_buffer>& buffers) {
+                read_some(buffers, Done(std::move(own)));
+            },
+            handler, FirstBuffers<asio::mutable_buffer>(into));
+    }
+    template <class Sequence, class Handler>
+    auto async_write_some(const Sequence& from, Handler&& handler) {
+        return asio::async_initiate<Handler, void(error_code, std::size_t)>(
+            [this](auto own, const FirstBuffers<asio::const_buffer>& buffers) {
+                write_some(buffers, Done(std::move(own)));
+            },
+            handler, FirstBuffers<asio::const_buffer>(from));
+    }
+    friend void beast_close_socket(Transport& transport) { transport.tcp().close(); }
+    template <class Handler>
+    friend void async_teardown(beast::role_type role, Transport& transport, Handler&& handler) {
+        transport.tear_down(role, Done(std::forward<Handler>(handler)));
+    }
+
+  private:
+    struct Tls;
+    std::optional<beast::tcp_stream> plain_;
+    std::unique_ptr<Tls> tls_;
+};
+
+}  // namespace motionrack::server
