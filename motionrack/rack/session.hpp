@@ -43,6 +43,9 @@ struct ProgramReport {
     std::string summary;   ///< as the command line prints it; empty where nothing moved
 };
 
+/// What Session::check_free says.
+Result<void> refuse_in_a_call_back();
+
 class Session {
   public:
     /// Whether part programs will be run: the axes are watched from the start then.
@@ -115,7 +118,10 @@ class Session {
     void on_condition(std::function<void(const Told&)> call);
     /// Errors: refused: this is a call-back (of on_condition, of a program's progress) in the middle of what lets time
     /// pass.
-    Result<void> check_free() const;
+    Result<void> check_free() const {
+        if (!telling_ && !driving_) return {};
+        return refuse_in_a_call_back();
+    }
 
     // ---- recordings
     /// Of VCD files that are begun from now on; 0: see WaveSettings::unit. Errors: refused (no unit of VCD).
