@@ -67,12 +67,15 @@ if(MOTIONRACK_UNITY)
   endif()
 endif()
 
-# motionrack_compile_quickly(TARGET): code that is compiled longer than it runs (the network, the command line, tests)
-# is optimised less: by MOTIONRACK_QUICK, or -O1 where the rest of a Release has more.
+# A Release has -O3 for what is FAST, -O2 for the other rooms, and less for code that is compiled longer than it runs.
+# motionrack_compile_quickly(TARGET [LEVEL]): such code (the network, the command line, tests) gets MOTIONRACK_QUICK,
+# or LEVEL in a Release; without it -O1.
 set(MOTIONRACK_QUICK "" CACHE STRING "Compiler option for code that is compiled longer than it runs")
 function(motionrack_compile_quickly target)
   if(MOTIONRACK_QUICK)
     target_compile_options(${target} PRIVATE ${MOTIONRACK_QUICK})
+  elseif(ARGC GREATER 1)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${ARGV1}>)
   else()
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
@@ -106,6 +109,7 @@ function(motionrack_room name)
     add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
     target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS} PRIVATE ${ROOM_LIBRARIES})
     if(NOT ROOM_FAST)
+      target_compile_options(motionrack_${name} PRIVATE $<$<CONFIG:Release>:-O2>)
       motionrack_harden(motionrack_${name})
     endif()
     foreach(target IN LISTS ROOM_HEADERS_OF)
@@ -132,17 +136,18 @@ if(MOTIONRACK_TESTS)
   target_compile_definitions(motionrack_source_dir PRIVATE MOTIONRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endif()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]): the test
-# program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those with the label deep take
-# long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are filters of GoogleTest: those that rows of the
-# catalogue of faults name run as NAME.faults with the label fault, those that take long as NAME.deep with the label
-# deep. ALONE: each test is a process of its own, where a library has one state for the whole process. tests/programs
-# runs single tests by their names.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]
+# [COMPUTES]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those
+# with the label deep take long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are filters of
+# GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the label fault, those that take
+# long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one state for the
+# whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so that it pays to
+# optimise it.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "ALONE" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "ALONE;COMPUTES" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
@@ -154,7 +159,7 @@ function(motionrack_test name)
   endforeach()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} motionrack_source_dir rapidcheck GTest::gmock GTest::gtest_main)
-  motionrack_compile_quickly(test_${name})
+  motionrack_compile_quickly(test_${name} $<IF:$<BOOL:${T_COMPUTES}>,-O1,-O0>)
   set_target_properties(test_${name} PROPERTIES MOTIONRACK_SHADOW ${local_shadow})
   if(T_ALONE)
     gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
@@ -184,7 +189,8 @@ function(motionrack_test name)
   foreach(shard RANGE 1 ${T_SHARDS})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND test_${name} ${others})
-    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT 1200 LABELS "${T_LABELS}"
+    # COST: what takes long begins first, also where no run before has measured it.
+    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT 1200 LABELS "${T_LABELS}" COST 30
                          ENVIRONMENT "GTEST_TOTAL_SHARDS=${T_SHARDS};GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()
