@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <motionrack/rack/faults.hpp>
 #include <tests/random_program.hpp>
@@ -135,6 +136,44 @@ Result<void> set_work_zero(Machine& machine, Draws& draws) {
     return machine.set_work_zero(some_letter(machine, draws), draws.number(-20, 20));
 }
 
+/// A card of the machine: every rack has one that drives, with a library.
+const std::string& some_card(Machine& machine, Draws& draws) {
+    const auto& cards = machine.rack().cards();
+    return cards[static_cast<std::size_t>(draws.pick(static_cast<int>(cards.size())))]->name();
+}
+Result<void> service(Machine& machine, Draws& draws) {
+    if (draws.one_in(3)) return machine.service().end([](const Result<std::string>&) {});
+    return machine.service().begin(some_card(machine, draws), somebody(draws, "Service"), "swarm",
+                                   [](const Result<std::string>&) {});
+}
+
+/// Most of them as a form begins, so that something drives; some anywhere in their range, or beyond it.
+std::int64_t some_value(const ArgumentInfo& argument, Draws& draws) {
+    if (!argument.values.empty())
+        return argument.values[static_cast<std::size_t>(draws.pick(static_cast<int>(argument.values.size())))].value;
+    if (draws.one_in(30)) return argument.greatest + 1;
+    if (!draws.one_in(4)) return argument.start;
+    return std::llround(draws.number(static_cast<double>(argument.least), static_cast<double>(argument.greatest)));
+}
+
+/// Functions that set what drives need, drive, wait for drives and stop them.
+Result<void> call(Machine& machine, Draws& draws) {
+    static constexpr std::array called = {"SetRange", "SetMultiple", "SetV",      "TCurve_F", "TCurve_C",
+                                          "SCurve_F", "SCurve_C",    "Line2D_T",  "Line3D_S", "CircleCW_C",
+                                          "HLMTSig",  "HomeType1",   "HomeType2", "LPS",      "ReadLPS",
+                                          "RESET",    "stop",        "stop_now",  "wait"};
+    operate::Service::Call made;
+    made.card = some_card(machine, draws);
+    made.function = called[static_cast<std::size_t>(draws.pick(static_cast<int>(called.size())))];
+    const auto functions = operate::library_of(machine.rack(), made.card);
+    if (!functions) return tl::unexpected<Error>(functions.error());
+    for (const FunctionInfo& function : *functions)
+        for (const ArgumentInfo& argument : function.arguments)
+            if (function.name == made.function)
+                made.arguments[std::string(argument.name)] = some_value(argument, draws);
+    return machine.service().call(std::move(made), somebody(draws, "Call"), "swarm", [](const Result<CallAnswer>&) {});
+}
+
 constexpr std::array orders = {DrawnOrder{"begin_program", 14, Order::motion, begin_program},
                                DrawnOrder{"line", 20, Order::motion, line},
                                DrawnOrder{"jog", 14, Order::motion, jog},
@@ -152,7 +191,9 @@ constexpr std::array orders = {DrawnOrder{"begin_program", 14, Order::motion, be
                                DrawnOrder{"set_single_step", 3, {}, single_step},
                                DrawnOrder{"set_coolant", 1, {}, coolant},
                                DrawnOrder{"acknowledge", 3, {}, acknowledge},
-                               DrawnOrder{"set_work_zero", 2, {}, set_work_zero}};
+                               DrawnOrder{"set_work_zero", 2, {}, set_work_zero},
+                               DrawnOrder{"service", 6, Order::motion, service},
+                               DrawnOrder{"call", 14, Order::motion, call}};
 
 constexpr double released = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array ends = {"limit_plus", "limit_minus", "home"};
