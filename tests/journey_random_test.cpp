@@ -19,7 +19,7 @@ double max_deviation(const RackConfig& config, const test::RandomProgram& progra
 
 /// Drives them one after the other; returns the part that the reader took (an arc may bulge beyond the travel).
 double drive_random(const std::string& profile, test::ProgramSize size) {
-    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", thorough() ? 40 : 20);
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", thorough() ? 40 : 10);
     const RackConfig config = router(profile);
     int driven = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
