@@ -69,7 +69,7 @@ endif()
 
 # A Release has -O3 for what is FAST, -O2 for the other rooms, and less for code that is compiled longer than it runs.
 # motionrack_compile_quickly(TARGET [LEVEL]): such code (the network, the command line, tests) gets MOTIONRACK_QUICK,
-# or LEVEL in a Release; without it -O1.
+# or LEVEL in a Release; without it -O1. Tests that compute have the flags of the build.
 set(MOTIONRACK_QUICK "" CACHE STRING "Compiler option for code that is compiled longer than it runs")
 function(motionrack_compile_quickly target)
   if(MOTIONRACK_QUICK)
@@ -159,7 +159,11 @@ function(motionrack_test name)
   endforeach()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} motionrack_source_dir rapidcheck GTest::gmock GTest::gtest_main)
-  motionrack_compile_quickly(test_${name} $<IF:$<BOOL:${T_COMPUTES}>,-O1,-O0>)
+  if(T_COMPUTES)
+    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  else()
+    motionrack_compile_quickly(test_${name} -O0)
+  endif()
   set_target_properties(test_${name} PROPERTIES MOTIONRACK_SHADOW ${local_shadow})
   if(T_ALONE)
     gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")

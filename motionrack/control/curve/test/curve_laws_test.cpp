@@ -1,17 +1,17 @@
 // Laws of the curve, for random programs: it meets itself smoothly, stays near the path and is never faster than u.
+// MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many there are.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <motionrack/control/curve/test/curve_support.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::control {
 namespace {
 
 using namespace curve_test;
-
-constexpr int programs = 1000;
 
 double greatest(const Point& a) {
     double most = 0;
@@ -32,15 +32,21 @@ struct Case {
 };
 
 template <class Check>
-void for_random_programs(Check check) {
-    for (std::uint64_t seed = 1; seed <= programs; ++seed) {
-        SCOPED_TRACE("seed " + std::to_string(seed));
+void for_programs(std::uint64_t everyday, Check check) {
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
         ProgramMaker maker(seed);
         Case one = {seed, maker.program(1 + maker.one_of(12)), {}};
         one.items = curve_of(one.moves);
         check(one);
         if (::testing::Test::HasFailure()) return;
     }
+}
+
+template <class Check>
+void for_random_programs(Check check) {
+    for_programs(1000, check);
 }
 
 TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
@@ -213,8 +219,7 @@ double part_of_tolerances(const Geometry& line, const Point& at, double toleranc
 
 TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
     double worst = 0;
-    for_random_programs([&worst](const Case& one) {
-        if (one.seed > 300) return;
+    for_programs(300, [&worst](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (const CurvePiece& piece : pieces_of(one.items)) {
             double best = std::numeric_limits<double>::infinity();
