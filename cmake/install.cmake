@@ -35,8 +35,8 @@ motionrack_c_library(rtc5sim rtc5sim ${CMAKE_INSTALL_INCLUDEDIR})
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
-        FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE
-        PATTERN wire.hpp EXCLUDE PATTERN "*_library.hpp" EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN windows EXCLUDE PATTERN frontends EXCLUDE
+        PATTERN report EXCLUDE PATTERN wire.hpp EXCLUDE REGEX "/(hdf5|nats|dds|late)_library[.]hpp$" EXCLUDE)
 
 set(pascal ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal)
 install(FILES ${pascal}/uMotionrack.pas ${pascal}/uIOFlex2.pas ${pascal}/uFlex2Pos.pas ${pascal}/uFlx2Pos.pas
