@@ -17,7 +17,7 @@ from typing import Any
 from . import _core
 from ._time import ticks_of
 from .errors import BadInput, NoSuchName, Refused, Timeout
-from .registers import Register
+from .registers import MappedCard, Register
 
 
 class Channel:
@@ -43,32 +43,22 @@ class Channel:
     def __dir__(self) -> list[str]:
         start = self._name + "."
         values = [value[len(start) :] for value in self._card._about["values"] if value.startswith(start)]
-        return [*(reg["name"] for reg in self._card._about["map"]["registers"] if reg["per_axis"]), *values]
+        return [*(reg["name"] for reg in self._card._map["registers"] if reg["per_axis"]), *values]
 
     def __repr__(self) -> str:
         return f"<channel {self._name} of {self._card.name}>"
 
 
-class Card:
+class Card(MappedCard):
     """One card of a rack. Registers and channels are attributes, by the names of its map; case does not matter."""
 
     def __init__(self, world: _core.World, name: str) -> None:
         about = _core.describe_card(world, name)
-        registers = {str(reg["name"]).lower(): reg for reg in about["map"]["registers"]}
-        for key, value in (
-            ("_world", world),
-            ("_name", name),
-            ("_about", about),
-            ("_registers", registers),
-            ("_driver", None),
-            ("_library", None),
-        ):
-            object.__setattr__(self, key, value)
+        super().__init__(about["map"], _world=world, _name=name, _about=about, _driver=None, _library=None)
 
     _world: _core.World
     _name: str
     _about: dict[str, Any]
-    _registers: dict[str, Any]
     _driver: Any
     _library: _core.Mcx314Library | None
 
@@ -83,21 +73,6 @@ class Card:
     def type(self) -> str:
         """``"mcx314"``, ``"databoard4002"``, ``"ioflex02"``, ``"grating_bus"``, ``"grating_decoder"`` or ``"rtc5"``."""
         return str(self._about["type"])
-
-    @property
-    def title(self) -> str:
-        """What it is, in a line."""
-        return str(self._about["map"]["title"])
-
-    @property
-    def map(self) -> dict[str, Any]:
-        """Everything that is declared of the card: registers, commands, machines (of states) and pins."""
-        return dict(self._about["map"])
-
-    @property
-    def registers(self) -> dict[str, Register]:
-        """All registers by their names."""
-        return {str(reg["name"]): Register(self, reg) for reg in self._about["map"]["registers"]}
 
     @property
     def channels(self) -> dict[str, Channel]:
@@ -179,7 +154,7 @@ class Card:
     @property
     def library(self) -> _core.Mcx314Library:
         """The functions of its source with their own arguments, checked as on a real card
-        (:attr:`LiveCard.library`). Not beside ``driver``. Refused for cards that are no mcx314."""
+        (:attr:`LiveCard.library`). Not beside ``driver``. Refused for cards of other types."""
         if self._library is None:
             if self.type != "mcx314":
                 raise Refused(
@@ -205,18 +180,11 @@ class Card:
         except BadInput as error:
             raise AttributeError(str(error)) from None
 
-    def __setattr__(self, name: str, value: int) -> None:
-        reg = self._registers.get(name.lower())
-        if reg is None:
-            raise AttributeError(f"Card {self._name} has no register {name}; nothing was written.")
-        Register(self, reg).write(value)
+    def _subject(self) -> str:
+        return f"Card {self._name}"
 
     def __dir__(self) -> list[str]:
-        return [
-            *super().__dir__(),
-            *(str(reg["name"]) for reg in self._about["map"]["registers"]),
-            *self._about["channels"],
-        ]
+        return [*super().__dir__(), *self._about["channels"]]
 
     def __repr__(self) -> str:
         return f"<card {self._name}: {self.type}>"

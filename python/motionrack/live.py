@@ -16,11 +16,10 @@ import atexit
 import contextlib
 import weakref
 from types import TracebackType
-from typing import Any
 
 from . import _core
 from .errors import BadInput, Error, Stopped, Timeout
-from .registers import Register
+from .registers import MappedCard, Register
 
 ExceptionKind = type[BaseException]  # a card's own `type` hides Python's
 _open: weakref.WeakSet[LiveCard] = weakref.WeakSet()
@@ -33,7 +32,7 @@ def _close_all() -> None:
             card.close()
 
 
-class LiveCard:
+class LiveCard(MappedCard):
     """A real card: its registers are attributes by the names of its map, in capitals or not; ``library`` has the
     functions of its source.
 
@@ -47,8 +46,6 @@ class LiveCard:
     """
 
     _port: _core.LivePort
-    _about: dict[str, Any]
-    _registers: dict[str, Any]
     _driver: _core.Mcx314 | None
     _library: _core.Mcx314Library | None
     _place: str
@@ -62,24 +59,14 @@ class LiveCard:
         ``,gap_ns=N`` (0 to 10**9). ``type``: only an ``"mcx314"`` has a map that a real card has, behind registers
         that live ports reach.
 
-        BadInput: what is wrong with place or type. FileTrouble: not there, no permission, too short. Refused: open
+        BadInput: the error in place or type. FileTrouble: not there, no permission, too short. Refused: open
         already, or it would not be reached as it must. Nothing is opened then.
         """
         port = _core.LivePort(place, type)
-        about = port.map()
-        registers = {str(reg["name"]).lower(): reg for reg in about["registers"]}
-        for key, value in (
-            ("_port", port),
-            ("_about", about),
-            ("_registers", registers),
-            ("_driver", None),
-            ("_library", None),
-            ("_place", place),
-        ):
-            object.__setattr__(self, key, value)
+        super().__init__(port.map(), _port=port, _driver=None, _library=None, _place=place)
         _open.add(self)
 
-    # ---- what it is ----
+    # ---- the card ----
 
     @property
     def place(self) -> str:
@@ -89,22 +76,7 @@ class LiveCard:
     @property
     def type(self) -> str:
         """``"mcx314"``."""
-        return str(self._about["name"])
-
-    @property
-    def title(self) -> str:
-        """What it is, in a line."""
-        return str(self._about["title"])
-
-    @property
-    def map(self) -> dict[str, Any]:
-        """Everything that is declared of the card: registers, commands, machines (of states) and pins."""
-        return dict(self._about)
-
-    @property
-    def registers(self) -> dict[str, Register]:
-        """All registers by their names. Those that there are once an axis belong to the axis of the last command."""
-        return {str(reg["name"]): Register(self, reg) for reg in self._about["registers"]}
+        return str(self._map["name"])
 
     @property
     def seconds(self) -> float:
@@ -116,7 +88,7 @@ class LiveCard:
     @property
     def library(self) -> _core.Mcx314Library:
         """The functions of the card's source under their names, each with the arguments, ranges and sentences of its
-        declaration. It takes the card for what it is after ``RESET()``. Refused beside ``driver``, and once the card
+        declaration. It takes the card to be as after ``RESET()``. Refused beside ``driver``, and once the card
         was closed."""
         if self._library is None:
             object.__setattr__(self, "_library", _core.Mcx314Library.of_live_port(self._port))
@@ -140,7 +112,7 @@ class LiveCard:
         self._port.quick_stop()
 
     def reset_stop(self) -> None:
-        """A stop does not hold any more. Nothing moves by that, and what was driven is not driven to its end."""
+        """A stop does not hold any more. Nothing moves by that, and no drive that it ended goes on."""
         self._port.reset_stop()
 
     @property
@@ -209,17 +181,11 @@ class LiveCard:
             raise AttributeError(name)
         reg = self._registers.get(name.lower())
         if reg is None:
-            raise AttributeError(f"The {self.type} has no register {name}.")
+            raise AttributeError(f"{self._subject()} has no register {name}.")
         return Register(self, reg)
 
-    def __setattr__(self, name: str, value: int) -> None:
-        reg = self._registers.get(name.lower())
-        if reg is None:
-            raise AttributeError(f"The {self.type} has no register {name}; nothing was written.")
-        Register(self, reg).write(value)
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(str(reg["name"]) for reg in self._about["registers"])]
+    def _subject(self) -> str:
+        return f"The {self.type}"
 
     def __repr__(self) -> str:
         state = "closed" if self.closed else "stopped" if self.stopped else "open"

@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Any
 
 from .errors import BadInput, Refused
-
-
-class _Bus(Protocol):
-    """A card with accesses by offset, and a look at what a register holds."""
-
-    def peek(self, name: str) -> int:
-        ...
-
-    def read(self, offset: int, bits: int = 16) -> int:
-        ...
-
-    def write(self, offset: int, value: int, bits: int = 16) -> None:
-        ...
 
 
 def _field(reg: Mapping[str, Any], name: str) -> tuple[str, int, str]:
@@ -75,7 +63,7 @@ class Register:
 
     __slots__ = ("_card", "_reg", "_name")
 
-    def __init__(self, card: _Bus, reg: Mapping[str, Any], channel: str = "") -> None:
+    def __init__(self, card: MappedCard, reg: Mapping[str, Any], channel: str = "") -> None:
         self._card = card
         self._reg = reg
         self._name = f"{channel}.{reg['name']}" if channel else str(reg["name"])
@@ -172,3 +160,56 @@ class Register:
             return f"<{self.peek()!r}: {self.meaning}>"
         except BadInput:
             return f"<{self._name}: {self.meaning}>"
+
+
+class MappedCard(ABC):
+    """The registers of a card as attributes, by the names of its map; case does not matter."""
+
+    _map: Mapping[str, Any]
+    _registers: dict[str, Any]
+
+    def __init__(self, declared: Mapping[str, Any], **own: Any) -> None:
+        registers = {str(reg["name"]).lower(): reg for reg in declared["registers"]}
+        for key, value in {"_map": declared, "_registers": registers, **own}.items():
+            object.__setattr__(self, key, value)  # a plain assignment writes a register
+
+    @property
+    def title(self) -> str:
+        """What it is, in a line."""
+        return str(self._map["title"])
+
+    @property
+    def map(self) -> dict[str, Any]:
+        """Everything that is declared of the card: registers, commands, machines (of states) and pins."""
+        return dict(self._map)
+
+    @property
+    def registers(self) -> dict[str, Register]:
+        """All registers by their names. Behind a live port those that exist once an axis belong to the axis of the
+        last command."""
+        return {str(reg["name"]): Register(self, reg) for reg in self._map["registers"]}
+
+    @abstractmethod
+    def peek(self, name: str) -> int:
+        """A register by its name, without any effect."""
+
+    @abstractmethod
+    def read(self, offset: int, bits: int = 16) -> int:
+        """One access, with all effects."""
+
+    @abstractmethod
+    def write(self, offset: int, value: int, bits: int = 16) -> None:
+        """One access, with all effects."""
+
+    @abstractmethod
+    def _subject(self) -> str:
+        """The card at the begin of a sentence."""
+
+    def __setattr__(self, name: str, value: int) -> None:
+        reg = self._registers.get(name.lower())
+        if reg is None:
+            raise AttributeError(f"{self._subject()} has no register {name}; nothing was written.")
+        Register(self, reg).write(value)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(str(reg["name"]) for reg in self._map["registers"])]
