@@ -1,4 +1,4 @@
-// What calls from Python run on: a rack in virtual time, or a real card in the computer's. One thread at a time.
+// The host of calls from Python: a rack in virtual time, or a real card in the computer's. One thread at a time.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ class Host {
     virtual Instant now() = 0;
     /// Before a call that may move something. Throws a refusal where none is taken now.
     virtual void check_call() const {}
-    /// After one, with Python's lock; what ended it early is over, where nothing says otherwise. May throw.
+    /// After one, with Python's lock: a stop that ended it is over, unless a host keeps it. May throw.
     virtual void end_call() { stop_ = false; }
 
     /// Ends what runs; any thread may.

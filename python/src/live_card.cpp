@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/register_view.hpp>
 #include <python/src/live_card.hpp>
@@ -67,32 +66,14 @@ void LiveCard::end_call() {
     check_trouble();
 }
 
-template <class Act>
-void LiveCard::when_free(Act act) {
-    const std::thread::id me = std::this_thread::get_id();
-    std::thread::id nobody{};
-    {
-        const py::gil_scoped_release free;
-        while (!owner.compare_exchange_weak(nobody, me)) {
-            nobody = {};
-            std::this_thread::sleep_for(std::chrono::microseconds(100));
-        }
-    }
-    struct Given {
-        Host& host;
-        ~Given() { host.owner = std::thread::id{}; }
-    } const given{*this};
-    if (!closed()) act();
-}
-
 void LiveCard::quick_stop() {
     if (closed()) return;
     stop();
     if (owner.load() == std::this_thread::get_id()) return;  // in a handler of a signal: the call ends with the stop
-    when_free([this] {
-        stops_.stop();
-        check_trouble();
-    });
+    const Turn turn(*this, Turn::For::stopping);
+    if (closed()) return;
+    stops_.stop();
+    check_trouble();
 }
 
 void LiveCard::close() {
@@ -101,12 +82,12 @@ void LiveCard::close() {
         refuse(fmt::format("The card at {} is in the middle of a call. Nothing was closed. Stop it by quick_stop().",
                            place_));
     stop();
-    when_free([this] {
-        stops_.stop();
-        const std::optional<Error> trouble = port_->trouble();
-        port_.reset();
-        if (trouble) raise(*trouble);
-    });
+    const Turn turn(*this, Turn::For::stopping);
+    if (closed()) return;
+    stops_.stop();
+    const std::optional<Error> trouble = port_->trouble();
+    port_.reset();
+    if (trouble) raise(*trouble);
 }
 
 // ---- drivers

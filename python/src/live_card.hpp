@@ -30,20 +30,22 @@ class LiveCard final : public Host {
     const CardMap& map() const { return map_; }
     /// Since it was opened. Throws a refusal once it was closed.
     Instant now() override { return open_port().now(); }
-    /// Throws a refusal once it was closed, and what says of a stop.
+    /// Throws a refusal once it was closed, the error of the port, and stopped while a stop holds.
     void check_call() const override;
-    /// Writes the stop, where there is one, and throws what the computer has refused.
+    /// Writes the stop, where there is one. Throws io where the computer refused an access.
     void end_call() override;
 
-    /// All axes end their pulses, at once, and so does a call of another thread. Throws what the computer refuses.
+    /// All axes end their pulses, at once, and so does a call of another thread. Throws io where the computer refuses
+    /// the write.
     void quick_stop();
     void reset_stop() { stop_ = false; }
-    /// Stops all axes and lets the card go, for other programs too. Throws what the computer refuses; closed it is.
+    /// Stops all axes and lets the card go, for other programs too. Throws io where the stop could not be written; it
+    /// is closed all the same.
     void close();
     bool closed() const { return port_ == nullptr; }
 
-    /// What a driver gets: its writes end with a stop. Once: a second driver would not know what the first has set.
-    /// Throws a refusal.
+    /// The registers of a driver, whose writes end with a stop. Once: a second driver would not know the settings of
+    /// the first. Throws a refusal.
     void claim(const std::string& driver);
     RegisterPort& registers() { return guarded_; }
     Interrupt& interrupt() { return stops_; }
@@ -51,7 +53,7 @@ class LiveCard final : public Host {
     /// Accesses by hand, at the offset of a register that can be read or written. Throw bad_input.
     std::uint16_t read(std::uint32_t offset);
     void write(std::uint32_t offset, std::int64_t value);
-    /// What all registers show, in words; writes WR0, with NOP and read commands, also while a stop holds.
+    /// All registers, in words; writes WR0, with NOP and read commands, also while a stop holds.
     std::string view(bool clearing);
     /// Throws a refusal where the port has no interrupt.
     bool wait_interrupt(Duration timeout);
@@ -84,9 +86,6 @@ class LiveCard final : public Host {
     live::Port& open_port() const;
     void check_trouble() const;
     void check_offset(std::uint32_t offset, bool written) const;
-    /// Waits for the call of another thread, which a stop ends, and has the card for `act`.
-    template <class Act>
-    void when_free(Act act);
 
     std::string place_;
     const CardMap& map_;

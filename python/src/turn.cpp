@@ -21,14 +21,25 @@ std::vector<std::pair<const Host*, py::error_already_set>>& raised_meanwhile() {
 
 Turn::Turn(Host& host, For what) : host_(host) {
     const std::thread::id me = std::this_thread::get_id();
-    std::thread::id nobody{};
-    if (host_.owner.compare_exchange_strong(nobody, me)) {
+    std::thread::id now{};
+    if (host_.owner.compare_exchange_strong(now, me)) {
         mine_ = true;
         return;
     }
-    if (nobody != me) refuse("Another thread is using this rack or card. Nothing was done. One thread at a time.");
+    if (what == For::stopping) {
+        wait(me);
+        return;
+    }
+    if (now != me) refuse("Another thread is using this rack or card. Nothing was done. One thread at a time.");
     if (what == For::moving)
         refuse("The rack or card is in the middle of a run. Nothing was done. A progress call may look, not move.");
+}
+
+void Turn::wait(std::thread::id me) {
+    const py::gil_scoped_release free;
+    for (std::thread::id none{}; !host_.owner.compare_exchange_weak(none, me); none = {})
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    mine_ = true;
 }
 
 Turn::~Turn() {
@@ -79,7 +90,7 @@ void end_call(Host& host) {
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
         try {
             host.end_call();
-        } catch (const Raised&) {  // what the next call says, too
+        } catch (const Raised&) {  // the next call raises it again
         }
         throw error;
     }

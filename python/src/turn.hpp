@@ -19,13 +19,16 @@ namespace py = pybind11;
 /// one is in the middle of a run (a progress call); there it may only look.
 class Turn {
   public:
-    enum class For : std::uint8_t { looking, moving };
+    /// stopping: waits for the call of another thread, which the stop ends; not from within a call of this thread.
+    enum class For : std::uint8_t { looking, moving, stopping };
     Turn(Host& host, For what);
     ~Turn();
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
 
   private:
+    void wait(std::thread::id me);
+
     Host& host_;
     bool mine_ = false;
 };
@@ -46,7 +49,7 @@ auto looking(World& world, Call call) {
 /// Asks Python whether a signal came (Ctrl-C), now and then; without Python's lock.
 class SignalLook {
   public:
-    /// Stops the host where one did, and what Python made of it goes on when the run has ended.
+    /// Stops the host where one did; its exception goes on when the run has ended.
     void look(Host& host);
 
   private:
@@ -56,7 +59,7 @@ class SignalLook {
 void attend(World& world);
 /// What Python raised ends the run, and goes on when it has ended. With Python's lock.
 void stop_because(Host& host, py::error_already_set error);
-/// Ends the call and throws what Python raised while it ran.
+/// Ends the call and throws the exception that Python raised while it ran.
 void end_call(Host& host);
 
 /// Whole ticks of 100 ps from Python.
@@ -103,7 +106,7 @@ auto alone(Host& host, Call call, Duration timeout) {
     }
 }
 
-/// What a driver's card is in: a rack, where not said otherwise.
+/// The host of a driver: a rack, unless specialised.
 template <class Driver>
 struct HostOf {
     using type = World;
