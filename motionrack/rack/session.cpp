@@ -36,20 +36,10 @@ Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text, Pr
 
 // ---- time
 
-namespace {
-
-Result<void> ended(Instant now) {
+Result<void> refuse_time_beyond_end(Instant now) {
     return fail(Trouble::refused,
                 fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Open a new rack.",
                             to_seconds(now), to_seconds(Session::latest)));
-}
-
-}  // namespace
-
-// Calls that a host makes a million times a second ask first: what they need is inlined, the sentence is not.
-Result<void> Session::room_for(Duration time) const {
-    if (now() <= latest - time) return {};
-    return ended(now());
 }
 
 /// `ns` as a time that the rack has left.

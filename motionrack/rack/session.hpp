@@ -43,8 +43,9 @@ struct ProgramReport {
     std::string summary;   ///< as the command line prints it; empty where nothing moved
 };
 
-/// What Session::check_free says.
+// The two refusals of calls that a host makes a million times a second; the checks before them are inlined.
 Result<void> refuse_in_a_call_back();
+Result<void> refuse_time_beyond_end(Instant now);
 
 class Session {
   public:
@@ -138,7 +139,10 @@ class Session {
     Session(const RackConfig& config, Programs programs);
     std::unique_ptr<Job> make_job(Programs programs);
     Instant now() const { return rack_.kernel().now(); }
-    Result<void> room_for(Duration time) const;
+    Result<void> room_for(Duration time) const {
+        if (now() <= latest - time) return {};
+        return refuse_time_beyond_end(now());
+    }
     Result<Duration> time_of(std::uint64_t ns) const;
     void run_to(Instant until);
     void look();
