@@ -54,13 +54,10 @@ Result<void> Library::begin() {
 Result<CallAnswer> Library::call(std::size_t function, std::span<const std::int64_t> values) {
     const functions::FunctionRow& row = rows().at(function);
     MOTIONRACK_ASSERT(values.size() == row.info.arguments.size());
-    Result<CallAnswer> called = row.call(chip_, values);
-    if (!called) {
-        Error error = std::move(called).error();
+    MOTIONRACK_TRY(CallAnswer answer, row.call(chip_, values).map_error([](Error error) {
         error.message = with_own_names(error.message, "");
-        return tl::unexpected<Error>(std::move(error));
-    }
-    CallAnswer answer = *std::move(called);
+        return error;
+    }));
     if (answer.value && answer.text.empty()) answer.text = fmt::format("{} {}", *answer.value, row.info.returns);
     return answer;
 }
