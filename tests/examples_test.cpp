@@ -12,6 +12,7 @@
 #include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
+using motionrack::interrupted;
 using motionrack::Ran;
 using motionrack::run_in;
 using motionrack::text_of;
@@ -196,14 +197,10 @@ TEST(CommandLine, InterruptedItStopsAlongThePathAndKeepsTheReport) {
     const auto folder = std::filesystem::temp_directory_path() / "motionrack_interrupt_test";
     std::filesystem::create_directories(folder);
     std::filesystem::remove(folder / "report.html");
-    // A program that goes on for hours of virtual time; the interrupt comes once it is listened to. Before it becomes
-    // the program, the shell's own copy listens too.
-    const Ran ran =
-        run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; " + std::string(MOTIONRACK_PROGRAM) +
-                        " run long.ngc --stream & job=$!; "
-                        "until grep -q '^Name:.motionrack$' /proc/$job/status && "
-                        "grep -q '^SigCgt:.*[2367abef]$' /proc/$job/status; do sleep 0.01; done; "
-                        "sleep 1; kill -INT $job; wait $job; code=$?; rm -f long.ngc; exit $code");
+    // A program that goes on for hours of virtual time.
+    const Ran ran = run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; " +
+                                    interrupted(MOTIONRACK_PROGRAM " run long.ngc --stream", "1") +
+                                    "; code=$?; rm -f long.ngc; exit $code");
     EXPECT_EQ(ran.code, 130);
     EXPECT_NE(ran.out.find("Stopped on request in line"), std::string::npos) << ran.out;
     EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));

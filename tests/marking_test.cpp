@@ -230,12 +230,16 @@ TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
         "long.toml",
         "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 0.4\n[belt]\nspeed_mm_s = 0.02\n[fly]\nmode "
         "= 'encoder'\n[galvo]\nideal = false\n");
-    // A terminal of its own, so that there is somebody to show progress to, and Ctrl-C once it was shown.
+    // A terminal of its own, where progress is shown, and Ctrl-C once it was.
     const Ran ran = shell(
         "{ for i in $(seq 3000); do grep -qs ' %  marking' seen && break; sleep 0.02; done; printf '\\003'; } | "
         "script -qefc '" MOTIONRACK_PROGRAM " mark long.toml --report r.html' seen > /dev/null");
     EXPECT_EQ(ran.code, 130) << ran.out;
     EXPECT_THAT(text_of(folder / "seen"), AllOf(HasSubstr(" %  marking"), HasSubstr("Stopped; nothing was written.")));
+    EXPECT_FALSE(there("mark.svg") || there("r.html"));
+    const Ran stopped = shell(interrupted(MOTIONRACK_PROGRAM " mark long.toml --report r.html", "0.3"));
+    EXPECT_EQ(stopped.code, 130) << stopped.out;
+    EXPECT_THAT(stopped.out, HasSubstr("Stopped; nothing was written."));
     EXPECT_FALSE(there("mark.svg") || there("r.html"));
 }
 

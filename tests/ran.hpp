@@ -33,6 +33,15 @@ inline Ran run_in(const std::filesystem::path& folder, const std::string& comman
     return ran;
 }
 
+/// For run_in: the command, interrupted once it listens to Ctrl-C and `seconds` later; ends with its exit code. Before
+/// it becomes the program, the shell's own copy listens too.
+inline std::string interrupted(const std::string& command, const std::string& seconds) {
+    return command +
+           " & job=$!; until grep -q '^Name:.motionrack$' /proc/$job/status && "
+           "grep -q '^SigCgt:.*[2367abef]$' /proc/$job/status; do kill -0 $job || break; sleep 0.01; done; sleep " +
+           seconds + "; kill -INT $job; wait $job";
+}
+
 /// A folder for commands that write files.
 class InFolder : public testing::Test {
   protected:
