@@ -1,4 +1,4 @@
-// Two racks of one story, and what they differ in.
+// Two racks of one story, and their first difference.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <tests/environment.hpp>
 #include <utility>
 #include <vector>
@@ -23,16 +24,16 @@ inline std::uint64_t below(Random& random, std::uint64_t end) {
     return random() % end;
 }
 
-/// From `least` to `most`, each order of magnitude as often as another.
-inline std::uint64_t spread(Random& random, double least, double most) {
+/// From `min` to `max`, each order of magnitude as often as another.
+inline std::uint64_t spread(Random& random, double min, double max) {
     const double part = static_cast<double>(below(random, 1'000'001)) * 1e-6;
-    return static_cast<std::uint64_t>(least * std::pow(most / least, part));
+    return static_cast<std::uint64_t>(min * std::pow(max / min, part));
 }
 
 /// The same for each of the racks: one access of the host, a switch, a fault.
 struct Order {
     enum Kind { write, read, wire, fault } kind = write;
-    std::string on;         ///< a card; a wire; what a fault is of
+    std::string on;         ///< a card, a wire, or the part that a fault belongs to
     std::string what = {};  ///< the fault
     int bits = 16;
     std::uint32_t address = 0, value = 0;
@@ -58,7 +59,7 @@ struct Step {
     std::uint64_t ns = 0;  ///< that pass after them
 };
 
-/// A rack file, and what a host and the world do to it.
+/// A rack file, and the orders of a host and of the world around it.
 struct Story {
     std::string text;
     std::vector<Step> steps;
@@ -78,6 +79,8 @@ inline void PrintTo(const Bench& bench, std::ostream* out) {
 std::vector<Bench> benches();
 std::vector<Bench> mcx314_benches();
 
+/// The text of a rack with an MCX314, c1, and its axes X and B; `settings`: lines of the card.
+std::string mcx314_machine(std::string_view settings = "");
 /// Something that is done to a card, perhaps by several accesses. The MCX314 is c1, with the axes X and B.
 Orders anything_to_pulse_chip(Random& random);
 

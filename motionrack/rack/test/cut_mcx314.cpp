@@ -1,4 +1,4 @@
-// What happens to an MCX314: drives, S-curves, paths and home searches on machines of two axes, with faults; and the
+// Orders to an MCX314: drives, S-curves, paths and home searches on machines of two axes, with faults; and the
 // register programs that its chip is compared with its twin by, which reach all of its modes.
 #include <fmt/format.h>
 
@@ -71,7 +71,7 @@ void pattern(Orders& out, Random& random) {
     command(out, 0, 0x34);
 }
 
-/// What only the MCX314As does; the original refuses it.
+/// A search that only the MCX314As makes; the original refuses it.
 void search_home(Orders& out, std::uint64_t axes, Random& random) {
     data(out, axes, 0x60, random());
     data(out, axes, 0x61, from_to(random, 1, 1'000));
@@ -98,27 +98,9 @@ void break_machine(Orders& out, Random& random) {
     out.push_back(fault(what, below(random, 3) == 0 ? "B" : "X"));
 }
 
-std::string machine_text(const char* settings) {
-    return fmt::format(R"([card.c1]
-type = "mcx314"
-{}[axis.X]
-card = "c1"
-channel = "x"
-start_mm = 3
-[axis.X.switches]
-limit_minus_mm = -2
-limit_plus_mm = 5
-home_mm = 1
-[axis.B]
-card = "c1"
-channel = "y"
-)",
-                       settings);
-}
-
 Story on_machine(std::uint64_t seed, const char* settings) {
     Random random(seed);
-    return {machine_text(settings), steps_of(random, 60, &anything_to_pulse_chip)};
+    return {mcx314_machine(settings), steps_of(random, 60, &anything_to_pulse_chip)};
 }
 
 // ---- register programs
@@ -155,7 +137,7 @@ Story register_program(std::uint64_t seed, ChipOptions options) {
     const std::string settings = fmt::format("variant = \"{}\"\nbus = \"{}\"\nbus_access_ns = 0\n",
                                              program.extended() ? "mcx314as" : "mcx314", by_bytes ? "8-bit" : "16-bit");
     Story out;
-    out.text = seed % 2 == 0 ? machine_text(settings.c_str()) : "[card.c1]\ntype = \"mcx314\"\n" + settings;
+    out.text = seed % 2 == 0 ? mcx314_machine(settings) : "[card.c1]\ntype = \"mcx314\"\n" + settings;
     out.steps.emplace_back();
     std::uint64_t now = 0;
     const auto pass_to = [&](std::uint64_t then) {
@@ -173,6 +155,24 @@ Story register_program(std::uint64_t seed, ChipOptions options) {
 }
 
 }  // namespace
+
+std::string mcx314_machine(std::string_view settings) {
+    return fmt::format(R"([card.c1]
+type = "mcx314"
+{}[axis.X]
+card = "c1"
+channel = "x"
+start_mm = 3
+[axis.X.switches]
+limit_minus_mm = -2
+limit_plus_mm = 5
+home_mm = 1
+[axis.B]
+card = "c1"
+channel = "y"
+)",
+                       settings);
+}
 
 Orders anything_to_pulse_chip(Random& random) {
     Orders out;

@@ -1,4 +1,4 @@
-// What happens to each kind of card: of each one thing at a time, drawn at random.
+// Orders to each kind of card, one at a time, drawn at random.
 #include <fmt/format.h>
 
 #include <array>
@@ -95,19 +95,6 @@ counts_per_mm = 100
 [scanner.head]
 card = "s"
 )";
-constexpr const char* mcx314_text = R"([card.c1]
-type = "mcx314"
-[axis.X]
-card = "c1"
-channel = "x"
-[axis.X.switches]
-limit_plus_mm = 301
-home_mm = 1
-[axis.B]
-card = "c1"
-channel = "y"
-)";
-
 template <Orders (*orders)(Random&)>
 std::vector<Step> many(std::uint64_t seed) {
     Random random(seed);
@@ -132,7 +119,7 @@ std::vector<Bench> benches() {
          }},
         {"all_cards",
          [](std::uint64_t seed) {
-             const std::string text = std::string(mcx314_text) + databoard4002_text + ioflex02_text + rtc5_text;
+             const std::string text = mcx314_machine() + databoard4002_text + ioflex02_text + rtc5_text;
              return Story{text, many<&any_of_them>(seed)};
          }},
     };
