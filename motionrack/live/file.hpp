@@ -21,9 +21,9 @@ class File {
     }
     ~File();
     int descriptor() const { return descriptor_; }
-    /// Keeps these bytes from everybody else who asks for them by this file, until it is closed or the process ends,
-    /// however it ends. `named`: how sentences call the file. Errors: refused, another program has them, or this one
-    /// has by another File; io.
+    /// Locks these bytes of the file against other Files that ask for them, in this program or another, until it is
+    /// closed or the process ends, however it ends. `named`: how sentences call the file. Errors: refused, another File
+    /// has them; io.
     Result<void> keep(std::uint64_t from, std::uint64_t length, const std::string& named) const;
 
   private:

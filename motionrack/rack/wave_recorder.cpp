@@ -31,9 +31,9 @@ bool matches(std::string_view pattern, std::string_view text) {
 }
 
 constexpr Duration longest_pulse = microseconds(5);
-/// Of a pulse: its end is told when the next one comes, or when there was time for two; and so is each of the counts of
-/// an encoder that it makes.
-constexpr Duration told_within = 2 * longest_pulse;
+/// The end of a pulse is recorded when the next one comes, or when there was time for two; and so is each of the counts
+/// of an encoder that it makes.
+constexpr Duration recorded_within = 2 * longest_pulse;
 constexpr Duration direction_lead = nanoseconds(250);
 
 }  // namespace
@@ -59,7 +59,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
     }
     /// No pulse has come for long enough: the last one is over.
     void settle(Instant now) {
-        if (!high_ || now - last_ < told_within) return;
+        if (!high_ || now - last_ < recorded_within) return;
         recorder_.push(last_ + longest_pulse, step_, 0);
         high_ = false;
     }
@@ -111,7 +111,7 @@ void WireTap::follow(sim::WireId wire, bool wanted) {
 WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
     : rack_(rack), patterns_(settings.signals), tap_(settings.tap), register_period_(settings.register_period) {
     buffer_.reserve(buffer_size);
-    lag_ = told_within;
+    lag_ = recorded_within;
 }
 
 WaveRecorder::~WaveRecorder() {
@@ -188,7 +188,7 @@ void WaveRecorder::choose_axes() {
                               b = add({name, "enc_b", false, 1, now.b != 0});
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
             const std::int64_t counts = axis.config.encoder_counts_per_rev / axis.config.pulses_per_rev();
-            lag_ = std::max(lag_, (counts + 1) * told_within);
+            lag_ = std::max(lag_, (counts + 1) * recorded_within);
             heard_.emplace_back(axis.encoder_ears.get(), lines_.back().get());
         }
     }
@@ -276,7 +276,7 @@ void WaveRecorder::write_before(Instant end) {
     const auto rest =
         std::partition_point(buffer_.begin(), buffer_.end(), [end](const Event& event) { return event.at < end; });
     for (auto event = buffer_.begin(); event != rest; ++event) {
-        last_ = std::max(last_, event->at);  // behind drain() a pulse's end may be told after a later change
+        last_ = std::max(last_, event->at);  // behind drain() a pulse's end may come after a later change
         sink_->change(event->signal, event->value, last_);
         ++changes_;
     }

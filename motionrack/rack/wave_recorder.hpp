@@ -63,7 +63,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     void look() { look_at_cards(rack_.kernel().now()); }
     /// Between runs: writes what has come together.
     void drain();
-    /// Between runs: the same but for the last microseconds, of which more may be told: the file does not hang on when
+    /// Between runs: the same but for the last microseconds, of which more may come: the file does not depend on when
     /// this is called.
     void drain_settled();
     /// Ends the file and listens no more. Errors: io; it goes on then, so that it can be tried again.
@@ -123,7 +123,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::string> patterns_;
     WireTap* tap_;
     Duration register_period_;
-    Duration lag_{0};  // so much later an edge may be told
+    Duration lag_{0};  // so much later an edge may come
     sim::DeviceId id_{};
     bool is_device_ = false;
     bool recording_ = false;

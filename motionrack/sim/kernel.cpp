@@ -247,8 +247,8 @@ void Kernel::each_piece(Visit visit, std::span<std::byte> (Device::*of)()) {
     for (Slot& slot : devices_) visit((slot.device->*of)());
 }
 
-/// What a snapshot has behind the pieces: the conditions that are kept, in the order of the ring, and the changes of
-/// wires that were made between runs and nobody has heard yet.
+/// The end of a snapshot: the conditions that are kept, in the order of the ring, and the changes of wires that were
+/// made between runs and have not reached their listeners yet.
 std::array<std::span<std::byte>, 2> Kernel::tail() {
     MOTIONRACK_ASSERT(queue_head_ == 0);
     const auto kept = static_cast<std::size_t>(std::min<std::uint64_t>(state_.condition_count, condition_capacity));

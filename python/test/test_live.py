@@ -1,6 +1,6 @@
 """Real cards from Python, with a plain file in the card's place: which words are written, and what stops it.
 
-A file has one word where a card has two, WR0 and RR0. So it shows as its status what was written last: axes seem to
+A file has one word where a card has two, WR0 and RR0. So its status is the word that was written last: axes seem to
 drive after a NOP (0Fh), and a stop shows as 0F27h.
 """
 
@@ -317,7 +317,7 @@ class Stops(OnAFile):
             said, ["Another thread is using this rack or card. Nothing was done. One thread at a time."] * 2
         )
 
-    def test_a_card_that_nobody_has_any_more_is_stopped(self) -> None:
+    def test_a_card_without_a_reference_is_stopped(self) -> None:
         card = LiveCard(self.place)
         card.library.SetV(1, 1)
         del card

@@ -1,5 +1,5 @@
-// What carries the bytes of a connection: TCP, or TLS over TCP. HTTP and WebSockets see one type, whose operations take
-// whatever waits for them as one type too: they are compiled once, and not for each of both.
+// The bytes of a connection, over TCP or over TLS. HTTP and WebSockets see one type, whose operations take handlers as
+// one type too: their templates are compiled once, and not for each of both.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using boost::system::error_code;
 
-/// What is called once, with the end of an operation.
+/// The handler of one operation, called once, with its end.
 class Done {
   public:
     template <class Handler>
@@ -84,7 +84,7 @@ class Transport {
     ~Transport();
 
     bool secure() const;
-    /// What is below TLS, and has the timer.
+    /// The connection below TLS, which has the timer.
     beast::tcp_stream& tcp();
     executor_type get_executor() { return tcp().get_executor(); }
 
@@ -97,7 +97,7 @@ class Transport {
     /// Ends a WebSocket.
     void tear_down(beast::role_type role, Done done);
 
-    // ---- what Beast asks of a stream
+    // ---- the requirements of Beast
     template <class Sequence, class Handler>
     auto async_read_some(const Sequence& into, Handler&& handler) {
         return asio::async_initiate<Handler, void(error_code, std::size_t)>(

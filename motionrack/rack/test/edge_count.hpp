@@ -24,11 +24,11 @@ namespace motionrack::rack {
 
 using Random = std::mt19937_64;
 
-inline std::int64_t drawn(Random& random, std::int64_t least, std::int64_t most) {
-    return least + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(most - least + 1));
+inline std::int64_t drawn(Random& random, std::int64_t min, std::int64_t max) {
+    return min + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(max - min + 1));
 }
 
-/// What two recorded wires are together.
+/// The meaning of two recorded wires together.
 enum class Wires {
     both_ways,         ///< pulses forwards, pulses backwards
     low_is_forwards,   ///< pulses, and their direction by its level

@@ -336,7 +336,7 @@ TEST(Kernel, ASnapshotRestoredOverAWireChangeThatWasNotYetHeardForgetsIt) {
     EXPECT_EQ(kernel.level(a), 0);
 }
 
-TEST(Kernel, ASnapshotHasTheWireChangesThatNobodyHasHeardYet) {
+TEST(Kernel, ASnapshotHasTheWireChangesThatHaveNotReachedTheirListeners) {
     struct World {
         World() {
             kernel.listen(a, kernel.add(ear, Phase::cards, "ear"), 0);

@@ -133,7 +133,7 @@ TEST(Databoard4002Moves, TheRunningMoveKeepsItsTargetAndTable) {
     EXPECT_EQ(rates, expected);
     EXPECT_GT(rates.size(), 23u);
     EXPECT_EQ(host.card.position(), 256'000);
-    // The next one has what was written meanwhile.
+    // The next one has the target and the table that were written meanwhile.
     host.command('G');
     EXPECT_THAT(rates_of_move(host), ElementsAre(-15'000));
     EXPECT_EQ(host.card.position(), 5);

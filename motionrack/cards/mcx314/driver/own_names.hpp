@@ -21,7 +21,7 @@ inline constexpr std::array own_names = {
     OwnName{"SetOutput", "set_output"},
 };
 
-/// A sentence of the Driver for somebody who calls the library; `prefix` stands before each of its names.
+/// A sentence of the Driver with the names of the library, each behind `prefix`.
 inline std::string with_own_names(std::string_view sentence, std::string_view prefix) {
     std::string out(sentence);
     for (const OwnName& name : own_names)

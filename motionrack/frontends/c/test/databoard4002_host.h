@@ -218,7 +218,7 @@ static void store_slope(host* h, const listing* l, unsigned stretch) {
     out_strobe(h, l, C2, 'O');
 }
 
-/* One of the stops in STAT; what is left of STAT. */
+/* One of the stops in STAT; gives the rest of STAT. */
 static uint8_t say_stop(host* h, const listing* l, const char* text, uint8_t status) {
     say(h, text);
     return l->keeps_status ? status : 0;
