@@ -141,17 +141,18 @@ if(MOTIONRACK_TESTS)
 endif()
 
 # motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]
-# [COMPUTES]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those
+# [COMPUTES | COMPUTES_MUCH]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those
 # with the label deep take long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are filters of
 # GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the label fault, those that take
 # long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one state for the
 # whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so that it pays to
-# optimise it.
+# optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts no branches of
+# tests for them, and does not have the deep ones.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "ALONE;COMPUTES" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "ALONE;COMPUTES;COMPUTES_MUCH" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
@@ -163,10 +164,18 @@ function(motionrack_test name)
   endforeach()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} motionrack_source_dir rapidcheck GTest::gmock GTest::gtest_main)
-  if(T_COMPUTES)
+  if(T_COMPUTES_MUCH)
     motionrack_optimise(test_${name} -O1)
+  elseif(T_COMPUTES)
+    motionrack_compile_quickly(test_${name})
   else()
     motionrack_compile_quickly(test_${name} -O0)
+  endif()
+  if(MOTIONRACK_FUZZ)
+    target_compile_options(test_${name} PRIVATE -fno-sanitize=fuzzer-no-link)
+    if("deep" IN_LIST T_LABELS)
+      set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    endif()
   endif()
   set_target_properties(test_${name} PROPERTIES MOTIONRACK_SHADOW ${local_shadow})
   if(T_ALONE)
