@@ -1,6 +1,7 @@
 // Plans that go on from a motion: further, slower, to a stand.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <motionrack/control/ride/parts.hpp>
 #include <motionrack/control/ride/rider.hpp>
 
@@ -18,9 +19,23 @@ constexpr double above_plan = 1.003;
 /// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by
 /// this much more.
 constexpr double faster = 1.01, most_ease = 16, ease_grows = 1.3;
+/// A speed below this part of another is slower, and not only rounded.
+constexpr double slower = 0.99;
 
 FeedStart start_of(const FeedState& along) {
     return {along.speed * along.speed, 2 * along.accel};
+}
+
+/// Whether it becomes faster once it has slowed down.
+bool speeds_up_again(std::span<const FeedPiece> feed) {
+    double greatest = 0, lowest = std::numeric_limits<double>::infinity();  // lowest: since it slows down
+    for (const FeedPiece& piece : feed) {
+        const double speed = piece.last().speed;
+        greatest = std::max({greatest, piece.at(0).speed, speed});
+        if (speed < slower * greatest) lowest = std::min(lowest, speed);
+        if (slower * speed > lowest) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -134,6 +149,8 @@ std::optional<double> Rider::find_stop(const Spot& from) {
         (plan_to(nearer) ? distance : too_near) = nearer;
     }
     if (planned != distance && !plan_to(distance)) return std::nullopt;
+    // Behind a narrow place that it passes as slowly anyway a stop is found when it is nearer.
+    if (speeds_up_again(planner_.feed())) return std::nullopt;
     return begin + distance;
 }
 
@@ -181,8 +198,8 @@ Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop)
         if (speed > 0) out.use.back().jerk_share = now_.use[i].jerk_share;
         at = to;
     };
-    const auto slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
-    const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
+    const auto is_slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
+    const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), is_slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
         const double speed = faster * stop[std::max(k, fastest)].at(0).speed,
                      to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);

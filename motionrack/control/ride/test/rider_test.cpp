@@ -168,6 +168,43 @@ TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
     }
 }
 
+/// Whatever comes on its way to where it stands: corners, bends, the end of what is known. Where a leg has begun before
+/// the one before it has ended, both are driven as planned until that one ends.
+TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        std::mt19937 random(seed);
+        const std::vector<Move> moves = program(random);
+        const double whole = ride_test::seconds_of_ride(moves, machine());
+        for (int holds = 0; holds < 10; ++holds) {
+            const double when = whole * std::uniform_real_distribution<>(0, 1)(random);
+            SCOPED_TRACE(::testing::Message() << "seed " << seed << ", held at " << when << " s");
+            Driven driven(moves, {64});
+            while (driven.now < when && driven.step(0.001, true)) {
+            }
+            driven.rider.hold();
+            double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it slows down
+            while (driven.rider.next(true) == RideNext::motion) {
+                const RideState before = driven.last;
+                const double at = driven.now;
+                driven.step(0.001, true);
+                const double way = driven.last.u - before.u;
+                if (driven.now - at < 0.0005) continue;  // too short to tell a speed
+                if (at - when < 0.02 || way < 0) {       // not heard yet, or on the next leg
+                    greatest = 0, lowest = 1e9;
+                    continue;
+                }
+                const double speed = way / (driven.now - at);
+                greatest = std::max(greatest, speed);
+                if (speed < 0.98 * greatest) lowest = std::min(lowest, speed);
+                rise = std::max(rise, speed - 1.05 * lowest);
+            }
+            EXPECT_LT(rise, 0.1);
+            EXPECT_LT(driven.now - when, 1);
+            expect_limits(driven);
+        }
+    }
+}
+
 /// So that a stretch may grow while the next one's beginning is planned already.
 TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
     for (unsigned seed = 0; seed < 200; ++seed) {
