@@ -175,6 +175,20 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
     EXPECT_TRUE(slow.outcome.position_trusted) << "1 mm/s is below its start speed";
 }
 
+/// While the chip brakes, what waits behind the line must not have its way with the acceleration.
+TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
+    std::string slow_y = stop_axes;
+    slow_y.replace(slow_y.find("channel = \"y\""), 13, "channel = \"y\"\nmax_accel_mm_s2 = 500\nmax_speed_mm_s = 50");
+    for (const char* when : {"0.2s", "0.4s", "0.6s", "0.8s"}) {
+        const StoppedRun ran =
+            run_stopped(slow_y, "G0 Y40\nG1 X20 Y41 F1200\nG0 X60\nM2\n", {std::string("X.limit_plus=0@") + when});
+        ASSERT_FALSE(ran.outcome.ended) << when;
+        EXPECT_THAT(ran.error(), HasSubstr("in line 1")) << when;
+        EXPECT_LE(ran.outcome.axes[1].top.top_accel, 500) << when;
+        EXPECT_TRUE(ran.outcome.position_trusted) << when;
+    }
+}
+
 TEST(AStop, OfABrokenWireOfACardComesFromItsInput) {
     const std::string program = "G21 G90\nG1 X2000 F12000\nM2\n";
     const StoppedRun behind = run_stopped(carriage(), program, {"board.esl.broken@2s"});

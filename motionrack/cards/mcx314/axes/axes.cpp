@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/axes/set_up.hpp>
@@ -16,12 +17,23 @@ namespace {
 constexpr double both_axes_factor = 1 + both_axes_extra;
 constexpr Duration joint_timeout = whole_seconds(3600);
 constexpr Duration brake_look = microseconds(5);  // less than any piece takes
+constexpr std::int64_t pulses_past_joint = 16;    // more than are driven until it is looked at
 
 /// True if the line is active. A wish to stop ends each wait at once, so that braking axes are looked at now and then.
 bool wait_for_interrupt(Interrupt& host, bool brakes) {
     if (!brakes) return host.wait(joint_timeout);
     host.pass(brake_look);
     return false;
+}
+
+/// The queue has room behind a joint, and where a switch ahead of an axis has the chip brake within its segment: it
+/// drops the queued one then. No speed of that may be written while it brakes.
+bool are_at(Driver& driver, const Pulses4& joint, int companion) {
+    for (int c = 0; c < channel_count; ++c) {
+        if (c == companion) continue;
+        if (std::llabs(joint[static_cast<std::size_t>(c)] - driver.ReadLPS(c)) > pulses_past_joint) return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -171,6 +183,7 @@ Result<void> Axes::wait_for_joint(const Segment& queued) {
     for (bool first = true;; first = false) {
         const MainStatus status = driver_.status();
         if (status.can_queue()) {
+            if (status.error(xyzu) && !are_at(driver_, expected_, companion_)) return stopped_by_machine();
             // What is driven at once may have begun from rest: the chip may have stood when the last word came.
             if (first && (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) != 0) tell_late(queued);
             return {};
