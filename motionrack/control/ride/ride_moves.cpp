@@ -181,6 +181,7 @@ double RideMoves::off_whole_pulses(const Point& begin, const Point& end) const {
     return off;
 }
 
+/// On a short way corners may lie on both sides of its middle.
 RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seconds) const {
     const RideState middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
     const Point way = between(begin.place, end.place), gone = between(begin.place, middle.place);
@@ -196,13 +197,25 @@ RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seco
     for (std::size_t i = 0; i < way.size(); ++i) {
         if (!limits_[i].present) continue;
         const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].start_speed;
-        const double beside = std::fabs(gone[i] - along * per_square * way[i]),
-                     ahead = std::fabs((along - even) * per_square * way[i]);
-        out.off = std::max({out.off, beside * pulses, ahead * pulses});
+        out.off = std::max(out.off, std::fabs((along - even) * per_square * way[i]) * pulses);
         out.turn = std::max({out.turn, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
         if (way[i] != 0) out.half_pulse = std::max(out.half_pulse, 0.5 / (pulses * seconds * jump));
     }
+    out.off = std::max(out.off, beside(way, per_square, gone));
+    for (const double part : {0.25, 0.75})
+        if (out.off <= off_pulses)
+            out.off = std::max(out.off, beside(way, per_square, between(begin.place, rider_.at(part * seconds).place)));
     return out;
+}
+
+/// Pulses of an axis, at most, by which what is `gone` is beside the straight way.
+double RideMoves::beside(const Point& way, double per_square, const Point& gone) const {
+    double along = 0, most = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) along += way[i] * gone[i];
+    for (std::size_t i = 0; i < way.size(); ++i)
+        if (limits_[i].present)
+            most = std::max(most, std::fabs(gone[i] - along * per_square * way[i]) * limits_[i].pulses_per_unit);
+    return most;
 }
 
 }  // namespace motionrack::control

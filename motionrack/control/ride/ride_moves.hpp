@@ -55,6 +55,7 @@ class RideMoves final : public PathPlanner {
     double near_whole_pulses(const RideState& begin, double seconds) const;
     double off_whole_pulses(const Point& begin, const Point& end) const;
     Roughness roughness_of(const RideState& begin, double seconds) const;
+    double beside(const Point& way, double per_square, const Point& gone) const;
 
     MachineLimits limits_;
     PathLimits path_limits_;

@@ -6,6 +6,7 @@
 #include <motionrack/control/curve/test/curve_support.hpp>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/ride/ride_moves.hpp>
+#include <random>
 #include <vector>
 
 namespace motionrack::control {
@@ -58,6 +59,47 @@ TEST(TheMovesOfARide, MeetInPlaceAndSpeedAndBeginAndEndAtRest) {
     }
     EXPECT_EQ(moves.back().move.end, curvy().back().end);
     EXPECT_EQ(moves.back().number, static_cast<std::int64_t>(curvy().size()) - 1);
+}
+
+/// Of the nearest place on the moves.
+double distance_to(const std::vector<PlannedMove>& moves, const Point& place) {
+    double nearest = 1e9;
+    for (const PlannedMove& move : moves) {
+        double square = 0, along = 0, off = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double way = move.move.end[i] - move.start[i];
+            square += way * way;
+            along += way * (place[i] - move.start[i]);
+        }
+        const double part = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double beside = move.start[i] + part * (move.move.end[i] - move.start[i]) - place[i];
+            off += beside * beside;
+        }
+        nearest = std::min(nearest, std::sqrt(off));
+    }
+    return nearest;
+}
+
+/// A slow ride has corners within a move's time.
+TEST(TheMovesOfARide, PassNoCornerByMoreThanItsToleranceAndAPulse) {
+    constexpr double tolerance = 0.002;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        std::mt19937 random(seed);
+        const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+        std::vector<Move> program;
+        Point place = {};
+        for (int i = 0; i < 60; ++i) {
+            place[0] += between(0.01, 0.1);
+            place[2] += between(-0.01, 0.01);
+            program.push_back(line_to(place, tolerance));
+            program.back().feed = 2;
+        }
+        const std::vector<PlannedMove> moves = moves_of(program);
+        double worst = 0;
+        for (const Move& move : program) worst = std::max(worst, distance_to(moves, move.end));
+        EXPECT_LT(worst, tolerance + 1 / curve_test::pulses) << "seed " << seed;
+    }
 }
 
 TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
