@@ -73,5 +73,28 @@ TEST_F(AServedProcess, IsNotStartedWithAJournalThatOthersMayWriteOrReplace) {
     EXPECT_FALSE(std::filesystem::exists(folder / "open/rack.journal"));
 }
 
+TEST_F(AServedProcess, IsNotStartedWithARealCardThatCannotBeServed) {
+    write("two.toml",
+          "[card.m]\ntype = \"mcx314\"\n[card.bench]\ntype = \"mcx314\"\n"
+          "[axis.X]\ncard = \"m\"\nchannel = \"x\"\n");
+    struct Bad {
+        const char* options;
+        int code;
+        const char* says;
+    };
+    for (const auto& [options, code, says] :
+         {Bad{"--free --live bench=port:/dev/zero", 3,
+              "the rack's clock is 'free' with factor 1. Nothing was started."},
+          Bad{"--paused --live bench=port:/dev/zero", 3, "the rack's clock is 'paused'"},
+          Bad{"--speed 2 --live bench=port:/dev/zero", 3, "the rack's clock is 'real' with factor 2"},
+          Bad{"--live m=port:/dev/zero", 3, "Card m moves X of the machine"},
+          Bad{"--live other=port:/dev/zero", 2, "its cards are: m, bench"},
+          Bad{"--live bench", 2, "does not say which card is where"}}) {
+        const Ran ran = motionrack("serve two.toml --port 0 --users users.json " + std::string(options));
+        EXPECT_EQ(ran.code, code) << options;
+        EXPECT_THAT(ran.out, HasSubstr(says));
+    }
+}
+
 }  // namespace
 }  // namespace motionrack

@@ -1,4 +1,4 @@
-// `motionrack serve` as a process of its own, with one connection to it.
+// `motionrack serve` as a process of its own, with connections to it.
 #pragma once
 
 #include <arpa/inet.h>
@@ -18,8 +18,72 @@
 
 namespace motionrack {
 
+/// One connection to a served rack.
+class ServedLink {
+  public:
+    explicit ServedLink(int port = 0) {
+        if (port != 0) connect(port);
+    }
+    ~ServedLink() { close(); }
+    ServedLink(const ServedLink&) = delete;
+    ServedLink& operator=(const ServedLink&) = delete;
+
+    void close() {
+        if (socket_ >= 0) ::close(std::exchange(socket_, -1));
+    }
+    bool send(const std::string& method, const std::string& name, const std::string& body) const {
+        const std::string text =
+            method + " /api/" + name + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
+            "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+        return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+    }
+    /// The body of the next answer; discarded if the server is gone.
+    nlohmann::json answer() {
+        std::string text;
+        for (char c; text.size() < 4 || text.compare(text.size() - 4, 4, "\r\n\r\n") != 0; text += c)
+            if (::recv(socket_, &c, 1, 0) != 1) return nlohmann::json(nlohmann::json::value_t::discarded);
+        const std::size_t at = text.find("Content-Length: ");
+        std::string body(at == std::string::npos ? 0 : std::stoul(text.substr(at + 16)), '\0');
+        if (::recv(socket_, body.data(), body.size(), MSG_WAITALL) != static_cast<ssize_t>(body.size()))
+            return nlohmann::json(nlohmann::json::value_t::discarded);
+        if (text.find("Connection: close") != std::string::npos) {  // as after a STOP
+            close();
+            connect(port_);
+        }
+        return nlohmann::json::parse(body, nullptr, false);
+    }
+    nlohmann::json post(const std::string& name, const nlohmann::json& fields = nlohmann::json::object()) {
+        return send("POST", name, fields.dump()) ? answer() : nlohmann::json(nlohmann::json::value_t::discarded);
+    }
+    /// A query, as "card?name=motion".
+    nlohmann::json get(const std::string& query) {
+        return send("GET", query, "") ? answer() : nlohmann::json(nlohmann::json::value_t::discarded);
+    }
+    nlohmann::json status() {
+        const nlohmann::json all = get("status");
+        return all.is_object() ? all.value("status", nlohmann::json()) : nlohmann::json();
+    }
+    int port() const { return port_; }  ///< 0: it is not connected
+
+  protected:
+    void connect(int port) {
+        port_ = port;
+        socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(static_cast<std::uint16_t>(port_));
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const timeval half_a_minute{30, 0};
+        ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &half_a_minute, sizeof half_a_minute);
+        EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    }
+
+  private:
+    int socket_ = -1, port_ = 0;
+};
+
 /// `motionrack serve`, until it is killed.
-class Served {
+class Served : public ServedLink {
   public:
     explicit Served(const std::vector<std::string>& arguments, bool must_start = true) {
         int ends[2];
@@ -40,8 +104,8 @@ class Served {
         output_ = ends[0];
         read_until("Ctrl-C");
         const std::size_t at = said.find("http://127.0.0.1:");
-        if (at != std::string::npos) port_ = std::stoi(said.substr(at + 17));
-        if (port_ != 0 || must_start) connect();
+        const int port = at == std::string::npos ? 0 : std::stoi(said.substr(at + 17));
+        if (port != 0 || must_start) connect(port);
     }
     ~Served() { end(SIGKILL); }
     Served(const Served&) = delete;
@@ -54,36 +118,10 @@ class Served {
         int status = 0;
         ::waitpid(child_, &status, 0);
         child_ = 0;
-        ::close(socket_);
+        close();
         if (output_ >= 0) ::close(output_);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
-    bool send(const std::string& method, const std::string& name, const std::string& body) const {
-        const std::string text =
-            method + " /api/" + name + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
-            "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
-        return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
-    }
-    /// The body of the next answer; discarded if the server is gone.
-    nlohmann::json answer() {
-        std::string text;
-        for (char c; text.size() < 4 || text.compare(text.size() - 4, 4, "\r\n\r\n") != 0; text += c)
-            if (::recv(socket_, &c, 1, 0) != 1) return nlohmann::json(nlohmann::json::value_t::discarded);
-        const std::size_t at = text.find("Content-Length: ");
-        std::string body(at == std::string::npos ? 0 : std::stoul(text.substr(at + 16)), '\0');
-        if (::recv(socket_, body.data(), body.size(), MSG_WAITALL) != static_cast<ssize_t>(body.size()))
-            return nlohmann::json(nlohmann::json::value_t::discarded);
-        return nlohmann::json::parse(body, nullptr, false);
-    }
-    nlohmann::json post(const std::string& name, const nlohmann::json& fields = nlohmann::json::object()) {
-        return send("POST", name, fields.dump()) ? answer() : nlohmann::json(nlohmann::json::value_t::discarded);
-    }
-    nlohmann::json status() {
-        const nlohmann::json all =
-            send("GET", "status", "") ? answer() : nlohmann::json(nlohmann::json::value_t::discarded);
-        return all.is_object() ? all.value("status", nlohmann::json()) : nlohmann::json();
-    }
-
     /// From now on its output stands: the pipe is full.
     void fill_output() const {
         const int in = ::open(("/proc/self/fd/" + std::to_string(output_)).c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
@@ -95,7 +133,6 @@ class Served {
     /// Nothing reads its output any more.
     void close_output() { ::close(std::exchange(output_, -1)); }
     pid_t process() const { return child_; }
-    int port() const { return port_; }  ///< 0: it did not start
 
     std::string said;
 
@@ -103,19 +140,8 @@ class Served {
     void read_until(const std::string& word) {
         for (char c; said.find(word) == std::string::npos && ::read(output_, &c, 1) == 1;) said += c;
     }
-    void connect() {
-        socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port_));
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        const timeval half_a_minute{30, 0};
-        ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &half_a_minute, sizeof half_a_minute);
-        EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0) << said;
-    }
-
     pid_t child_ = 0;
-    int output_ = -1, socket_ = -1, port_ = 0;
+    int output_ = -1;
 };
 
 }  // namespace motionrack

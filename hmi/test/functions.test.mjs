@@ -1,30 +1,10 @@
 // The functions of a card's library from the page: the service, a form, its answers, and STOP while a function waits.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { answered, call, choose, panel } from './library.mjs';
 import { named, openTab, picture, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
 
 const all = suite(test);
-
-const panel = (tab) => tab.page.getByRole('region', { name: 'Functions of its library' });
-const calls = (tab) => panel(tab).getByRole('log', { name: 'Calls' });
-
-async function choose(tab, name) {
-  await panel(tab).getByLabel('Search functions').fill(name);
-  await panel(tab)
-    .getByRole('region', { name: 'List of functions' })
-    .getByRole('button', { name, exact: true })
-    .click();
-  await panel(tab).getByRole('form', { name, exact: true }).waitFor();
-}
-async function call(tab, name, texts = {}) {
-  await choose(tab, name);
-  for (const [label, text] of Object.entries(texts))
-    await panel(tab).getByLabel(label, { exact: true }).fill(String(text));
-  await panel(tab)
-    .getByRole('button', { name: `Call ${name}`, exact: true })
-    .click();
-}
-const answered = (tab, text) => calls(tab).getByText(text).first().waitFor();
 
 test('functions are called in the service of the card, and STOP ends one that waits', async () => {
   const tab = await openTab(all.browser, all.server);

@@ -9,15 +9,24 @@ import { chromium } from 'playwright-core';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const BUILD = process.env.MOTIONRACK_BUILD ?? join(here, '../../build/release');
+const PROGRAM = join(BUILD, 'bin/motionrack');
+/** Serves a virtual card to a program in the place of a real one; there where the tests of the tree are built. */
+export const LIVE_SERVER = join(BUILD, 'tests/live/live_server');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 export const PICTURES = join(BUILD, 'pictures');
-/** Four axes whose positions are known at once; all kinds of card. */
-export const RACKS = { axes: join(here, 'rack.toml'), all: join(here, '../../examples/15_panel/demonstration.toml') };
+/** Four axes whose positions are known at once; all kinds of card; an axis, and a card without one. */
+export const RACKS = {
+  axes: join(here, 'rack.toml'),
+  all: join(here, '../../examples/15_panel/demonstration.toml'),
+  bench: join(here, 'bench.toml'),
+};
 
-/** Runs `motionrack serve`. Without pairing whoever comes may do everything. */
-export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
+/** Runs `motionrack serve`. Without pairing whoever comes may do everything. `live`: the card for which a served one
+ * stands, as a real one. */
+export async function startServer(rack = RACKS.axes, { pairing = false, live = '' } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'motionrack-page-'));
-  const program = spawn(join(BUILD, 'bin/motionrack'), [
+  const command = [
+    PROGRAM,
     'serve',
     rack,
     '--port',
@@ -27,7 +36,9 @@ export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
     '--users',
     join(folder, 'users.json'),
     ...(pairing ? [] : ['--no-pairing']),
-  ]);
+  ];
+  const served = ['port', '--real-time', '/bin/sh', '-c', `exec "$0" "$@" --live "${live}=$MOTIONRACK_LIVE_PORT"`];
+  const program = live === '' ? spawn(command[0], command.slice(1)) : spawn(LIVE_SERVER, [...served, ...command]);
   process.once('exit', () => program.kill());
   let said = '';
   program.stderr.on('data', (text) => (said += text));

@@ -81,6 +81,7 @@ Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
 Machine::~Machine() = default;
 
 Result<std::unique_ptr<Machine>> Machine::make(const rack::RackConfig& config, MachineSettings settings) {
+    MOTIONRACK_CHECK(check_live_places(config, settings.live));
     std::unique_ptr<Machine> machine(new Machine(config, std::move(settings)));
     MOTIONRACK_CHECK(machine->start(config));
     return machine;

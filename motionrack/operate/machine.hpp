@@ -49,6 +49,7 @@ struct MachineSettings {
     std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
     std::vector<Standing> standing = {};  ///< axes that do not begin where the rack's file says
     std::string alarm = {};               ///< the machine begins with it, if there is one
+    std::vector<LivePlace> live = {};     ///< cards for which real ones stand, in service only
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
     std::size_t most_alarms = 100;      ///< those that are over and acknowledged go, then the oldest

@@ -392,6 +392,7 @@ void Machine::tell() {
     status_.feed_override = feed_;
     status_.rapid_override = rapid_;
     status_.service = service_.card();
+    status_.real = service_.live() != nullptr;
     if (settings_.on_status) settings_.on_status(status_);
     for (const auto& call : listeners_) call(status_);
 }

@@ -62,8 +62,11 @@ Result<void> Service::begin(const std::string& card, const StopOrigin& by, const
     begun_ = std::move(ready);
     stop_ = false;
     note_.clear();
-    machine_.enter(MachineState::service, fmt::format("card {} is in service by {}", card,
-                                                      by.who.empty() ? std::string("this program") : by.who));
+    const LivePlace* const live = live_place(card);
+    machine_.enter(
+        MachineState::service,
+        fmt::format("card {} is in service by {}{}", card, by.who.empty() ? std::string("this program") : by.who,
+                    live == nullptr ? "" : fmt::format("; it is a real one, at {}", live->place)));
     return {};
 }
 
@@ -106,6 +109,7 @@ void Service::step() {
     if (!stop_ && !library_) take();
     if (!stop_ && pending_) work();
     if (!stop_) host_of(machine_.rack_).pass(look_at_stop_every);
+    if (live_) watch_live();
     if (stop_) finish();
 }
 
@@ -125,12 +129,13 @@ void Service::take() {
     machine_.rack_.set_stop_flag(&stop_);
     machine_.group_holds_ = machine_.group_holds_ && lost.empty();
     machine_.hands_over_ = true;
-    library_ = card.take_library();
-    const Result<void> begun = library_->begin();
+    const Result<void> begun = take_library();
     machine_.hands_over_ = false;
     if (!begun) {
         stop_ = true;
         machine_.status_.why = begun.error().message;
+        if (lost.empty())
+            note_ = fmt::format(" The service of card {} was not begun. {}", card_, begun.error().message);
     }
     if (const Told told = std::exchange(begun_, {}))
         told(begun ? Result<std::string>(fmt::format(
@@ -139,20 +144,76 @@ void Service::take() {
                    : tl::unexpected<Error>(begun.error()));
 }
 
+Result<void> Service::take_library() {
+    const LivePlace* const place = live_place(card_);
+    if (place == nullptr) {
+        library_ = machine_.rack_.card(card_)->take_library();
+        return library_->begin();
+    }
+    MOTIONRACK_TRY(live_, LiveCard::open(*place, machine_.rack_));
+    library_ = live_->make_library();
+    MOTIONRACK_CHECK(library_->begin());
+    live_->look();
+    if (live_->lost()) return tl::unexpected<Error>(*live_->lost());
+    return {};
+}
+
 void Service::work() {
     const Pending one = *std::exchange(pending_, std::nullopt);
     working_ = one.name;
     Result<CallAnswer> answer = library_->call(one.call.function, one.call.values);
     working_.clear();
+    if (live_) {
+        if (!stop_) live_->look();
+        if (std::optional<Error> doubt = live_->doubt()) answer = tl::unexpected<Error>(std::move(*doubt));
+    }
     one.ready(std::move(answer));
+}
+
+// ---- a real card
+
+Service::~Service() {
+    if (live_ && library_) library_->stop_now();
+}
+
+std::span<const LivePlace> Service::live_places() const {
+    return machine_.settings_.live;
+}
+
+const LivePlace* Service::live_place(std::string_view card) const {
+    for (const LivePlace& one : live_places())
+        if (one.card == card) return &one;
+    return nullptr;
+}
+
+void Service::watch_live() {
+    live_->look_now_and_then();
+    if (live_->lost()) stop_ = true;
+}
+
+/// What a real card's axes may still do is an alarm. It stays until they were seen standing after another service.
+void Service::stop_axes() {
+    if (!live_) {
+        library_->stop_now();
+        for (int i = 0; i < max_looks && library_->moving(); ++i) host_of(machine_.rack_).pass(look_at_stop_every);
+        return;
+    }
+    const LiveStop stop = live_->stop(*library_);
+    const std::string source = "card " + card_;
+    if (stop.stands)
+        for (Alarm& alarm : machine_.status_.alarms)
+            if (alarm.stays && alarm.source == source) alarm.stays = alarm.active = false;
+    if (stop.sentence.empty()) return;
+    machine_.raise(source, stop.sentence);
+    machine_.status_.alarms.back().stays = !stop.stands;
 }
 
 /// Nothing of the card moves afterwards, and the controller has it as it wants it.
 void Service::finish() {
     if (library_) {
-        library_->stop_now();
-        for (int i = 0; i < max_looks && library_->moving(); ++i) host_of(machine_.rack_).pass(look_at_stop_every);
+        stop_axes();
         library_.reset();
+        live_.reset();
     }
     Result<void> taken;
     if (machine_.group_holds_)

@@ -5,7 +5,8 @@
 //                            └ control lost, client gone, disabling, door, end of the program ──► axes stop at once
 //
 // A card that moves no axis of the machine needs no standstill of its own: its first call begins the service. Axes stop
-// without a ramp, because a ramp would be the one that the calls have written.
+// without a ramp, because a ramp would be the one that the calls have written. A real card may stand for such a card:
+// see live_card.hpp.
 #pragma once
 
 #include <atomic>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <motionrack/base/function_library.hpp>
 #include <motionrack/base/result.hpp>
+#include <motionrack/operate/live_card.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <optional>
@@ -38,6 +40,10 @@ class Service {
     using Answered = std::function<void(Result<CallAnswer>)>;
 
     explicit Service(Machine& machine) : machine_(machine) {}
+    /// A real card's axes stop first.
+    ~Service();
+    Service(const Service&) = delete;
+    Service& operator=(const Service&) = delete;
 
     /// The machine must stand, enabled where the card moves one of its axes. Refused else, also while a stop is in
     /// force and where the card has no library.
@@ -57,6 +63,11 @@ class Service {
     const std::string& session() const { return session_; }
     /// The function that works at this moment; empty: none.
     const std::string& working() const { return working_; }
+    /// The cards for which real ones stand, and the place of one; nullptr: it is virtual.
+    std::span<const LivePlace> live_places() const;
+    const LivePlace* live_place(std::string_view card) const;
+    /// The real card that is in service; nullptr: there is none.
+    const LiveCard* live() const { return live_.get(); }
     /// What the last service took from the axes, with a blank in front; once.
     std::string take_note() { return std::exchange(note_, {}); }
     /// One turn of the loop, while it is on.
@@ -71,8 +82,11 @@ class Service {
     /// The letters of the machine's axes that it moves.
     std::string axes_of(const std::string& card) const;
     Result<void> check_begin(const std::string& card) const;
+    Result<void> take_library();
     void take();
     void work();
+    void watch_live();
+    void stop_axes();
     void finish();
 
     Machine& machine_;
@@ -80,7 +94,8 @@ class Service {
     StopOrigin by_;
     std::atomic<bool> stop_{false};
     Told begun_, ended_;
-    std::unique_ptr<FunctionLibrary> library_;
+    std::unique_ptr<LiveCard> live_;
+    std::unique_ptr<FunctionLibrary> library_;  ///< last of the two: it writes to the card
     std::optional<Pending> pending_;
 };
 

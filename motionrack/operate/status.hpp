@@ -100,6 +100,7 @@ struct Status {
     double feed_override = 1, rapid_override = 1;
     std::string homing;         ///< "X SLOW_WAIT, Y HOMED": how far the last homing came
     std::string service;        ///< the card that is in service; empty: none
+    bool real = false;          ///< it is a real one, which moves
     std::vector<Alarm> alarms;  ///< oldest first
 };
 

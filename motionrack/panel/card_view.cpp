@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <motionrack/panel/card_view.hpp>
 #include <motionrack/panel/channels.hpp>
 
@@ -72,7 +73,9 @@ const rack::RackCard& config_of(const rack::Rack& rack, const rack::Card& card) 
 
 }  // namespace
 
-json card_facts(rack::Rack& rack, const rack::Card& card) {
+json card_facts(operate::Machine& machine, const rack::Card& card) {
+    rack::Rack& rack = machine.rack();
+    const operate::LivePlace* const live = machine.service().live_place(card.name());
     const rack::RackCard& config = config_of(rack, card);
     const rack::CardType& type = *rack::find_card_type(config.type);
     const CardMap& map = card.map();
@@ -86,8 +89,9 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
                              {"bank", reg.bank},
                              {"meaning", reg.meaning},
                              {"fields", fields_of(reg)}});
-    json pins = json::array();
-    for (const rack::Pin& pin : rack::pins_of(config))
+    json pins = json::array(), values = json::array(), quantities = json::array();
+    if (live == nullptr) values = card.value_names(), quantities = card.quantity_names();
+    for (const rack::Pin& pin : live == nullptr ? rack::pins_of(config) : std::vector<rack::Pin>())
         pins.push_back({{"name", pin.name},
                         {"direction", pin.direction == rack::PinDirection::input ? "input" : "output"},
                         {"volts", pin.volts > 0},
@@ -105,6 +109,7 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
             {"type", config.type},
             {"title", map.title},
             {"slot", config.slot.value_or(-1)},
+            {"live", live == nullptr ? json() : json(live->place)},
             {"about", type.doc},
             {"bus", {{"base", card.bus_base()}, {"widths", std::move(widths)}, {"while_moving", type.measures_only}}},
             {"axes", std::move(axes)},
@@ -112,28 +117,59 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
             {"commands", commands_of(map)},
             {"machines", machines_of(map)},
             {"pins", std::move(pins)},
-            {"values", card.value_names()},
-            {"quantities", card.quantity_names()},
+            {"values", std::move(values)},
+            {"quantities", std::move(quantities)},
             {"functions", card.library_functions().size()},
             {"channels", std::move(channels)}};
 }
 
+namespace {
+
+json register_json(const std::string& name, const RegisterInfo& reg, std::uint32_t word) {
+    json fields = json::object();
+    for (const FieldInfo& field : reg.fields)
+        fields[std::string(field.name)] = (word & field.mask) >> std::countr_zero(field.mask);
+    return {{"name", name}, {"register", reg.name}, {"word", word}, {"fields", std::move(fields)}};
+}
+
+/// "RR0", or "x.RR1" of one axis, as the virtual card calls it.
+std::string live_name(const std::string& axis, std::string_view name) {
+    if (axis.empty()) return std::string(name);
+    return fmt::format("{}.{}", static_cast<char>(std::tolower(static_cast<unsigned char>(axis.front()))), name);
+}
+
+json live_now(operate::Machine& machine, const operate::LivePlace& place) {
+    const operate::LiveCard* const live = machine.service().live();
+    json out = {{"name", place.card},      {"at", to_seconds(machine.now())}, {"registers", json::array()},
+                {"values", json::array()}, {"quantities", json::array()},     {"pins", json::object()}};
+    if (live == nullptr || live->place().card != place.card) {
+        out["why"] =
+            fmt::format("The real card at {} is read while it is in service only. Begin its service.", place.place);
+        return out;
+    }
+    const operate::LiveRegisters& seen = live->registers();
+    out["at"] = to_seconds(seen.at);
+    if (live->lost()) out["why"] = live->lost()->message;
+    for (const rack::SeenRegister& one : seen.view.registers)
+        out["registers"].push_back(register_json(live_name(one.axis, one.reg->name), *one.reg, one.word));
+    for (const rack::SeenValue& one : seen.view.values)
+        out["values"].push_back({{"name", live_name(one.axis, one.name)}, {"value", one.value}});
+    return out;
+}
+
+}  // namespace
+
 json card_now(operate::Machine& machine, rack::Card& card) {
+    if (const operate::LivePlace* const live = machine.service().live_place(card.name()))
+        return live_now(machine, *live);
     const rack::RackCard& config = config_of(machine.rack(), card);
     const rack::CardType& type = *rack::find_card_type(config.type);
     json registers = json::array();
     for (const RegisterInfo& reg : card.map().registers) {
         if (reg.access == Access::write) continue;
-        for (const std::string& name : register_names(type, reg)) {
-            const Result<std::int64_t> word = card.inspect(name);
-            if (!word) continue;
-            const auto bits = static_cast<std::uint32_t>(*word);
-            json fields = json::object();
-            for (const FieldInfo& field : reg.fields)
-                fields[std::string(field.name)] = (bits & field.mask) >> std::countr_zero(field.mask);
-            registers.push_back(
-                {{"name", name}, {"register", reg.name}, {"word", bits}, {"fields", std::move(fields)}});
-        }
+        for (const std::string& name : register_names(type, reg))
+            if (const Result<std::int64_t> word = card.inspect(name))
+                registers.push_back(register_json(name, reg, static_cast<std::uint32_t>(*word)));
     }
     json values = json::array(), quantities = json::array(), pins = json::object();
     for (const std::string& name : card.value_names())

@@ -37,6 +37,10 @@ std::string_view name_of(ChannelLooks looks) {
     return "";
 }
 
+std::string_view card_part(std::string_view name) {
+    return name.substr(0, name.find('.'));
+}
+
 std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg) {
     if (!reg.per_axis) return {std::string(reg.name)};
     std::vector<std::string> out;
@@ -45,7 +49,7 @@ std::vector<std::string> register_names(const rack::CardType& type, const Regist
     return out;
 }
 
-ChannelBook::ChannelBook(operate::Machine& machine) {
+ChannelBook::ChannelBook(operate::Machine& machine) : service_(machine.service()) {
     add_axes(machine);
     add_wires(machine);  // before the quantities: where a switch and its wire have one name, it is the wire's
     add_quantities(machine.rack());
@@ -54,6 +58,7 @@ ChannelBook::ChannelBook(operate::Machine& machine) {
 
 void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks,
                       std::function<double()> read) {
+    if (service_.live_place(card_part(name)) != nullptr) return;
     std::string key = name;
     channels_.try_emplace(std::move(key),
                           Channel{std::move(name), std::string(unit), std::string(text), looks, std::move(read)});

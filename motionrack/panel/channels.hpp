@@ -32,11 +32,15 @@ struct Channel {
     std::function<double()> read;  ///< on the motion thread; without effects
 };
 
+/// "c1" of "c1.x.LP".
+std::string_view card_part(std::string_view name);
+
 /// Names by which a card's inspect knows a register: one, or one a channel.
 std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg);
 
 class ChannelBook {
   public:
+    /// Those of the virtual chip are left out where a real card stands for it.
     explicit ChannelBook(operate::Machine& machine);
 
     /// All channels by name.
@@ -60,6 +64,7 @@ class ChannelBook {
         std::weak_ptr<ChannelSet> set;
         std::vector<const Channel*> channels;
     };
+    const operate::Service& service_;
     std::map<std::string, Channel, std::less<>> channels_;
     std::map<std::vector<std::string>, Held> sets_;
 };

@@ -13,11 +13,27 @@ using nlohmann::json;
 
 namespace {
 
+/// Refused for a card for which a real one stands: what is done to the virtual one would be taken for its own.
+Result<void> check_virtual(Desk& desk, std::string_view name, std::string_view what) {
+    const operate::LivePlace* const live = desk.machine.service().live_place(card_part(name));
+    if (live == nullptr) return {};
+    return fail(Trouble::refused,
+                fmt::format("{}: card {} is a real one at {}. Nothing was done. Call the functions of its library.",
+                            what, live->card, live->place));
+}
+
 Result<json> set_wire(Desk& desk, const json& fields) {
+    const auto& name = fields.at("name").get_ref<const std::string&>();
     const json& value = fields.at("value");
-    return taken(
-        desk.machine.wires().set(fields.at("name").get_ref<const std::string&>(),
-                                 value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
+    MOTIONRACK_CHECK(check_virtual(desk, name, "The wire was not driven"));
+    return taken(desk.machine.wires().set(
+        name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
+}
+
+Result<json> inject_fault(Desk& desk, const json& fields) {
+    const auto& target = fields.at("target").get_ref<const std::string&>();
+    MOTIONRACK_CHECK(check_virtual(desk, target, "Nothing was broken"));
+    return taken(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(), target));
 }
 
 void access(Desk& desk, const json& fields, Ready ready) {
@@ -26,6 +42,8 @@ void access(Desk& desk, const json& fields, Ready ready) {
                                        static_cast<std::uint32_t>(fields.at("address").get<double>()),
                                        {}};
     if (fields.contains("value")) access.value = static_cast<std::uint32_t>(fields.at("value").get<double>());
+    if (const Result<void> is = check_virtual(desk, access.card, "The card was not accessed"); !is)
+        return ready(tl::unexpected<Error>(is.error()));
     const Result<void> taken = desk.machine.access(access, [ready](std::uint32_t value) {
         ready(json{{"value", value}});
     });
@@ -39,6 +57,12 @@ Result<operate::Pacer*> pacer_of(Desk& desk) {
 
 Result<json> set_clock(Desk& desk, const json& fields) {
     MOTIONRACK_TRY(operate::Pacer * pacer, pacer_of(desk));
+    if (const auto live = desk.machine.service().live_places(); !live.empty())
+        return fail(
+            Trouble::refused,
+            fmt::format("The clock was not changed: card {} is a real one, whose time is the computer's, so the "
+                        "rack runs in real time with factor 1. Serve it without --live for another time.",
+                        live.front().card));
     const auto& name = fields.at("mode").get_ref<const std::string&>();
     for (const operate::ClockMode mode :
          {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
@@ -58,11 +82,7 @@ constexpr std::array card_rows = {
          [](Desk& desk, const Caller&, const json& fields) {
              return taken(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1));
          }},
-    Doer{"inject_fault",
-         [](Desk& desk, const Caller&, const json& fields) {
-             return taken(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(),
-                                             fields.at("target").get_ref<const std::string&>()));
-         }},
+    Doer{"inject_fault", [](Desk& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},
     Doer{"start_part",
          [](Desk& desk, const Caller&, const json& fields) {
              return taken(rack::start_part(desk.machine.rack(), fields.at("part").get_ref<const std::string&>()));

@@ -65,10 +65,11 @@ json parts_of(const rack::RackConfig& config) {
     return out;
 }
 
-json faults_of(rack::Rack& rack) {
+json faults_of(operate::Machine& machine) {
     json out = json::array();
-    for (const rack::FaultTarget& target : rack::fault_targets(rack))
-        out.push_back({{"target", target.name}, {"faults", target.faults}});
+    for (const rack::FaultTarget& target : rack::fault_targets(machine.rack()))
+        if (machine.service().live_place(target.name) == nullptr)
+            out.push_back({{"target", target.name}, {"faults", target.faults}});
     return out;
 }
 
@@ -78,11 +79,13 @@ json rack_facts(operate::Machine& machine) {
     rack::Rack& rack = machine.rack();
     const rack::RackConfig& config = rack.config();
     json cards = json::array(), joined = json::array(), wires = json::array();
-    for (const auto& card : rack.cards()) cards.push_back(card_facts(rack, *card));
+    for (const auto& card : rack.cards()) cards.push_back(card_facts(machine, *card));
     for (const rack::RackWire& wire : config.wires)
         joined.push_back({{"from", config.end_name(wire.from)}, {"to", config.end_name(wire.to)}});
     for (const rack::WireDesk::Named& wire : machine.wires().names())
-        wires.push_back({{"name", wire.name}, {"volts", wire.volts}, {"bits", wire.bits}, {"drivable", wire.drivable}});
+        if (machine.service().live_place(card_part(wire.name)) == nullptr)
+            wires.push_back(
+                {{"name", wire.name}, {"volts", wire.volts}, {"bits", wire.bits}, {"drivable", wire.drivable}});
     json out = {{"name", config.name},
                 {"stages", names_of(config.stages)},
                 {"tracks", names_of(config.tracks)},
@@ -92,7 +95,7 @@ json rack_facts(operate::Machine& machine) {
     out["cards"] = std::move(cards);
     out["joined"] = std::move(joined);
     out["wires"] = std::move(wires);
-    out["faults"] = faults_of(rack);
+    out["faults"] = faults_of(machine);
     return out;
 }
 

@@ -166,7 +166,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
             {"state", operate::name_of(status.state)},
             {"why", status.why},
             {"service", status.service},
-            {"simulation", true},
+            {"simulation", !status.real},
             {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
             {"axes", std::move(axes)},
             {"program",

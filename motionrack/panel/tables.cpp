@@ -205,9 +205,11 @@ constexpr std::array query_rows = {
            {},
            "What the rack is made of; it does not change while it runs.",
            "name, text, axes, cards, parts, stages, tracks, scanners, joined, wires, faults"},
-    AskRow{"card", Role::observe, false, name_fields,
-           "Registers, fields, values and pins of a card at this moment, by peek, so that looking disturbs nothing.",
-           "registers, values, quantities, pins"},
+    AskRow{
+        "card", Role::observe, false, name_fields,
+        "Registers, fields, values and pins of a card at this moment, by peek, so that looking disturbs nothing; of a "
+        "real card, as its service has read them last.",
+        "registers, values, quantities, pins, why (a real card shows none)"},
     AskRow{"slopes", Role::observe, false, name_fields, "The slope table of a DataBoard 4002: speed over distance.",
            "slopes: name, points (counts, Hz); position, rate, hz, moving"},
     AskRow{"library", Role::observe, false, name_fields, "The functions of a card's library, with their arguments.",

@@ -30,6 +30,10 @@ bool Card::shows(std::string_view scope, std::string_view wire) const {
 
 namespace {
 
+std::unique_ptr<FunctionLibrary> library_over(RegisterPort& port, Interrupt& interrupt) {
+    return std::make_unique<mcx314::Library>(port, interrupt);
+}
+
 class Mcx314Card final : public MotionCard {
   public:
     Mcx314Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
@@ -132,7 +136,7 @@ class Mcx314Card final : public MotionCard {
         singles_ready_ = false;
         before_singles_ = {};
         group_trusted_.fill(false);
-        return std::make_unique<mcx314::Library>(port_, port_);
+        return library_over(port_, port_);
     }
     double kept_back() const override { return mcx314::Axes::kept_back; }
     double jump_hz(const RackConfig& config) const override {
@@ -258,7 +262,7 @@ std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, s
 }
 
 constexpr CardKind kinds[] = {
-    {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314},
+    {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314, &library_over},
     {"databoard4002", &databoard4002::card_map, &make_databoard4002},
     {"ioflex02", &ioflex02::card_map, &make_ioflex02},
     {"grating_bus", &grating_bus::card_map, &make_grating_bus},

@@ -151,6 +151,8 @@ struct CardKind {
                                   std::span<const std::unique_ptr<Card>> before);
     /// Reads its registers through a port, of a virtual or a real card; nullptr if nobody has said how.
     RegisterView (*view)(RegisterPort& port, bool clearing) = nullptr;
+    /// Its function library through a port, of a virtual or a real card; nullptr: it has none that is called by hand.
+    std::unique_ptr<FunctionLibrary> (*library)(RegisterPort& port, Interrupt& interrupt) = nullptr;
 };
 
 /// The values that a card's map declares as registers that can be read, and `more`, as an error lists them.

@@ -73,6 +73,10 @@ of its axes at once, without a ramp, within 5 ms, and ends the service with the 
 end of the service, lost control, a client that has gone, disabling, an open door and the end of the program. The
 controller then sets the card up again, and the positions of its axes are not trusted.
 
+Of a real card in service (`motionrack serve --live`) the quick stop of all axes is written through its port, and its
+axes are looked at until they stand. Where the computer refuses the write, or an axis drives on, an alarm says so and
+stays: then only the emergency stop of the card's own wires is left. Its own switches and alarms stop its axes alone.
+
 This is a simulation and its software. It is no safety function: a real machine needs an emergency stop that is
 wired without any software.
 

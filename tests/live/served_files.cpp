@@ -23,7 +23,13 @@ struct Served {
     // it.
     std::uint32_t count = 0, seen = 0;
     bool open = false;
+    std::uint32_t refusals = 0;  // to come
 
+    bool refuses(const char* path) {
+        if (refusals == 0 || std::strcmp(path, "/port") != 0) return false;
+        --refusals;
+        return true;
+    }
     void look() {
         if (!open || !card.interrupt()) return;
         ++count;
@@ -38,14 +44,18 @@ bool is(const char* path, const char* name) {
     return std::strcmp(path, name) == 0;
 }
 
+bool is_port(const char* path) {
+    return is(path, "/port") || is(path, "/look");
+}
+
 int attributes(const char* path, struct stat* out, fuse_file_info*) {
     *out = {};
     out->st_uid = ::getuid();
     if (is(path, "/"))
         out->st_mode = S_IFDIR | 0700;
-    else if (is(path, "/port"))
+    else if (is_port(path))
         out->st_mode = S_IFREG | 0600, out->st_size = registers_end;
-    else if (is(path, "/uio0"))
+    else if (is(path, "/uio0") || is(path, "/refuse"))
         out->st_mode = S_IFREG | 0600;
     else
         return -ENOENT;
@@ -54,7 +64,7 @@ int attributes(const char* path, struct stat* out, fuse_file_info*) {
 }
 
 int open_file(const char* path, fuse_file_info* info) {
-    if (!is(path, "/port") && !is(path, "/uio0")) return -ENOENT;
+    if (!is_port(path) && !is(path, "/uio0") && !is(path, "/refuse")) return -ENOENT;
     info->direct_io = 1;  // no pages in between: a read is a read
     info->nonseekable = is(path, "/uio0");
     return 0;
@@ -74,7 +84,8 @@ int read_file(const char* path, char* out, std::size_t bytes, off_t at, fuse_fil
         std::memcpy(out, &files.count, bytes);
         return static_cast<int>(bytes);
     }
-    if (!is_access(bytes, at)) return -EINVAL;
+    if (!is_port(path) || !is_access(bytes, at)) return -EINVAL;
+    if (files.refuses(path)) return -ENODEV;
     const std::uint16_t value =
         files.card.read(static_cast<std::uint32_t>(at - port_base), static_cast<unsigned>(8 * bytes));
     std::memcpy(out, &value, bytes);
@@ -90,7 +101,13 @@ int write_file(const char* path, const char* from, std::size_t bytes, off_t at, 
         files.open = opens == 1;
         return static_cast<int>(bytes);
     }
-    if (!is_access(bytes, at)) return -EINVAL;
+    if (is(path, "/refuse")) {
+        if (bytes != sizeof files.refusals) return -EINVAL;
+        std::memcpy(&files.refusals, from, bytes);
+        return static_cast<int>(bytes);
+    }
+    if (!is_port(path) || !is_access(bytes, at)) return -EINVAL;
+    if (files.refuses(path)) return -ENODEV;
     std::uint16_t value = 0;
     std::memcpy(&value, from, bytes);
     files.card.write(static_cast<std::uint32_t>(at - port_base), static_cast<unsigned>(8 * bytes), value);

@@ -10,6 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -79,15 +81,24 @@ class Attendant {
     std::thread thread_;
 };
 
+pid_t child = 0;  // for the handler of a signal, which has no other way to know
+
+/// SIGTERM and SIGINT are for the program.
+void hand_on(int signal) {
+    ::kill(child, signal);
+}
+
 int run_program(char** words) {
-    const pid_t child = ::fork();
+    child = ::fork();
     if (child == 0) {
         ::execv(words[0], words);
         std::perror(words[0]);
         ::_exit(1);
     }
+    ::signal(SIGTERM, hand_on);
+    ::signal(SIGINT, hand_on);
     int status = 0;
-    ::waitpid(child, &status, 0);
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 

@@ -12,10 +12,11 @@ import { Button, Choice, Field, Led, Panel } from '../parts/ui';
 import { Lamps } from '../panels/dro';
 import { Chart, Legend } from '../scope/chart';
 import { useHistory } from './history';
+import { LiveMcx } from './mcx314_live';
 import { fieldValues } from './words';
 
 const EVERY_HZ = 100;
-const COUNTERS = [
+export const COUNTERS = [
   { name: 'LP', text: 'pulses sent' },
   { name: 'EP', text: 'encoder counts' },
   { name: 'CV', text: 'present speed' },
@@ -177,6 +178,7 @@ function Drives({ card }: { card: CardInfo }): JSX.Element | null {
 }
 
 export function Mcx({ card }: { card: CardInfo }): JSX.Element {
+  if (card.live !== null) return <LiveMcx card={card} place={card.live} />;
   return (
     <>
       <Panel title={`${card.name}: ${card.title}`} class="wide" note={`Read ${EVERY_HZ} times a second.`}>

@@ -28,10 +28,13 @@ function Tile({ card }: { card: CardInfo }): JSX.Element {
       <strong>{card.name}</strong>
       <span class="type">{card.type}</span>
       <span class="title">{card.title}</span>
+      {card.live !== null && <span class="live">real card at {card.live}</span>}
       <span class="axes-of">
         {card.axes.length > 0
           ? `moves ${card.axes.map((axis) => axis.letter).join(', ')}`
-          : `${card.registers.length} registers, ${card.commands.length} commands, ${card.pins.length} pins`}
+          : card.live !== null
+            ? 'moves in service only'
+            : `${card.registers.length} registers, ${card.commands.length} commands, ${card.pins.length} pins`}
       </span>
     </a>
   );
@@ -78,7 +81,7 @@ export function Cards(): JSX.Element {
       <div class="cardview" key={card.name}>
         {Own !== undefined && <Own card={card} />}
         {card.functions > 0 && <Functions card={card} />}
-        <Pins card={card} />
+        {card.live === null && <Pins card={card} />}
       </div>
     </>
   );

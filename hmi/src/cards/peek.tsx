@@ -14,6 +14,8 @@ export interface CardAnswer {
   values: { name: string; value: number }[];
   quantities: { name: string; value: number }[];
   pins: Record<string, number>;
+  /** Why a real card shows nothing. */
+  why?: string;
 }
 
 export const wordOf = (answer: CardAnswer | null, name: string): number | null =>

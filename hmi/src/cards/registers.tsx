@@ -75,9 +75,12 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
     <>
       <Field label="Find" value={filter.value} wide placeholder="RR0, LP …" onInput={(text) => (filter.value = text)} />
       {why.value !== '' && <p class="why">{why.value}</p>}
-      {data.value !== null && registers.length + values.length + numbers.length === 0 && (
-        <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>
-      )}
+      {data.value?.why !== undefined && <p class="why">{data.value.why}</p>}
+      {data.value !== null &&
+        data.value.why === undefined &&
+        registers.length + values.length + numbers.length === 0 && (
+          <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>
+        )}
       <ul class="registers">
         {registers.map((one) => (
           <Row
@@ -136,7 +139,11 @@ export function Registers(): JSX.Element {
       <Panel
         title={`Registers of ${card.name}`}
         class="inspector"
-        note="Looked at without effects: no register is read through the bus, nothing is cleared.">
+        note={
+          card.live === null
+            ? 'Looked at without effects: no register is read through the bus, nothing is cleared.'
+            : `A real card at ${card.live}: its service reads it through the port; RR3, which reading clears, is left out.`
+        }>
         <Inspector key={card.name} card={card} />
       </Panel>
     </>

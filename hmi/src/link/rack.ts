@@ -50,6 +50,8 @@ export interface CardInfo {
   title: string;
   slot: number;
   about: string;
+  /** Where the real card is that stands for it; null: it is virtual. */
+  live: string | null;
   /** `while_moving`: it only measures, and is accessed by hand at any time. */
   bus: { base: number; widths: number[]; while_moving: boolean };
   axes: { letter: string; channel: string }[];

@@ -2,6 +2,7 @@
 import type { JSX } from 'preact';
 import { acknowledge, actions, perform } from '../actions';
 import type { StateName } from '../link/contract';
+import { rack } from '../link/rack';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { ActionButton, Button } from '../parts/ui';
@@ -104,11 +105,24 @@ function LinkAge(): JSX.Element {
   );
 }
 
-export const Simulation = (): JSX.Element => (
-  <span class="simulation" title="Cards, motors and machine are simulated; nothing real moves.">
-    SIMULATION
-  </span>
-);
+/** Whether what moves is simulated: not while a real card is in service. */
+export function Simulation(): JSX.Element | null {
+  const real = (rack.value?.cards ?? []).filter((card) => card.live !== null).map((card) => card.name);
+  const { value: now } = state.status;
+  if (now?.simulation === false)
+    return (
+      <span class="simulation real" title={`Card ${now.service ?? ''} is a real one: its motors move.`}>
+        REAL CARD {now.service}
+      </span>
+    );
+  if (!(state.hello.value?.simulation ?? true)) return null;
+  const but = real.length === 0 ? '; nothing real moves' : `, but for ${real.join(', ')}, which moves in service only`;
+  return (
+    <span class="simulation" title={`Cards, motors and machine are simulated${but}.`}>
+      SIMULATION
+    </span>
+  );
+}
 
 export function StateBar(): JSX.Element {
   return (
@@ -122,7 +136,7 @@ export function StateBar(): JSX.Element {
         </div>
       )}
       <StateChip />
-      {(state.hello.value?.simulation ?? state.status.value?.simulation ?? true) && <Simulation />}
+      <Simulation />
       <div class="facts">
         <Estop />
         <Alarms />

@@ -33,7 +33,7 @@ struct ServeOptions {
     int grbl_axes = 3;
     std::int64_t journal_megabytes = 1000;
     bool grbl_resets_stop_all = false;
-    std::vector<std::string> hosts, origins;
+    std::vector<std::string> hosts, origins, live;
     double speed = 1;
     bool free = false, paused = false, no_pairing = false;
 };
@@ -89,6 +89,10 @@ class Serving {
         const std::string journal =
             options_.journal.empty() ? std::string() : fs::weakly_canonical(options_.journal, none).string();
         MOTIONRACK_CHECK(disk::may_write({options_.rack, options_.certificate, options_.key}, {users_file_, journal}));
+        for (const std::string& text : options_.live) {
+            MOTIONRACK_TRY(operate::LivePlace place, operate::read_live_place(text));
+            settings.machine.live.push_back(std::move(place));
+        }
         settings.server = server_settings();
         settings.grbl = grbl_settings();
         MOTIONRACK_TRY(settings.page, load_page(options_.page));
@@ -174,8 +178,13 @@ class Serving {
 
     void greet(const rack::RackConfig& config) {
         const std::string code = served_->door().start_code();
-        say(fmt::format("{} runs ({}, {}; simulated).", config.name, rack::counted(config.axes.size(), "axis", "axes"),
-                        rack::counted(config.cards.size(), "card")));
+        const auto live = served_->machine().service().live_places();
+        say(fmt::format("{} runs ({}, {}; simulated{}).", config.name,
+                        rack::counted(config.axes.size(), "axis", "axes"), rack::counted(config.cards.size(), "card"),
+                        live.empty() ? "" : ", but for the real cards below"));
+        for (const operate::LivePlace& one : live)
+            say(fmt::format("  real     {} at {}: its axes move in service; have an emergency stop of its wires",
+                            one.card, one.place));
         say(fmt::format("  page     {}{}", served_->server().url(), code.empty() ? "" : "#pair=" + code));
         if (!code.empty())
             say(fmt::format("  code     {}   (good once, lets in to maintain; the next one is printed here)", code));
@@ -200,6 +209,11 @@ class Serving {
         int code = exit_done;
         if (journal_)
             if (const Result<void> closed = journal_->close(); !closed) code = report(closed.error());
+        for (const operate::Alarm& alarm : served_->machine().status().alarms) {
+            if (!alarm.stays || alarm.source.rfind("card ", 0) != 0) continue;
+            say(alarm.text);
+            code = exit_machine;
+        }
         say(fmt::format("Stopped at{}.", places));
         return code;
     }
@@ -243,6 +257,12 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_flag("--no-pairing", options->no_pairing,
                       "whoever works on this computer may do everything, without a code");
     command->add_option("--page", options->page, "folder of the page (default: the one that came with the program)");
+    command
+        ->add_option("--live", options->live,
+                     "CARD=PLACE: a real card that stands for one of the file on which no axis is, in service only; "
+                     "again for more. PLACE: " +
+                         std::string(live::port_spec_form()))
+        ->allow_extra_args(false);
     command->add_option("--tls-cert", options->certificate, "PEM file of the certificate, with those that signed it");
     command->add_option("--tls-key", options->key, "PEM file of its key");
     command->add_option("--allow-host", options->hosts,
@@ -259,7 +279,9 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_flag("--grbl-resets-stop-all", options->grbl_resets_stop_all,
                       "a reset (^X) of any sender stops the machine, also where another drives it");
     command->footer(
-        "Example: motionrack serve router.toml --journal router.journal\nThe address that is printed carries a code "
+        "Example: motionrack serve router.toml --journal router.journal\n"
+        "A real MCX314 in place of the card bench: motionrack serve rack.toml --live "
+        "bench=port:/dev/port,offset=0x300,width=8\nThe address that is printed carries a code "
         "that lets its first user in; see docs/howto/serve.md.\n"
         "Ctrl-C brings the axes to rest and ends with code 0.");
     command->callback([options, &chosen] { chosen = [options] { return Serving(*options).run(); }; });

@@ -29,6 +29,12 @@ Result<std::unique_ptr<ServedRack>> ServedRack::open(const rack::RackConfig& con
 Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings settings) {
     journal_ = settings.journal;
     MOTIONRACK_CHECK(pacer_.set(settings.clock, settings.factor));
+    if (!settings.machine.live.empty() && (settings.clock != operate::ClockMode::real || settings.factor != 1))
+        return fail(
+            Trouble::refused,
+            fmt::format("Card {} is a real one, whose time is the computer's, but the rack's clock is '{}' with "
+                        "factor {:g}. Nothing was started. Serve it in real time with factor 1.",
+                        settings.machine.live.front().card, operate::name_of(settings.clock), settings.factor));
     settings.machine.pace = [this, meanwhile = std::move(settings.meanwhile)](Instant now) {
         if (meanwhile) meanwhile();
         return pacer_.pace(now);

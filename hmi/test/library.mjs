@@ -1,0 +1,21 @@
+// The ways of a user in the panel of a card's function library.
+export const panel = (tab) => tab.page.getByRole('region', { name: 'Functions of its library' });
+const calls = (tab) => panel(tab).getByRole('log', { name: 'Calls' });
+
+export async function choose(tab, name) {
+  await panel(tab).getByLabel('Search functions').fill(name);
+  await panel(tab)
+    .getByRole('region', { name: 'List of functions' })
+    .getByRole('button', { name, exact: true })
+    .click();
+  await panel(tab).getByRole('form', { name, exact: true }).waitFor();
+}
+export async function call(tab, name, texts = {}) {
+  await choose(tab, name);
+  for (const [label, text] of Object.entries(texts))
+    await panel(tab).getByLabel(label, { exact: true }).fill(String(text));
+  await panel(tab)
+    .getByRole('button', { name: `Call ${name}`, exact: true })
+    .click();
+}
+export const answered = (tab, text) => calls(tab).getByText(text).first().waitFor();

@@ -1,0 +1,159 @@
+// Accesses and waits of a real card, and its stop.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/operate/live_card.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+namespace {
+
+constexpr Duration live_piece = milliseconds(1);         // of the rack's time between two looks at the card
+constexpr Duration max_live_lag = milliseconds(50);      // the rack's time does not hurry after more
+constexpr Duration registers_every = milliseconds(500);  // at all registers
+constexpr Duration stop_patience = milliseconds(100);    // of a function that waits for an axis to stop
+constexpr int max_live_looks = 100;
+
+constexpr const char* by_its_wires =
+    "Its axes may still drive: press the emergency stop that cuts the motors' power. Nothing else is left. ";
+
+}  // namespace
+
+LiveCard::LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardKind& kind)
+    : place_(place), kind_(kind), host_(rack.cards().front()->host()) {}
+
+Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::Rack& rack) {
+    const rack::CardKind* const kind = rack::find_card_kind(rack.config().card(place.card)->type);
+    std::unique_ptr<LiveCard> card(new LiveCard(place, rack, *kind));
+    MOTIONRACK_CHECK(card->open_port());
+    card->look();
+    if (card->lost_) return tl::unexpected<Error>(*card->lost_);
+    return card;
+}
+
+Result<void> LiveCard::open_port() {
+    port_.reset();  // its lock, too
+    MOTIONRACK_TRY(port_, live::Port::open(place_.spec, kind_.map()));
+    lost_.reset();
+    return {};
+}
+
+// ---- accesses
+
+void LiveCard::write(std::uint32_t offset, std::uint16_t value) {
+    if (lost_) return;
+    port_->write(offset, value);
+    lost_ = port_->trouble();
+}
+
+/// 0 is what an axis shows that stands.
+std::uint16_t LiveCard::read(std::uint32_t offset) {
+    if (lost_ || gives_up_) return 0;
+    const std::uint16_t value = port_->read(offset);
+    lost_ = port_->trouble();
+    return lost_ ? std::uint16_t{0} : value;
+}
+
+void LiveCard::look() {
+    if (lost_ || gives_up_) return;
+    LiveRegisters seen{kind_.view(*this, false), host_.now()};
+    if (lost_) return;
+    looked_ = now();
+    if (!seen.view.answered())
+        lost_ =
+            Error{Trouble::io,
+                  fmt::format("Every register of card {} reads FFFFh: no card answers at {}. No access is made from "
+                              "here on. Check the region, offset and stride, and whether the card has power.",
+                              place_.card, place_.place)};
+    registers_ = std::move(seen);
+}
+
+void LiveCard::look_now_and_then() {
+    if (!stop_requested() && now() - looked_ >= registers_every) look();
+}
+
+// ---- waits
+
+bool LiveCard::wait(Duration timeout) {
+    const Instant end = later(now(), timeout);
+    while (true) {
+        const Duration left = std::clamp(end - now(), Duration{0}, live_piece);
+        const bool woken = !lost_ && port_->wait(left);
+        if (lost_) clock_.sleep(left);
+        keep_up();  // also where the line stays active: orders come with the rack's time
+        heed_stop();
+        if (woken) return true;
+        if (stop_requested() || now() >= end) return false;
+    }
+}
+
+void LiveCard::pass(Duration duration) {
+    const Instant end = later(now(), duration);
+    do {
+        clock_.sleep(std::clamp(end - now(), Duration{0}, live_piece));
+        keep_up();
+        heed_stop();
+    } while (now() < end);
+}
+
+/// A millisecond of the rack for each of the computer. What was not waited for is not made up for.
+void LiveCard::keep_up() {
+    const Duration behind = now() - passed_;
+    if (behind < live_piece) return;
+    passed_ = behind > max_live_lag ? now() : passed_ + live_piece;
+    host_.pass(live_piece);
+    look_now_and_then();
+}
+
+void LiveCard::heed_stop() {
+    if (!stop_requested()) return;
+    if (!stopped_) stopped_ = now();
+    gives_up_ = now() - *stopped_ > stop_patience;
+}
+
+// ---- stops
+
+std::optional<Error> LiveCard::doubt() const {
+    if (lost_ || !gives_up_) return lost_;
+    return Error{Trouble::machine,
+                 fmt::format("The function had not ended {} ms after the stop and was broken off; whether the axes of "
+                             "card {} stand is not known from it. See the alarms and the registers of the card.",
+                             stop_patience / milliseconds(1), place_.card)};
+}
+
+bool LiveCard::stands_after_stop(FunctionLibrary& library) {
+    for (int look = 0; look < max_live_looks; ++look) {
+        library.stop_now();
+        const bool moves = library.moving();
+        if (lost_) return false;
+        if (!moves) return true;
+        host_.pass(live_piece);
+    }
+    return false;
+}
+
+LiveStop LiveCard::stop(FunctionLibrary& library) {
+    gives_up_ = false;
+    const std::optional<Error> refused = lost_;
+    if (!refused && stands_after_stop(library)) return {true, ""};
+    const std::string why = lost_ ? lost_->message : "";
+    if (why.empty())
+        return {false, fmt::format("An axis of card {} at {} still drives after {} looks, though the quick stop of all "
+                                   "axes was written before each. {}Begin the service again once it stands.",
+                                   place_.card, place_.place, max_live_looks, by_its_wires)};
+    const Result<void> opened = open_port();
+    if (opened && stands_after_stop(library))
+        return {true, fmt::format("{} The port of card {} was opened again, and the quick stop of all axes was written "
+                                  "through it: they stand. Look at the card before its next service.",
+                                  why, place_.card)};
+    const std::string again = !opened ? opened.error().message : lost_ ? lost_->message : "";
+    return {false,
+            fmt::format("{} The quick stop of all axes of card {} at {} was not written, or not obeyed{}. {}Begin the "
+                        "service again once the card answers.",
+                        why, place_.card, place_.place,
+                        again.empty() || again == why ? "" : fmt::format(", with the port opened again: {}", again),
+                        by_its_wires)};
+}
+
+}  // namespace motionrack::operate

@@ -1,0 +1,247 @@
+// Real cards in the place of virtual ones, with files in the place of cards: /dev/zero is one that stands, a file of
+// plain memory one that drives on whatever is written to it, because it reads what was written.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <motionrack/operate/live_card.hpp>
+#include <motionrack/operate/service.hpp>
+
+#include "operated.hpp"
+
+namespace motionrack::operate {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Arguments = std::map<std::string, std::int64_t, std::less<>>;
+
+const StopOrigin dora{"dora", "127.0.0.1", ""};
+const char* const beside = "[card.bench]\ntype = \"mcx314\"\n[card.glass]\ntype = \"ioflex02\"\n";
+
+/// A link to what stands for the card.
+class CardFile {
+  public:
+    explicit CardFile(const fs::path& to) { points_to(to); }
+    ~CardFile() { fs::remove_all(folder_); }
+    CardFile(const CardFile&) = delete;
+    CardFile& operator=(const CardFile&) = delete;
+
+    void points_to(const fs::path& to) const {
+        fs::create_directories(folder_);
+        fs::remove(link_);
+        fs::create_symlink(to, link_);
+    }
+    /// Words that are all the same.
+    fs::path memory(char byte) const {
+        fs::create_directories(folder_);
+        std::ofstream(folder_ / "memory", std::ios::binary) << std::string(16, byte);
+        return folder_ / "memory";
+    }
+    std::string place() const { return "port:" + link_.string(); }
+
+  private:
+    fs::path folder_ = fs::temp_directory_path() / ("motionrack_live_card_" + std::to_string(::getpid()));
+    fs::path link_ = folder_ / "card";
+};
+
+MachineSettings settings_of(const CardFile& file) {
+    MachineSettings settings;
+    settings.live.push_back(*read_live_place("bench=" + file.place()));
+    return settings;
+}
+
+/// A machine of two axes, and a real card beside it.
+struct Real : Operated {
+    explicit Real(const CardFile& file) : Operated(two_axes(beside), settings_of(file)) {}
+    void call(double seconds, const std::string& function, const Arguments& arguments) {
+        at(seconds, [=, this](Machine& m) {
+            const Result<void> taken = m.service().call(
+                {"bench", function, arguments}, dora, "w1",
+                [this](Result<CallAnswer> answer) { said.push_back(answer ? answer->text : answer.error().message); });
+            if (!taken) said.push_back("refused: " + taken.error().message);
+        });
+    }
+    void end(double seconds) {
+        at(seconds, [this](Machine& m) {
+            EXPECT_TRUE(m.service().end([this](const Result<std::string>& told) { said.push_back(*told); }));
+        });
+    }
+    const std::vector<Alarm>& alarms() const { return machine->status().alarms; }
+    std::vector<std::string> said;
+};
+
+TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
+    CardFile file("/dev/zero");
+    Real o(file);
+    o.at(0.02, [](Machine& m) { EXPECT_EQ(m.service().live(), nullptr); });
+    o.call(0.05, "SetRange", {{"data", 800'000}});
+    o.call(0.1, "ReadLPS", {{"axis", 1}});
+    o.at(0.2, [&](Machine& m) {
+        ASSERT_NE(m.service().live(), nullptr);
+        EXPECT_EQ(m.service().live()->registers().view.values.size(), 16U) << "four of each axis";
+        EXPECT_TRUE(m.status().real);
+        EXPECT_THAT(m.status().why,
+                    HasSubstr("card bench is in service by dora; it is a real one, at " + file.place()));
+        EXPECT_TRUE(m.status().axes[0].trusted) << "it is another card's";
+        const auto second = live::Port::open(m.service().live()->place().spec, m.rack().card("bench")->map());
+        ASSERT_FALSE(second);
+        EXPECT_EQ(second.error().trouble, Trouble::refused) << "no other program drives it meanwhile";
+    });
+    o.end(0.3);
+    o.at(0.4, [&](Machine& m) {
+        EXPECT_EQ(m.service().live(), nullptr);
+        EXPECT_FALSE(m.status().real);
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_TRUE(live::Port::open(m.service().live_place("bench")->spec, m.rack().card("bench")->map()));
+    });
+    o.run(0.5);
+    EXPECT_THAT(o.said, ElementsAre("Written.", "0 pulses", "The service of card bench has ended."));
+    EXPECT_TRUE(o.alarms().empty());
+}
+
+TEST(ARealCard, LeavesTheVirtualOneAndTheMachineAlone) {
+    CardFile file("/dev/zero");
+    Real o(file);
+    o.call(0.05, "SetRange", {{"data", 800'000}});
+    o.call(0.1, "LPS", {{"axis", 1}, {"data", 77}});
+    o.at(0.2, [](Machine& m) { EXPECT_EQ(*m.rack().card("bench")->inspect("x.LP"), 0); });
+    o.end(0.25);
+    o.at(0.3, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12\nM2\n", "p")); });
+    o.run(1);
+    EXPECT_NEAR(o.x(), 12, 1e-9);
+}
+
+TEST(ARealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\0');
+    file.points_to(memory);
+    Real o(file);
+    o.call(0.05, "ReadLPS", {{"axis", 1}});
+    o.at(0.2, [](Machine& m) { m.stop({"bert", "", "STOP"}); });
+    o.at(0.6, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_FALSE(m.service().on());
+        ASSERT_EQ(o.alarms().size(), 1U);
+        EXPECT_EQ(o.alarms()[0].source, "card bench");
+        EXPECT_THAT(o.alarms()[0].text, AllOf(HasSubstr("still drives after 100 looks"),
+                                              HasSubstr("press the emergency stop that cuts the motors' power")));
+        m.reset(dora);
+    });
+    o.at(0.8, [&](Machine&) { EXPECT_TRUE(o.alarms()[0].active) << "no reset ends its cause"; });
+    o.at(0.9, [&](Machine&) {
+        std::ifstream in(memory, std::ios::binary);
+        EXPECT_EQ(in.get(), 0x27);
+        EXPECT_EQ(in.get(), 0x0F) << "the quick stop of all axes was the last that was written";
+        file.points_to("/dev/zero");
+    });
+    o.call(1.0, "ReadLPS", {{"axis", 1}});
+    o.end(1.2);
+    o.at(1.4, [&](Machine&) { EXPECT_FALSE(o.alarms()[0].active) << "its axes were seen standing"; });
+    o.run(1.5);
+}
+
+TEST(ARealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
+    CardFile file("/dev/zero");
+    file.points_to(file.memory('\0'));
+    Real o(file);
+    o.call(0.05, "wait", {{"axis", 1}, {"milliseconds", 60'000}});
+    double stopped = 0;
+    o.at(0.3, [&](Machine& m) {
+        EXPECT_EQ(m.service().working(), "wait") << "the rack's time goes on while it waits";
+        m.stop({"bert", "", "STOP"});
+        stopped = to_seconds(m.now());
+    });
+    o.at(1.0, [&](Machine& m) {
+        EXPECT_FALSE(m.service().on());
+        ASSERT_EQ(o.alarms().size(), 1U);
+        EXPECT_LT(to_seconds(o.alarms()[0].at) - stopped, 0.5);
+    });
+    o.run(1.1);
+    ASSERT_EQ(o.said.size(), 1U);
+    EXPECT_THAT(o.said[0], HasSubstr("had not ended 100 ms after the stop and was broken off"));
+}
+
+TEST(ARealCard, ThatTheComputerRefusesInServiceIsAnAlarmThatStays) {
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\0');
+    file.points_to(memory);
+    Real o(file);
+    o.call(0.05, "ReadLPS", {{"axis", 1}});
+    o.at(0.2, [&](Machine&) { fs::resize_file(memory, 0); });
+    o.call(0.25, "ReadLPS", {{"axis", 1}});
+    o.at(0.5, [&](Machine& m) {
+        EXPECT_FALSE(m.service().on());
+        EXPECT_EQ(m.state(), MachineState::standstill);
+    });
+    o.run(0.6);
+    ASSERT_EQ(o.said.size(), 2U);
+    EXPECT_THAT(o.said[1], HasSubstr("could not be read through"));
+    ASSERT_EQ(o.alarms().size(), 1U);
+    EXPECT_TRUE(o.alarms()[0].active && o.alarms()[0].stays);
+    EXPECT_THAT(o.alarms()[0].text, AllOf(HasSubstr("could not be read through"), HasSubstr("was not written"),
+                                          HasSubstr("press the emergency stop")));
+}
+
+TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
+    struct Bad {
+        const char* name;
+        const char* says;
+    };
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\xFF');
+    for (const auto& [path, says] :
+         {Bad{"/nowhere/card", "no card behind it"}, Bad{"/dev/full", "could not be written"},
+          Bad{memory.c_str(), "no card answers"}}) {
+        file.points_to(path);
+        Real o(file);
+        o.at(0.05, [&](Machine& m) {
+            EXPECT_TRUE(m.service().begin("bench", dora, "w1", [&](const Result<std::string>& told) {
+                o.said.push_back(told ? *told : told.error().message);
+            }));
+        });
+        o.at(0.2, [&](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::standstill);
+            EXPECT_THAT(m.status().why, AllOf(HasSubstr("was not begun"), HasSubstr(says)));
+        });
+        o.at(0.25, [&](Machine&) { file.memory('\xFF'); });
+        o.call(0.3, "ReadLPS", {{"axis", 1}});
+        o.run(0.4);
+        EXPECT_THAT(o.said, ElementsAre(HasSubstr(says), AllOf(HasSubstr("Not called."), HasSubstr(says))));
+        EXPECT_TRUE(o.alarms().empty()) << "nothing of it was driven";
+    }
+}
+
+TEST(ARealCard, StandsForACardThatMovesNoAxis) {
+    const auto refused = [](const std::vector<std::string>& places) {
+        MachineSettings settings;
+        for (const std::string& place : places) settings.live.push_back(*read_live_place(place));
+        const auto made = Machine::make(two_axes(beside), std::move(settings));
+        return made ? std::string() : made.error().message;
+    };
+    EXPECT_THAT(refused({"m=port:/dev/zero"}), HasSubstr("Card m moves X, Y of the machine"));
+    EXPECT_THAT(refused({"glass=port:/dev/zero"}), HasSubstr("Card glass is an ioflex02"));
+    EXPECT_THAT(refused({"none=port:/dev/zero"}), HasSubstr("its cards are: m, bench, glass"));
+    EXPECT_THAT(refused({"bench=port:/dev/zero", "bench=port:/dev/null"}), HasSubstr("Card bench has two places"));
+    EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");
+}
+
+TEST(ARealCard, IsNamedWithItsPlace) {
+    const Result<LivePlace> good = read_live_place("bench=port:/dev/port,offset=0x300,width=8");
+    ASSERT_TRUE(good) << good.error().message;
+    EXPECT_EQ(good->card, "bench");
+    EXPECT_EQ(good->place, "port:/dev/port,offset=0x300,width=8");
+    EXPECT_EQ(good->spec.offset, 0x300U);
+    for (const char* text : {"", "bench", "=port:/dev/port", "port:/dev/port,width=8"}) {
+        const Result<LivePlace> bad = read_live_place(text);
+        ASSERT_FALSE(bad) << text;
+        EXPECT_THAT(bad.error().message, HasSubstr("bench=port:/dev/port,offset=0x300,width=8"));
+    }
+    EXPECT_THAT(read_live_place("bench=uio:/dev/uio0,width=9").error().message, HasSubstr("width is 9"));
+}
+
+}  // namespace
+}  // namespace motionrack::operate

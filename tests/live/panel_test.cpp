@@ -1,0 +1,247 @@
+// The operator panel with a real card in service: `motionrack serve --live`, with a virtual MCX314 in the real one's
+// place that another process serves: live_server port --real-time panel_live.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <tests/served_program.hpp>
+#include <thread>
+
+namespace motionrack {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Of RR0.
+constexpr unsigned x_drives = 1;
+
+/// Where the served card is, and what a test sees of it beside the program that drives it.
+class CardSeen {
+  public:
+    CardSeen() : place(std::getenv("MOTIONRACK_LIVE_PORT")) {
+        const std::size_t at = place.find(':') + 1;
+        files_ = fs::path(place.substr(at, place.find(',') - at)).parent_path();
+        refuse(0);
+    }
+    unsigned drives() const {
+        std::uint16_t word = 0xFFFF;
+        const int file = ::open((files_ / "look").c_str(), O_RDWR | O_CLOEXEC);
+        EXPECT_EQ(::pread(file, &word, sizeof word, 0x300), 2);
+        ::close(file);
+        return word & 0xFU;
+    }
+    /// So many accesses of the program fail from now on.
+    void refuse(std::uint32_t accesses) const {
+        const int file = ::open((files_ / "refuse").c_str(), O_WRONLY | O_CLOEXEC);
+        EXPECT_EQ(::write(file, &accesses, sizeof accesses), 4);
+        ::close(file);
+    }
+
+    const std::string place;
+
+  private:
+    fs::path files_;
+};
+
+class ThePanelOnARealCard : public testing::Test {
+  protected:
+    void SetUp() override {
+        fs::create_directories(folder_);
+        std::ofstream(folder_ / "rack.toml") << "[card.m]\ntype = \"mcx314\"\n[card.bench]\ntype = \"mcx314\"\n"
+                                                "[axis.X]\ncard = \"m\"\nchannel = \"x\"\n";
+        serve();
+    }
+    void TearDown() override {
+        served.reset();
+        fs::remove_all(folder_);
+    }
+    void serve() {
+        served.reset();  // the one before it has let go of the journal
+        served = std::make_unique<Served>(
+            std::vector<std::string>{(folder_ / "rack.toml").string(), "--port", "0", "--no-pairing", "--users",
+                                     (folder_ / "users.json").string(), "--live", "bench=" + card.place});
+        ASSERT_NE(served->port(), 0) << served->said;
+    }
+    /// Its answer must have this text.
+    void good(const std::string& function, const json& arguments, const std::string& text) const {
+        const json answer = served->post("call", {{"card", "bench"}, {"function", function}, {"arguments", arguments}});
+        EXPECT_EQ(answer.value("text", ""), text) << function << ": " << answer;
+    }
+    void drive_x() const {
+        EXPECT_TRUE(served->post("take_control").contains("done"));
+        good("SetRange", {{"data", 800'000}}, "Written.");
+        good("TCurve_C", {{"axis", 1}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}}, "X drives.");
+        ASSERT_EQ(card.drives(), x_drives);
+    }
+    static void until(const std::string& what, const std::function<bool()>& is) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (!is()) {
+            ASSERT_LT(std::chrono::steady_clock::now(), end) << "not within half a minute: " << what;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+    void until_stopped(ServedLink& link) const {
+        until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
+        EXPECT_EQ(card.drives(), 0U);
+    }
+    /// Of the card, the newest; null: there is none.
+    static json alarm(ServedLink& link) {
+        json found;
+        const json status = link.status();
+        for (const json& one : status["alarms"])
+            if (one["source"] == "card bench") found = one;
+        return found;
+    }
+
+    const CardSeen card;
+    std::unique_ptr<Served> served;
+
+  private:
+    fs::path folder_ = fs::temp_directory_path() / ("motionrack_panel_live_" + std::to_string(::getpid()));
+};
+
+TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
+    EXPECT_THAT(served->said, HasSubstr("real     bench at " + card.place));
+    EXPECT_TRUE(served->post("take_control").contains("done"));
+    good("SetRange", {{"data", 800'000}}, "Written.");
+    good("TCurve_F", {{"axis", 1}, {"m_SV", 100}, {"m_V", 2000}, {"m_A", 400}, {"m_Pulse", 2000}}, "X drives.");
+    good("wait", {{"axis", 1}, {"milliseconds", 10'000}}, "X stands as commanded.");
+    good("ReadLPS", {{"axis", 1}}, "2000 pulses");
+    const json shown = served->get("card?name=bench");
+    EXPECT_EQ(shown["values"][0]["name"], "x.LP") << shown;
+    EXPECT_EQ(shown["values"][0]["value"], 2000) << shown;
+    good("contour_begin", {{"SV", 100}, {"V", 1000}, {"A", 0}, {"D", 0}},
+         "The contour is open; give its lines and arcs.");
+    good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}}, "The line was taken.");
+    good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 300}, {"PZ", 0}, {"PU", 0}, {"V", 0}}, "The line was taken.");
+    const json ended = served->post("call", {{"card", "bench"}, {"function", "contour_end"}});
+    EXPECT_TRUE(ended.contains("done")) << ended;
+    good("ReadLPS", {{"axis", 1}}, "1500 pulses");
+    good("ReadLPS", {{"axis", 2}}, "300 pulses");
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    EXPECT_TRUE(alarm(*served).is_null());
+}
+
+TEST_F(ThePanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
+    drive_x();
+    ASSERT_TRUE(served->send(
+        "POST", "call",
+        json{{"card", "bench"}, {"function", "wait"}, {"arguments", {{"axis", 1}, {"milliseconds", 60'000}}}}.dump()));
+    ServedLink other(served->port());
+    until("it waits",
+          [&] { return other.get("events?limit=20").dump().find("call wait: begun") != std::string::npos; });
+    EXPECT_EQ(card.drives(), x_drives);
+    EXPECT_TRUE(other.post("stop").contains("done"));
+    until("X stands", [&] { return card.drives() == 0; });
+    EXPECT_THAT(served->answer()["error"]["message"].get<std::string>(),
+                HasSubstr("Stopped on request; X stands still."));
+    until_stopped(other);
+    EXPECT_EQ(other.status()["state"], "error stop");
+    EXPECT_TRUE(alarm(other).is_null());
+}
+
+TEST_F(ThePanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
+    const std::vector<std::pair<const char*, json>> orders = {
+        {"stop", json::object()},
+        {"service", {{"card", "bench"}, {"on", false}}},
+        {"enable", {{"on", false}}},
+        {"release_control", json::object()},
+        {"press_estop", {{"pressed", true}}},
+    };
+    for (const auto& [order, fields] : orders) {
+        drive_x();
+        const json answer = served->post(order, fields);
+        EXPECT_TRUE(answer.contains("done")) << order << ": " << answer;
+        until_stopped(*served);
+        EXPECT_TRUE(alarm(*served).is_null()) << order;
+        if (served->status()["state"] != "error stop") continue;
+        served->post("press_estop", {{"pressed", false}});
+        served->post("take_control");
+        until("it is reset", [&] {
+            served->post("reset");
+            return served->status()["state"] != "error stop";
+        });
+    }
+}
+
+TEST_F(ThePanelOnARealCard, StopsTenSecondsAfterTheLastSignOfItsClient) {
+    drive_x();
+    served->close();
+    until("X stands", [&] { return card.drives() == 0; });
+    ServedLink other(served->port());
+    until_stopped(other);
+}
+
+TEST_F(ThePanelOnARealCard, StopsWithTheProgram) {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        drive_x();
+        EXPECT_EQ(served->end(signal), 0);
+        EXPECT_EQ(card.drives(), 0U) << signal;
+        serve();
+    }
+}
+
+TEST_F(ThePanelOnARealCard, DrivesOnWhereTheProgramIsKilledUntilTheNextService) {
+    drive_x();
+    EXPECT_EQ(served->end(SIGKILL), -SIGKILL);
+    EXPECT_EQ(card.drives(), x_drives) << "nothing is left that could stop it";
+    serve();
+    EXPECT_EQ(card.drives(), x_drives) << "it is opened by its service only";
+    EXPECT_TRUE(served->post("take_control").contains("done"));
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", true}}).contains("done"));
+    EXPECT_EQ(card.drives(), 0U) << "it was reset";
+}
+
+TEST_F(ThePanelOnARealCard, AlarmsWhereItsPortVanishes) {
+    drive_x();
+    card.refuse(0xFFFF'FFFF);
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_EQ(card.drives(), x_drives);
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
+                AllOf(HasSubstr("No such device"), HasSubstr("was not written"),
+                      HasSubstr("press the emergency stop that cuts the motors' power")));
+    EXPECT_EQ(served->status()["service"], "");
+    served->post("reset");
+    EXPECT_TRUE(alarm(*served)["active"]) << "no reset ends its cause";
+    const json refused = served->post("call", {{"card", "bench"}, {"function", "RESET"}});
+    EXPECT_THAT(refused["error"]["message"].get<std::string>(), HasSubstr("No such device"));
+    card.refuse(0);
+    good("ReadLPS", {{"axis", 1}}, "0 pulses");
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    EXPECT_EQ(card.drives(), 0U);
+    EXPECT_FALSE(alarm(*served)["active"]);
+}
+
+TEST_F(ThePanelOnARealCard, AlarmsWhereAStopIsRefused) {
+    drive_x();
+    card.refuse(0xFFFF'FFFF);
+    EXPECT_TRUE(served->post("stop").contains("done"));
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_TRUE(alarm(*served)["active"]);
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(), HasSubstr("was not written"));
+    EXPECT_EQ(served->end(SIGTERM), 4) << "its axes may not be at rest";
+    card.refuse(0);
+}
+
+TEST_F(ThePanelOnARealCard, IsStoppedThroughAPortThatWasOpenedAgain) {
+    drive_x();
+    card.refuse(1);
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_EQ(card.drives(), 0U);
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
+                AllOf(HasSubstr("No such device"), HasSubstr("was opened again"), HasSubstr("they stand")));
+}
+
+}  // namespace
+}  // namespace motionrack
