@@ -13,6 +13,7 @@ constexpr Duration live_piece = milliseconds(1);         // of the rack's time b
 constexpr Duration max_live_lag = milliseconds(50);      // the rack's time does not hurry after more
 constexpr Duration registers_every = milliseconds(500);  // at all registers
 constexpr Duration stop_patience = milliseconds(100);    // of a function that waits for an axis to stop
+constexpr int min_stop_waits = 10;                       // in it: a computer that is busy looks seldom
 constexpr int max_live_looks = 100;
 
 constexpr const char* by_its_wires =
@@ -109,7 +110,7 @@ void LiveCard::keep_up() {
 void LiveCard::heed_stop() {
     if (!stop_requested()) return;
     if (!stopped_) stopped_ = now();
-    gives_up_ = now() - *stopped_ > stop_patience;
+    gives_up_ = ++stop_waits_ > min_stop_waits && now() - *stopped_ > stop_patience;
 }
 
 // ---- stops

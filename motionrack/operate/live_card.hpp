@@ -98,6 +98,7 @@ class LiveCard final : public RegisterPort, public Interrupt {
     Instant looked_{};                ///< of this clock
     Instant passed_{};                ///< up to here the rack's time has followed this clock
     std::optional<Instant> stopped_;  ///< a function has waited with a stop in force since
+    int stop_waits_ = 0;              ///< since then
     bool gives_up_ = false;           ///< for too long: an axis does not stop
 };
 

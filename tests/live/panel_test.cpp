@@ -121,7 +121,7 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     const json shown = served->get("card?name=bench");
     EXPECT_EQ(shown["values"][0]["name"], "x.LP") << shown;
     EXPECT_EQ(shown["values"][0]["value"], 2000) << shown;
-    good("contour_begin", {{"SV", 100}, {"V", 1000}, {"A", 0}, {"D", 0}},
+    good("contour_begin", {{"SV", 100}, {"V", 200}, {"A", 0}, {"D", 0}},
          "The contour is open; give its lines and arcs.");
     good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}}, "The line was taken.");
     good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 300}, {"PZ", 0}, {"PU", 0}, {"V", 0}}, "The line was taken.");
