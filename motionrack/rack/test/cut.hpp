@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <random>
+#include <motionrack/rack/test/drawn.hpp>
 #include <string>
 #include <string_view>
 #include <tests/environment.hpp>
@@ -17,8 +17,6 @@
 #include <vector>
 
 namespace motionrack::rack::cut {
-
-using Random = std::mt19937_64;
 
 inline std::uint64_t below(Random& random, std::uint64_t end) {
     return random() % end;

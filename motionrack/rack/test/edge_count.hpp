@@ -14,19 +14,13 @@
 
 #include <memory>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/test/drawn.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
-#include <random>
 #include <string>
 #include <tests/environment.hpp>
 #include <vector>
 
 namespace motionrack::rack {
-
-using Random = std::mt19937_64;
-
-inline std::int64_t drawn(Random& random, std::int64_t min, std::int64_t max) {
-    return min + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(max - min + 1));
-}
 
 /// The meaning of two recorded wires together.
 enum class Wires {
