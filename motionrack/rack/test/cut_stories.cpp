@@ -177,6 +177,17 @@ speed_mm_s = 20
 accel_mm_s2 = 2000
 )";
 
+/// Encoders of axes whose edges are wires.
+constexpr const char* encoder_wires = R"([wires]
+"p1.a1" = "X.enc_a"
+"p1.b1" = "X.enc_b"
+"p1.z1" = "X.enc_z"
+"decoder.a0" = "X.enc_a"
+"decoder.b0" = "X.enc_b"
+"s.enc1_a" = "B.enc_b"
+"s.enc1_b" = "B.enc_a"
+)";
+
 /// Every third with a loop through the frames; the others with frames so close that many calls end within one.
 Story grating_story(std::uint64_t seed) {
     Random random(seed);
@@ -213,8 +224,8 @@ std::vector<Bench> benches() {
         {"grating_bus", &grating_story},
         {"all_cards",
          [](std::uint64_t seed) {
-             const std::string text =
-                 mcx314_machine() + databoard4002_text + ioflex02_text + rtc5_text + fmt::format(grating_bus_text, "");
+             const std::string text = mcx314_machine() + databoard4002_text + ioflex02_text + rtc5_text +
+                                      fmt::format(grating_bus_text, "period_us = 2000\n") + encoder_wires;
              return Story{text, many<&any_of_them>(seed)};
          }},
     };
