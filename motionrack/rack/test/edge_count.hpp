@@ -27,6 +27,7 @@ enum class Wires {
     both_ways,         ///< pulses forwards, pulses backwards
     low_is_forwards,   ///< pulses, and their direction by its level
     high_is_forwards,  ///< pulses, and their direction by its level
+    tracks,            ///< A and B of an encoder
 };
 
 struct EdgesSeen {
@@ -54,6 +55,8 @@ class EdgeCount final : public WaveSink {
 
   private:
     int step(bool is_first, bool is_high) const {
+        // Forwards A leads B.
+        if (wires_ == Wires::tracks) return (is_first_high_ != is_second_high_) == is_first ? 1 : -1;
         if (!is_high) return 0;
         if (wires_ == Wires::both_ways) return is_first ? 1 : -1;
         if (!is_first) return 0;
