@@ -27,6 +27,10 @@ TEST(RecordedEdges, OfAnEncoderAreThePositionsOfAllCardsThatCountIt) {
     count_encoder(moves(), 'Y', {.counts_per_rev = 12'800});
 }
 
+TEST(RecordedEdges, OfAnEncoderAreThePositionsAlsoWhereTheMotorLosesSteps) {
+    count_encoder(moves(), 'X', {.loses_steps = true});
+}
+
 TEST(RecordedEdges, OfAnEncoderAreThePositionsAlsoWhereAPulseIsManyCounts) {
     count_encoder(moves(), 'X', {.counts_per_rev = 100'000});
 }
