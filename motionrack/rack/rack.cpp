@@ -242,7 +242,10 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
     if (!axis.lines) {
         parts::LineEncoderSettings settings;
         settings.counts_per_turn = settings.place_per_turn = axis.config.encoder_counts_per_rev;
-        settings.fastest = nanoseconds(200);  // a pulse may be more than a count; its edges keep this distance
+        // A pulse may be many counts, and a rotor that locks elsewhere jumps: their edges keep a distance, none is
+        // lost.
+        settings.fastest = nanoseconds(200);
+        settings.too_quick = parts::TooQuick::loses_by_fault;
         axis.lines = std::make_unique<parts::LineEncoder>(kernel_, name, axis.machine->encoder(), settings);
     }
     return kernel_.find_wire(name + (end.pin == "enc_a" ? ".a" : ".b"));

@@ -82,7 +82,7 @@ class WaveRecorder::LineEar final : public sim::EdgeListener {
             const Instant at = batch.origin + batch.at[i] * batch.tick;
             const auto phase = static_cast<unsigned>(count & 3);  // 0 00, 1 A, 2 AB, 3 B
             recorder_.push(at, a_, phase == 1 || phase == 2);
-            recorder_.push(at, b_, phase >= 2);
+            recorder_.push(at, b_, phase >= 2, recorder_.place_of(a_));
         }
     }
 
@@ -236,12 +236,12 @@ void WaveRecorder::begin() {
     rack_.kernel().schedule(id_, rack_.kernel().now());
 }
 
-void WaveRecorder::push(Instant at, std::size_t signal, std::int64_t value) {
+void WaveRecorder::push(Instant at, std::size_t signal, std::int64_t value, std::uint32_t place) {
     if (buffer_.size() == buffer_size) {
         ++lost_;
         return;
     }
-    buffer_.push_back({at, signal, value});
+    buffer_.push_back({at, static_cast<std::uint32_t>(signal), place, value});
     if (buffer_.size() > buffer_size / 2) rack_.kernel().break_run();
 }
 
@@ -270,9 +270,8 @@ void WaveRecorder::drain_settled() {
 void WaveRecorder::write_before(Instant end) {
     const Instant now = rack_.kernel().now();
     for (const auto& ear : steps_) ear->settle(now);
-    std::stable_sort(buffer_.begin(), buffer_.end(), [this](const Event& a, const Event& b) {
-        return a.at != b.at ? a.at < b.at : place(a) < place(b);
-    });
+    std::stable_sort(buffer_.begin(), buffer_.end(),
+                     [](const Event& a, const Event& b) { return a.at != b.at ? a.at < b.at : a.place < b.place; });
     const auto rest =
         std::partition_point(buffer_.begin(), buffer_.end(), [end](const Event& event) { return event.at < end; });
     for (auto event = buffer_.begin(); event != rest; ++event) {

@@ -81,13 +81,15 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
   private:
     struct Event {
         Instant at{};
-        std::size_t signal = 0;
+        std::uint32_t signal = 0;
+        std::uint32_t place = 0;  ///< among the events of its instant
         std::int64_t value = 0;
     };
-    /// The place of an event among those of its instant. Edges are handed over some time later, so their place is by
-    /// their signals; wires come before them, as they changed.
-    std::size_t place(const Event& event) const {
-        return wires_begin_ <= event.signal && event.signal < wires_end_ ? 0 : event.signal + 1;
+    /// Edges are handed over some time later, so their place is by their signals; wires come before them, as they
+    /// changed. Both tracks of an encoder have the place of the first: where it turns by many counts at one instant,
+    /// their edges keep their order.
+    std::uint32_t place_of(std::size_t signal) const {
+        return wires_begin_ <= signal && signal < wires_end_ ? 0 : static_cast<std::uint32_t>(signal + 1);
     }
     /// Hears the pulses of one axis.
     class StepEar;
@@ -113,7 +115,8 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     void choose_counters();
     void listen();
     void stop_listening();
-    void push(Instant at, std::size_t signal, std::int64_t value);
+    void push(Instant at, std::size_t signal, std::int64_t value) { push(at, signal, value, place_of(signal)); }
+    void push(Instant at, std::size_t signal, std::int64_t value, std::uint32_t place);
     void look_at_cards(Instant now);
     void write_before(Instant end);
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <motionrack/rack/session.hpp>
@@ -31,6 +32,19 @@ void carry_out(Session& session, const Order& order) {
     }
 }
 
+/// Looks at a value of each kind of card, and of the machine; a rack has some of them.
+void ask(Session& session) {
+    for (const char* part : {"X.position_mm", "g2.age_us", "table.position_mm"}) static_cast<void>(session.part(part));
+    constexpr std::array<std::array<const char*, 2>, 6> values = {{{"c1", "RR0"},
+                                                                   {"d1", "POSITION"},
+                                                                   {"p1", "0.POSITION"},
+                                                                   {"s", "ENCODER0"},
+                                                                   {"g1", "STATE"},
+                                                                   {"g2", "2.COUNT"}}};
+    for (const auto& [card, value] : values) static_cast<void>(session.peek(card, value));
+    for (const char* wire : {"c1.xpp", "bus.data", "s.xout"}) static_cast<void>(session.wire(wire));
+}
+
 /// In up to six pieces, some of no length, some that end with a card's clock; in between the rack is asked.
 void pass_in_pieces(Session& session, std::uint64_t ns, Random& random) {
     constexpr std::uint64_t clock = 125;
@@ -43,8 +57,7 @@ void pass_in_pieces(Session& session, std::uint64_t ns, Random& random) {
     std::sort(ends.begin(), ends.end());
     for (std::size_t i = 1; i < ends.size(); ++i) {
         ASSERT_TRUE(session.advance(ends[i] - ends[i - 1]));
-        static_cast<void>(session.part("X.position_mm"));
-        static_cast<void>(session.peek("c1", "RR0"));
+        ask(session);
     }
 }
 
@@ -106,12 +119,12 @@ struct World {
 
 }  // namespace
 
-std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders) {
+std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders, double max_ns) {
     std::vector<Step> out;
     for (int i = 0; i < count; ++i) {
         Step& step = out.emplace_back();
         step.orders = orders(random);
-        step.ns = spread(random, 50, 3e7);
+        step.ns = spread(random, 50, max_ns);
     }
     return out;
 }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <random>
+#include <motionrack/rack/test/drawn.hpp>
 #include <string>
 #include <string_view>
 #include <tests/environment.hpp>
@@ -17,8 +17,6 @@
 #include <vector>
 
 namespace motionrack::rack::cut {
-
-using Random = std::mt19937_64;
 
 inline std::uint64_t below(Random& random, std::uint64_t end) {
     return random() % end;
@@ -84,8 +82,9 @@ std::string mcx314_machine(std::string_view settings = "");
 /// Something that is done to a card, perhaps by several accesses. The MCX314 is c1, with the axes X and B.
 Orders anything_to_pulse_chip(Random& random);
 
-/// Gives each step a time of its own.
-std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders);
+/// Gives each step a time of its own, up to `max_ns`.
+std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders,
+                           double max_ns = 3e7);
 
 /// Fails if the two racks of a story differ. Every fourth seed is recorded.
 void expect_the_same_however_it_is_cut(const Bench& bench, std::uint64_t seed);

@@ -15,10 +15,6 @@ using mcx314::twin::Op;
 
 constexpr double released = std::numeric_limits<double>::quiet_NaN();
 
-std::uint64_t from_to(Random& random, std::uint64_t first, std::uint64_t last) {
-    return first + below(random, last - first + 1);
-}
-
 void command(Orders& out, std::uint64_t axes, std::uint64_t code) {
     out.push_back(bus("c1", 16, 0x00, axes << 8 | code));
 }
@@ -36,12 +32,12 @@ void mode(Orders& out, std::uint64_t axes, std::uint32_t number, std::uint64_t v
 }
 
 void speeds(Orders& out, std::uint64_t axes, Random& random) {
-    data(out, axes, 0x00, from_to(random, 16'000, 8'000'000));
-    data(out, axes, 0x01, from_to(random, 1, 65'535));
-    data(out, axes, 0x02, from_to(random, 1, 8'000));
-    data(out, axes, 0x03, from_to(random, 1, 8'000));
-    data(out, axes, 0x04, from_to(random, 1, 500));
-    data(out, axes, 0x05, from_to(random, 1, 8'000));
+    data(out, axes, 0x00, drawn(random, 16'000, 8'000'000));
+    data(out, axes, 0x01, drawn(random, 1, 65'535));
+    data(out, axes, 0x02, drawn(random, 1, 8'000));
+    data(out, axes, 0x03, drawn(random, 1, 8'000));
+    data(out, axes, 0x04, drawn(random, 1, 500));
+    data(out, axes, 0x05, drawn(random, 1, 8'000));
 }
 
 /// A line or an arc, to be queued behind the one that runs if there is one.
@@ -51,13 +47,13 @@ void path(Orders& out, Random& random) {
         data(out, axis, 0x08, below(random, 4'000) - 2'000);
     }
     out.push_back(bus("c1", 16, 0x0A, 0x0004 | below(random, 4) << 8));
-    command(out, 0, from_to(random, 0x30, 0x33));
+    command(out, 0, drawn(random, 0x30, 0x33));
 }
 
 /// Words of a bit pattern, at times without an end, and its drive.
 void pattern(Orders& out, Random& random) {
     command(out, 0, 0x36);
-    for (std::uint64_t words = from_to(random, 1, 3); words > 0; --words) {
+    for (std::uint64_t words = drawn(random, 1, 3); words > 0; --words) {
         for (std::uint32_t offset = 0x04; offset <= 0x0E; offset += 2) {
             const std::uint64_t steps = random() & 0xFFFF;
             out.push_back(bus("c1", 16, offset, offset % 4 == 0 ? steps & 0x5555 : steps & 0xAAAA));
@@ -74,8 +70,8 @@ void pattern(Orders& out, Random& random) {
 /// A search that only the MCX314As makes; the original refuses it.
 void search_home(Orders& out, std::uint64_t axes, Random& random) {
     data(out, axes, 0x60, random());
-    data(out, axes, 0x61, from_to(random, 1, 1'000));
-    command(out, axes, from_to(random, 0x62, 0x63));
+    data(out, axes, 0x61, drawn(random, 1, 1'000));
+    command(out, axes, drawn(random, 0x62, 0x63));
 }
 
 void move_wire(Orders& out, Random& random) {
@@ -176,7 +172,7 @@ channel = "y"
 
 Orders anything_to_pulse_chip(Random& random) {
     Orders out;
-    const std::uint64_t axes = from_to(random, 1, 15);
+    const std::uint64_t axes = drawn(random, 1, 15);
     switch (below(random, 16)) {
         case 0:
             speeds(out, axes, random);
@@ -186,14 +182,14 @@ Orders anything_to_pulse_chip(Random& random) {
             mode(out, axes, 3, below(random, 8) | below(random, 2) << 7);
             data(out, axes, 0x06, below(random, 4'000));
             data(out, axes, 0x07, below(random, 4'000));
-            command(out, axes, from_to(random, 0x20, 0x21));
+            command(out, axes, drawn(random, 0x20, 0x21));
             break;
         case 3:  // without end, and a change of speed
-            command(out, axes, from_to(random, 0x22, 0x23));
-            data(out, axes, 0x05, from_to(random, 1, 4'000));
+            command(out, axes, drawn(random, 0x22, 0x23));
+            data(out, axes, 0x05, drawn(random, 1, 4'000));
             break;
         case 4:
-            command(out, axes, from_to(random, 0x24, 0x27));
+            command(out, axes, drawn(random, 0x24, 0x27));
             break;
         case 5:
         case 6:
@@ -217,9 +213,9 @@ Orders anything_to_pulse_chip(Random& random) {
             break_machine(out, random);
             break;
         case 14: {  // stops, interrupts, limits, comparisons, drives by wire
-            const auto number = static_cast<std::uint32_t>(from_to(random, 1, 3));
+            const auto number = static_cast<std::uint32_t>(drawn(random, 1, 3));
             mode(out, axes, number, random() & 0xFFFF);
-            data(out, axes, from_to(random, 0x09, 0x0D), below(random, 2'000) - 1'000);
+            data(out, axes, drawn(random, 0x09, 0x0D), below(random, 2'000) - 1'000);
             break;
         }
         default: {

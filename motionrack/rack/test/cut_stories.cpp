@@ -2,10 +2,15 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <iterator>
+#include <limits>
+#include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/rack/test/cut.hpp>
 
 namespace motionrack::rack::cut {
 namespace {
+
+namespace gb = grating_bus;
 
 constexpr int steps = 60;
 
@@ -78,8 +83,64 @@ Orders rtc5(Random& random) {
     return {level(pin, static_cast<double>(below(random, 2)))};
 }
 
+/// Tracks of scales, and lines of the bus that are held; most are let go again.
+Order line_of_bus(Random& random) {
+    if (below(random, 2) == 0) {
+        const std::string wire = fmt::format("decoder.{}{}", "ab"[below(random, 2)], below(random, 2));
+        return level(wire, static_cast<double>(below(random, 2)));
+    }
+    static constexpr std::array lines = {"clk", "hold", "read_n", "addr", "addr1", "data0", "data31"};
+    const std::string wire = std::string("bus.") + lines[below(random, lines.size())];
+    const std::uint64_t to = below(random, 5);
+    return level(wire, to < 2 ? static_cast<double>(to) : std::numeric_limits<double>::quiet_NaN());
+}
+
+Order break_bus(Random& random) {
+    struct Fault {
+        const char *what, *of;
+    };
+    static constexpr Fault all[] = {{"off", "g1"},
+                                    {"off=0", "g1"},
+                                    {"reset", "g1"},
+                                    {"jitter=300", "g1"},
+                                    {"jitter=0", "g1"},
+                                    {"off", "g2"},
+                                    {"off=0", "g2"},
+                                    {"reset", "g2"},
+                                    {"late=70", "g2"},
+                                    {"late=0", "g2"},
+                                    {"miss_edge=2", "g2"},
+                                    {"no_latch", "decoder"},
+                                    {"no_latch=0", "decoder"},
+                                    {"off=0", "g1"},
+                                    {"off=0", "g2"}};
+    const Fault& one = all[below(random, std::size(all))];
+    return fault(one.what, one.of);
+}
+
+Orders grating_bus(Random& random) {
+    const char* const card = below(random, 2) == 0 ? "g1" : "g2";
+    switch (below(random, 8)) {
+        case 0:
+        case 1:  // claims, releases, clears, now and then resets
+            return {bus(card, 16, 0, below(random, below(random, 4) == 0 ? 16 : 8))};
+        case 2:
+            return {look(card, 16, 2 * static_cast<std::uint32_t>(below(random, 32)))};
+        case 3:
+            return {look(card, 16, gb::counts_at + 2 * static_cast<std::uint32_t>(below(random, 6)))};
+        case 4:
+            return {look("decoder", 16, gb::counts_at + 2 * static_cast<std::uint32_t>(below(random, 6)))};
+        case 5:
+        case 6:
+            return {line_of_bus(random)};
+        default:
+            return {break_bus(random)};
+    }
+}
+
 Orders any_of_them(Random& random) {
-    constexpr std::array<Orders (*)(Random&), 4> all = {&databoard4002, &ioflex02, &rtc5, &anything_to_pulse_chip};
+    constexpr std::array<Orders (*)(Random&), 5> all = {&databoard4002, &ioflex02, &rtc5, &grating_bus,
+                                                        &anything_to_pulse_chip};
     return all[below(random, all.size())](random);
 }
 
@@ -95,6 +156,49 @@ counts_per_mm = 100
 [scanner.head]
 card = "s"
 )";
+constexpr const char* grating_bus_text = R"([card.decoder]
+type = "grating_decoder"
+scales = 3
+[card.g1]
+type = "grating_bus"
+scales = 3
+{0}[card.g2]
+type = "grating_bus"
+scales = 3
+{0}[stage.table]
+card = "g2"
+input = 2
+)";
+constexpr const char* servo_text = R"([stage.table.servo]
+profile = "scan"
+from_mm = 0
+to_mm = 4
+speed_mm_s = 20
+accel_mm_s2 = 2000
+)";
+
+/// Encoders of axes whose edges are wires.
+constexpr const char* encoder_wires = R"([wires]
+"p1.a1" = "X.enc_a"
+"p1.b1" = "X.enc_b"
+"p1.z1" = "X.enc_z"
+"decoder.a0" = "X.enc_a"
+"decoder.b0" = "X.enc_b"
+"s.enc1_a" = "B.enc_b"
+"s.enc1_b" = "B.enc_a"
+)";
+
+/// Every third with a loop through the frames; the others with frames so close that many calls end within one.
+Story grating_story(std::uint64_t seed) {
+    Random random(seed);
+    const bool servo = seed % 3 == 0;
+    const int period_us = servo ? 200 : std::array{1, 3, 20}[below(random, 3)];
+    Story out;
+    out.text = fmt::format(grating_bus_text, fmt::format("period_us = {}\n", period_us)) + (servo ? servo_text : "");
+    out.steps = steps_of(random, steps, &grating_bus, servo ? 3e6 : 1e5);
+    return out;
+}
+
 template <Orders (*orders)(Random&)>
 std::vector<Step> many(std::uint64_t seed) {
     Random random(seed);
@@ -117,9 +221,11 @@ std::vector<Bench> benches() {
          [](std::uint64_t seed) {
              return Story{rtc5_text, many<&rtc5>(seed)};
          }},
+        {"grating_bus", &grating_story},
         {"all_cards",
          [](std::uint64_t seed) {
-             const std::string text = mcx314_machine() + databoard4002_text + ioflex02_text + rtc5_text;
+             const std::string text = mcx314_machine() + databoard4002_text + ioflex02_text + rtc5_text +
+                                      fmt::format(grating_bus_text, "period_us = 2000\n") + encoder_wires;
              return Story{text, many<&any_of_them>(seed)};
          }},
     };

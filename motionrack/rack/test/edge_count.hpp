@@ -14,25 +14,20 @@
 
 #include <memory>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/test/drawn.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
-#include <random>
 #include <string>
 #include <tests/environment.hpp>
 #include <vector>
 
 namespace motionrack::rack {
 
-using Random = std::mt19937_64;
-
-inline std::int64_t drawn(Random& random, std::int64_t min, std::int64_t max) {
-    return min + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(max - min + 1));
-}
-
 /// The meaning of two recorded wires together.
 enum class Wires {
     both_ways,         ///< pulses forwards, pulses backwards
     low_is_forwards,   ///< pulses, and their direction by its level
     high_is_forwards,  ///< pulses, and their direction by its level
+    tracks,            ///< A and B of an encoder
 };
 
 struct EdgesSeen {
@@ -60,6 +55,8 @@ class EdgeCount final : public WaveSink {
 
   private:
     int step(bool is_first, bool is_high) const {
+        // Forwards A leads B.
+        if (wires_ == Wires::tracks) return (is_first_high_ != is_second_high_) == is_first ? 1 : -1;
         if (!is_high) return 0;
         if (wires_ == Wires::both_ways) return is_first ? 1 : -1;
         if (!is_first) return 0;

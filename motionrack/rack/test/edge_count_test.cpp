@@ -1,6 +1,6 @@
 // The edges of a card's wires, as a recording has them, are the card's counter: whatever the moves, and however they
 // end. MOTIONRACK_SEED=N picks the moves, MOTIONRACK_MOVES=N how many.
-#include <motionrack/rack/test/edge_count.hpp>
+#include <motionrack/rack/test/encoder_edges.hpp>
 
 namespace motionrack::rack {
 namespace {
@@ -20,6 +20,19 @@ TEST(RecordedEdges, AreThePositionOfTheDataBoard4002) {
 
 TEST(RecordedEdges, AreTheFramesOfTheGratingBus) {
     for (const char* card : {"c1", "c2"}) count_grating_bus(moves(), card);
+}
+
+TEST(RecordedEdges, OfAnEncoderAreThePositionsOfAllCardsThatCountIt) {
+    count_encoder(moves(), 'X', {});
+    count_encoder(moves(), 'Y', {.counts_per_rev = 12'800});
+}
+
+TEST(RecordedEdges, OfAnEncoderAreThePositionsAlsoWhereTheMotorLosesSteps) {
+    count_encoder(moves(), 'X', {.loses_steps = true});
+}
+
+TEST(RecordedEdges, OfAnEncoderAreThePositionsAlsoWhereAPulseIsManyCounts) {
+    count_encoder(moves(), 'X', {.counts_per_rev = 100'000});
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
     out.index_every = s.index ? s.counts_per_turn : 0;
     out.dirt_at = s.dirt_at;
     out.fastest = s.fastest;
+    out.too_quick = s.too_quick;
     out.seed = s.seed;
     return out;
 }

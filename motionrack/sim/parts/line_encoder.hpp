@@ -21,8 +21,9 @@ struct LineEncoderSettings {
     bool index = true;                    ///< a Z pulse each turn, at count 0
     double eccentricity = 0;              ///< counts, 0 .. counts_per_turn / 7
     std::int64_t dirt_at = 100;           ///< count at which the dirt begins
-    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: between two edges; what is quicker loses lines
-    std::uint64_t seed = 1;               ///< of jitter and noise
+    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: between two edges
+    TooQuick too_quick = TooQuick::loses_lines;
+    std::uint64_t seed = 1;  ///< of jitter and noise
 };
 
 class LineEncoder final : public EncoderPart {

@@ -64,10 +64,15 @@ void LineOutput::plan(Instant now) {
     state_.step_at = std::max(now + Duration{delay}, state_.free_at);
 }
 
+bool LineOutput::loses_lines() const {
+    return settings_.too_quick == TooQuick::loses_lines ||
+           (settings_.too_quick == TooQuick::loses_by_fault && state_.fastest != settings_.fastest.count());
+}
+
 void LineOutput::step(Instant now) {
     const std::int64_t to_go = state_.target - state_.shown, behind = to_go < 0 ? -to_go : to_go,
                        sign = to_go < 0 ? -1 : 1;
-    if (settings_.loses_lines && behind > most_behind) {
+    if (loses_lines() && behind > most_behind) {
         const std::int64_t lost = (behind - most_behind / 2) / 4 * 4;
         state_.shown += sign * lost;
         state_.lost += lost;

@@ -21,12 +21,19 @@
 
 namespace motionrack::parts {
 
+/// What becomes of edges that are quicker than the electronics.
+enum class TooQuick : std::uint8_t {
+    loses_lines,     ///< whole lines are lost
+    loses_by_fault,  ///< they come later; while the fault over-speed is there, whole lines are lost
+    comes_later,     ///< they come later, whatever the fault
+};
+
 struct LineOutputSettings {
     std::int64_t index_every = 0;         ///< counts from index to index, >= 0; 0: there is none
     std::int64_t index_at = 0;            ///< count of one of them
     std::int64_t dirt_at = 0;             ///< count at which the dirt of the fault "dirt" begins, within index_every
     Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: between two edges
-    bool loses_lines = true;              ///< what is quicker loses whole lines; false: the edges come later
+    TooQuick too_quick = TooQuick::loses_lines;
     std::uint64_t seed = 1;
 };
 
@@ -86,6 +93,7 @@ class LineOutput {
   private:
     std::uint64_t random(std::uint64_t below);
     void plan(Instant now);
+    bool loses_lines() const;
     void step(Instant now);
     void noise(Instant now);
     void note_index();

@@ -14,7 +14,7 @@ LineOutputSettings lines_of_converter(const ResolverSettings& s) {
     LineOutputSettings out;
     out.index_every = s.counts_per_turn;
     out.fastest = s.fastest;
-    out.loses_lines = false;
+    out.too_quick = TooQuick::comes_later;
     out.seed = s.seed;
     return out;
 }

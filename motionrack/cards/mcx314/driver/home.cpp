@@ -247,6 +247,10 @@ void Home::wait_end(const Look& look, Instant now) {
         return;
     }
     const bool limit = plus_limit_stopped.test(look.status.rr1) || minus_limit_stopped.test(look.status.rr1);
+    const int input = state_->until == HomeUntil::index ? settings_.index_input : settings_.input;
+    const bool reached = state_->until != HomeUntil::distance && look.status.stopped_by_input(input);
+    // At constant speed the drive ends at the input's place, also where a limit switch acts at the same one.
+    if (reached && (!limit || state_->pace != HomePace::fast)) return drive_reached(look, now);
     if (limit) {
         const bool again = turned_;
         if (state_->until == HomeUntil::on && state_->way == HomeWay::towards) turned_ = true;
@@ -256,12 +260,13 @@ void Home::wait_end(const Look& look, Instant now) {
         if (distance(look) == planned_) return static_cast<void>(leave_by(HomeCause::done, look, now));
         return fail(HomeFault::foreign_stop, look, now);
     } else {
-        const int input = state_->until == HomeUntil::index ? settings_.index_input : settings_.input;
-        if (look.status.stopped_by_input(input)) return drive_reached(look, now);
         if (distance(look) != planned_) return fail(HomeFault::foreign_stop, look, now);
     }
     if (state_->until == HomeUntil::index) return fail(HomeFault::no_index, look, now);
-    fail(state_->until == HomeUntil::off ? HomeFault::not_released : HomeFault::not_found, look, now);
+    fail(reached                           ? HomeFault::near_limit
+         : state_->until == HomeUntil::off ? HomeFault::not_released
+                                           : HomeFault::not_found,
+         look, now);
 }
 
 /// The input that was waited for ended the drive. Its level now may be a bounce; the chip's own word counts.

@@ -113,7 +113,7 @@ class Home {
     std::string text(std::int64_t pulses) const;
     std::string place(std::int32_t lp) const;
     std::string switch_text() const;
-    std::pair<std::string, std::string> edge_failure(const std::string& how_far) const;
+    std::pair<std::string, std::string> input_failure(const std::string& how_far) const;
     std::string why_failed(const Look& look) const;
 
     Driver& driver_;

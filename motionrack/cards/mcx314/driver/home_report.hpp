@@ -15,6 +15,7 @@ namespace motionrack::mcx314 {
 enum class HomeFault : std::uint8_t {
     none,
     not_found,        ///< the switch was not found within the travel, or before the limit
+    near_limit,       ///< the switch was found, but the limit switch came before the axis stood
     not_released,     ///< the switch is active and stays so
     edges_differ,     ///< the switch acted where a sound one would not, by what was seen of it before
     no_index,         ///< the encoder's index was not seen

@@ -136,11 +136,27 @@ std::string Home::switch_text() const {
     return fmt::format("the home switch (IN{}, active {})", settings_.input, settings_.active_high ? "High" : "Low");
 }
 
-/// What was wrong with the edges of switch or index, and what to do.
-std::pair<std::string, std::string> Home::edge_failure(const std::string& how_far) const {
+/// What was wrong with switch or index, and what to do.
+std::pair<std::string, std::string> Home::input_failure(const std::string& how_far) const {
     const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input,
                                           settings_.index_high ? "High" : "Low");
+    const bool found = report_.switch_lp.has_value();
     switch (report_.fault) {
+        case HomeFault::not_found:
+            return {fmt::format("{} was not {} within {} in {} direction{}", switch_text(),
+                                found ? "found again" : "found", how_far,
+                                settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+",
+                                turned_ && !found ? ", nor in the other direction up to the limit switch" : ""),
+                    "Look at its wire and level (RR4, RR5), or search in the other direction or farther"};
+        case HomeFault::near_limit:
+            return {
+                fmt::format(
+                    "{} acts so near to the limit switch that the axis came upon that while it decelerated, after {}",
+                    switch_text(), text(failed_after_)),
+                "Shift the switch away from the limit, or search more slowly"};
+        case HomeFault::not_released:
+            return {fmt::format("{} is active and was not released within {}", switch_text(), how_far),
+                    "Look whether it is stuck or has the other level, or move the axis off it by hand"};
         case HomeFault::edges_differ:
             return {fmt::format("{} is not sound: {}", switch_text(),
                                 conflict_->text([&](double way) { return text(std::llround(way)); })),
@@ -161,7 +177,6 @@ std::pair<std::string, std::string> Home::edge_failure(const std::string& how_fa
 /// What went wrong, how far it came, where it stands, what to do; or where home is.
 std::string Home::why_failed(const Look& look) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
-    const bool found = report_.switch_lp.has_value();
     if (report_.homed)
         return settings_.unit == "pulses"
                    ? fmt::format("Axis {} is homed: its counter read {} where it is {} since.", axis,
@@ -177,21 +192,13 @@ std::string Home::why_failed(const Look& look) const {
         case HomeFault::none:
             break;
         case HomeFault::not_found:
-            what = fmt::format("{} was not {} within {} in {} direction{}", switch_text(),
-                               found ? "found again" : "found", how_far,
-                               settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+",
-                               turned_ && !found ? ", nor in the other direction up to the limit switch" : "");
-            next = "Look at its wire and level (RR4, RR5), or search in the other direction or farther";
-            break;
+        case HomeFault::near_limit:
         case HomeFault::not_released:
-            what = fmt::format("{} is active and was not released within {}", switch_text(), how_far);
-            next = "Look whether it is stuck or has the other level, or move the axis off it by hand";
-            break;
         case HomeFault::edges_differ:
         case HomeFault::no_index:
         case HomeFault::index_at_switch:
         case HomeFault::wrong_index:
-            std::tie(what, next) = edge_failure(how_far);
+            std::tie(what, next) = input_failure(how_far);
             break;
         case HomeFault::alarm:
             what = "the drive's alarm became active", next = "Clear the cause in the drive";

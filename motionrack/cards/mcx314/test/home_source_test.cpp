@@ -89,6 +89,32 @@ TEST(HomingBySource, AnyInputMayBeTheOriginAtEitherLevel) {
     }
 }
 
+TEST(HomingBySource, AnOriginAtTheLimitIsHomeWhereItIsApproachedSlowly) {
+    for (const double above : {0.0, 0.2}) {  // braking takes 400 pulses, 0.6 mm
+        for (const double start : {20.0, -8.0, -8.5}) {
+            const RigAxis axis{.start_mm = start, .home_mm = -8 + above};
+            HomeRig rig({axis});
+            rig.start();
+            homed_by(rig, HomeType2);
+            EXPECT_NEAR(rig.position(), axis.home_mm, 1e-9) << start;
+        }
+    }
+}
+
+TEST(HomingBySource, AnOriginTooNearToTheLimitToBrakeIsSaidToBe) {
+    for (const auto function : {&HomeType1, &HomeType3}) {
+        HomeRig rig({RigAxis{.home_mm = -7.8}});
+        rig.start();
+        const auto done = function(rig.driver, axis_x, origin_in0, 50, 1000, 100);
+        ASSERT_FALSE(done);
+        EXPECT_THAT(
+            done.error().message,
+            HasSubstr("(IN0, active Low) acts so near to the limit switch that the axis came upon that while it "
+                      "decelerated"));
+        EXPECT_FALSE(rig.driver.moving(axis_x));
+    }
+}
+
 TEST(HomingBySource, TypesWithAnIndexRefuseItsInputAsTheOrigin) {
     HomeRig rig;
     rig.start();

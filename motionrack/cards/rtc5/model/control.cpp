@@ -97,7 +97,6 @@ Result<void> Engine::simulate_encoder(int which) {
             Trouble::refused,
             fmt::format("simulate_encoder: {} is not 0 (off), 1 (X), 2 (Y) or 3 (both); nothing was changed", which));
     for (std::size_t e = 0; e < encoder_count; ++e) state_.encoders[e].simulated = which >> e & 1;
-    not_due_until_ = 0;
     return {};
 }
 

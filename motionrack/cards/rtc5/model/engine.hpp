@@ -12,6 +12,7 @@
 #include <motionrack/cards/rtc5/model/correction.hpp>
 #include <motionrack/cards/rtc5/model/fly_table.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
+#include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
 #include <optional>
@@ -155,7 +156,7 @@ class Engine {
     /// A tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
     /// nullptr: set_count and receive.
-    void set_inputs(Inputs* inputs) { inputs_ = inputs, not_due_until_ = 0; }
+    void set_inputs(Inputs* inputs) { inputs_ = inputs, not_due_.forget(); }
     /// nullptr: nobody.
     void set_listener(ListListener* listener) { listener_ = listener; }
 
@@ -339,8 +340,7 @@ class Engine {
     State state_;
     Inputs* inputs_ = nullptr;
     ListListener* listener_ = nullptr;
-    Start not_due_;  // this start, until that tick, as far as the inputs were looked at
-    std::int64_t not_due_until_ = 0;
+    NotDue not_due_;
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<Scratch> scratch_;

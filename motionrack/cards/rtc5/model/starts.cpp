@@ -4,14 +4,6 @@
 
 namespace motionrack::rtc5 {
 
-namespace {
-
-bool due(const Start& start, std::int64_t travel) {
-    return start.delay > 0 ? travel >= start.target : travel <= start.target;
-}
-
-}  // namespace
-
 void Engine::take_starts() {
     Starts& s = state_.starts;
     const auto asked = s.asked_count;
@@ -88,22 +80,11 @@ std::int64_t Engine::ticks_to_start(std::int64_t limit) {
         return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);
     }
     if (inputs_ == nullptr) return limit;
-    const bool known =
-        not_due_.target == start.target && not_due_.delay == start.delay && not_due_.encoder == start.encoder;
-    if (known && state_.tick < not_due_until_) return std::min(limit, not_due_until_ - state_.tick);
-    const auto n = block;
-    load_counts(static_cast<int>(start.encoder), n);
-    const auto& counts = scratch_->counts[start.encoder];
-    std::int64_t travel = e.travel;
-    for (std::size_t i = 1; i < n; ++i) {
-        travel += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts[i]) -
-                                            static_cast<std::uint32_t>(counts[i - 1]));
-        if (!due(start, travel)) continue;
-        return std::min(limit, static_cast<std::int64_t>(i));
+    if (!not_due_.holds(start, state_.tick, e.travel)) {
+        load_counts(static_cast<int>(start.encoder), block);
+        not_due_.look(start, state_.tick, e.travel, scratch_->counts[start.encoder]);
     }
-    not_due_ = start;
-    not_due_until_ = state_.tick + static_cast<std::int64_t>(n);
-    return std::min(limit, static_cast<std::int64_t>(n));
+    return std::min(limit, not_due_.until() - state_.tick);
 }
 
 }  // namespace motionrack::rtc5

@@ -1,5 +1,6 @@
 // A thousand moves a card. MOTIONRACK_SEED=N picks the moves, MOTIONRACK_MOVES=N how many.
-#include <motionrack/rack/test/edge_count.hpp>
+#include <motionrack/rack/test/encoder_edges.hpp>
+#include <tuple>
 
 namespace motionrack::rack {
 namespace {
@@ -21,6 +22,15 @@ TEST(RecordedEdgesOfAThousand, MovesAreThePositionOfTheDataBoard4002) {
 
 TEST(RecordedEdgesOfAThousand, InstantsAreTheFramesOfTheGratingBus) {
     for (const char* card : {"c1", "c2"}) count_grating_bus(moves(), card);
+}
+
+class RecordedEncoderEdges : public testing::TestWithParam<std::tuple<std::int64_t, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Encoder, RecordedEncoderEdges,
+                         testing::Combine(testing::Values(400, 4'000, 12'800, 100'000), testing::Bool()));
+
+TEST_P(RecordedEncoderEdges, OfAThousandMovesAreThePositionsOfAllCardsThatCountThem) {
+    const auto& [counts_per_rev, loses_steps] = GetParam();
+    for (const char axis : {'X', 'Y'}) count_encoder(moves(), axis, {counts_per_rev, loses_steps});
 }
 
 }  // namespace

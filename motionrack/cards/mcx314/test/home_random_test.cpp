@@ -1,0 +1,151 @@
+// The source's four functions of homing on random machines: wherever the axis starts, wherever the switch is, with any
+// input as the origin, with and without an index. Each ends at home or with a sentence, and none runs past a limit.
+// MOTIONRACK_SEED=N picks the machines, MOTIONRACK_HOMINGS=N how many.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <motionrack/cards/mcx314/test/home_rig.hpp>
+#include <random>
+#include <tests/environment.hpp>
+
+namespace motionrack::mcx314 {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// How far the rotor was beyond a range, pulses.
+class Beyond final : sim::MotionListener {
+  public:
+    Beyond(sim::Motion& rotor, std::int64_t low, std::int64_t high)
+        : rotor_(rotor), from_(low), to_(high), low_(low), high_(high), slot_(rotor.listen(*this)) {}
+    void begin() { rotor_.watch(slot_, low_ - 1, high_ + 1); }
+    std::int64_t pulses() const { return std::max(from_ - low_, high_ - to_); }
+
+  private:
+    void crossed(Instant now) override {
+        const std::int64_t at = rotor_.count(now);
+        low_ = std::min(low_, at), high_ = std::max(high_, at);
+        begin();
+    }
+    void rate_changed(double, double, Instant) override {}
+
+    sim::Motion& rotor_;
+    std::int64_t from_, to_, low_, high_;
+    int slot_;
+};
+
+enum class Index { wired, never, always };
+
+struct Homing {
+    RigAxis axis;
+    int type = 1, input = 0;
+    bool high = false, brakes_at_limits = true;
+    Index index = Index::wired;
+    std::int64_t sv = 50, v = 1000, a = 100;
+
+    unsigned wr1() const {
+        const unsigned origin = (high ? 3u : 2u) << 2 * input;
+        return type >= 3 ? origin | 0x10 : origin;
+    }
+    /// From V to SV, pulses; the multiple is 10.
+    std::int64_t braking() const {
+        const double fast = 10.0 * static_cast<double>(v), slow = 10.0 * static_cast<double>(sv);
+        return static_cast<std::int64_t>((fast * fast - slow * slow) / (2 * 1'250.0 * static_cast<double>(a)) * 1.05);
+    }
+    std::int64_t pulses_to(double mm) const {
+        return static_cast<std::int64_t>(std::floor((mm - axis.start_mm) * pulses_per_mm + 1e-6));
+    }
+    /// The switch is so far from the limit that the longest way beyond it ends before: braking, then a turn. Type 2
+    /// ends at the switch itself.
+    bool must_succeed() const {
+        const std::int64_t room = pulses_to(axis.home_mm) - pulses_to(axis.limit_minus_mm);
+        if (type == 2) return room >= 0;
+        const bool sound_index = type < 3 || index == Index::wired;
+        return sound_index && room > braking() + (type >= 3 ? 2 * pulses_per_turn : 200);
+    }
+    std::string text() const {
+        return fmt::format(
+            "HomeType{} WR1 {:02X}h SV {} V {} A {}, start {} home {} limit {} hysteresis {} bounce {} s, index {}{}",
+            type, wr1(), sv, v, a, axis.start_mm, axis.home_mm, axis.limit_minus_mm, axis.hysteresis_mm,
+            to_seconds(axis.bounce), static_cast<int>(index), brakes_at_limits ? ", brakes at limits" : "");
+    }
+};
+
+Homing drawn(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::uint64_t end) { return static_cast<int>(random() % end); };
+    Homing out;
+    out.type = 1 + below(4);
+    constexpr std::array with_index = {0, 1, 3};
+    out.input = out.type >= 3 ? with_index[static_cast<std::size_t>(below(3))] : below(4);
+    out.high = below(2) != 0;
+    out.brakes_at_limits = below(2) != 0;
+    out.index = below(3) != 0 ? Index::wired : below(2) != 0 ? Index::never : Index::always;
+    out.sv = 20 + below(200);
+    out.v = out.sv + below(1'500);
+    out.a = 50 + below(350);
+    RigAxis& axis = out.axis;
+    // In the middle of travel, close to the limit, at it, and behind it.
+    axis.home_mm = axis.limit_minus_mm + std::array{9 + 0.5 * below(8), 0.01 * below(200), 0.0, -0.3}[below(4) % 4];
+    axis.limit_plus_mm = 60;
+    // Beside the switch, on it or at a limit.
+    axis.start_mm = std::array{5.0 + below(40), axis.home_mm, axis.home_mm - 0.5 * below(3), axis.limit_minus_mm,
+                               axis.limit_plus_mm}[static_cast<std::size_t>(below(5))];
+    axis.hysteresis_mm = std::array{0.0, 0.05, 0.4}[static_cast<std::size_t>(below(3))];
+    axis.bounce = std::array{Duration{0}, Duration{microseconds(300)}, Duration{milliseconds(2)}}[below(3) % 3];
+    axis.wired_home = false;
+    axis.wired_index = out.type >= 3 && out.index == Index::wired;
+    axis.home_level = out.high ? 1 : 0;
+    axis.start_stop_hz = 1e6;
+    return out;
+}
+
+void expect_an_end(const Homing& homing) {
+    SCOPED_TRACE(homing.text());
+    HomeRig rig({homing.axis});
+    rig.join(rig.machines[0]->home_wire(), "c.xin" + std::to_string(homing.input));
+    const auto limit = [&](double mm) { return homing.pulses_to(mm); };
+    Beyond beyond(rig.machines[0]->rotor(), std::min<std::int64_t>(0, limit(homing.axis.limit_minus_mm)),
+                  std::max<std::int64_t>(0, limit(homing.axis.limit_plus_mm)));
+    rig.start();
+    beyond.begin();
+    rig.driver.WriteMode2(xyzu, homing.brakes_at_limits ? 0x0044 : 0x0040);
+    if (homing.type >= 3 && homing.index != Index::wired) rig.hold_wire("c.xin2", homing.index == Index::always);
+    constexpr std::array functions = {&HomeType1, &HomeType2, &HomeType3, &HomeType4};
+    const auto done = functions[static_cast<std::size_t>(homing.type - 1)](rig.driver, axis_x, homing.wr1(), homing.sv,
+                                                                           homing.v, homing.a);
+    EXPECT_FALSE(rig.driver.moving(xyzu));
+    EXPECT_LT(rig.port.now(), whole_seconds(600));
+    EXPECT_LE(beyond.pulses(), homing.brakes_at_limits ? homing.braking() + 2 : 2);
+    EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
+    if (!done) {
+        EXPECT_THAT(done.error().message, AllOf(HasSubstr("Axis X is not homed: "), HasSubstr("again.")));
+        EXPECT_FALSE(homing.must_succeed()) << done.error().message;
+        return;
+    }
+    EXPECT_TRUE(done->front().homed);
+    EXPECT_EQ(rig.driver.ReadLPS(0), 0);
+    EXPECT_EQ(rig.driver.ReadEPS(0), 0);
+    const bool at_origin = homing.type == 2 || homing.type == 4;
+    if (at_origin) {
+        // Where the switch is at a whole pulse, rounding decides whether that one acts.
+        EXPECT_NEAR(static_cast<double>(rig.rotor()), static_cast<double>(homing.pulses_to(homing.axis.home_mm)), 1);
+    }
+    if (homing.type == 3 && homing.index == Index::wired) {
+        EXPECT_EQ(rig.rotor() % pulses_per_turn, 0);
+    }
+}
+
+TEST(HomingBySource, EndsAtHomeOrWithASentenceOnAnyMachine) {
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_HOMINGS", 60);
+    for (std::uint64_t i = 0; i < count && !HasFailure(); ++i) {
+        SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={}", first + i));
+        expect_an_end(drawn(first + i));
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::mcx314

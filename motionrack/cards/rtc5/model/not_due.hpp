@@ -1,0 +1,47 @@
+// Up to which tick a waiting start is known not to be due, as far as the inputs were looked at.
+#pragma once
+
+#include <array>
+#include <motionrack/cards/rtc5/model/kernels.hpp>
+#include <motionrack/cards/rtc5/model/state.hpp>
+#include <span>
+
+namespace motionrack::rtc5 {
+
+inline bool due(const Start& start, std::int64_t travel) {
+    return start.delay > 0 ? travel >= start.target : travel <= start.target;
+}
+
+/// No part of the card's state: after a rewind or a reset it is of another past. So it keeps the travel of each tick
+/// and holds only where the card's is that one, from which the same inputs lead on.
+class NotDue {
+  public:
+    bool holds(const Start& start, std::int64_t tick, std::int64_t travel) const {
+        return start_.target == start.target && start_.delay == start.delay && start_.encoder == start.encoder &&
+               from_ <= tick && tick < until_ && travel_[static_cast<std::size_t>(tick - from_)] == travel;
+    }
+    /// The first tick in which it may be due.
+    std::int64_t until() const { return until_; }
+    /// The inputs are others.
+    void forget() { until_ = from_; }
+    /// `counts`: of its encoder at `tick` and after it, at most kernels::block of them; at `tick` it is not due.
+    void look(const Start& start, std::int64_t tick, std::int64_t travel, std::span<const std::int32_t> counts) {
+        start_ = start;
+        from_ = tick;
+        travel_[0] = travel;
+        std::size_t i = 1;
+        for (; i < counts.size(); ++i) {
+            travel_[i] = travel_[i - 1] + static_cast<std::int32_t>(static_cast<std::uint32_t>(counts[i]) -
+                                                                    static_cast<std::uint32_t>(counts[i - 1]));
+            if (due(start, travel_[i])) break;
+        }
+        until_ = tick + static_cast<std::int64_t>(i);
+    }
+
+  private:
+    Start start_;
+    std::int64_t from_ = 0, until_ = 0;
+    std::array<std::int64_t, kernels::block> travel_{};
+};
+
+}  // namespace motionrack::rtc5
