@@ -141,13 +141,13 @@ if(MOTIONRACK_TESTS)
 endif()
 
 # motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]
-# [COMPUTES | COMPUTES_MUCH]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 .. NAME.N. Those
-# with the label deep take long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are filters of
-# GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the label fault, those that take
-# long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one state for the
-# whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so that it pays to
-# optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts no branches of
-# tests for them, and does not have the deep ones.
+# [COMPUTES | COMPUTES_MUCH]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 ..
+# NAME.N. Those with the label deep take long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are
+# filters of GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the label fault, those
+# that take long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one
+# state for the whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so
+# that it pays to optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts
+# no branches of tests for them, and does not have the deep ones.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
