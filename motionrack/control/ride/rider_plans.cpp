@@ -20,7 +20,7 @@ constexpr double above_plan = 1.003;
 /// this much more.
 constexpr double faster = 1.01, most_ease = 16, ease_grows = 1.3;
 /// A speed below this part of another is slower, and not only rounded.
-constexpr double slower = 0.99;
+constexpr double clearly_slower = 0.99;
 
 FeedStart start_of(const FeedState& along) {
     return {along.speed * along.speed, 2 * along.accel};
@@ -32,8 +32,8 @@ bool speeds_up_again(std::span<const FeedPiece> feed) {
     for (const FeedPiece& piece : feed) {
         const double speed = piece.last().speed;
         greatest = std::max({greatest, piece.at(0).speed, speed});
-        if (speed < slower * greatest) lowest = std::min(lowest, speed);
-        if (slower * speed > lowest) return true;
+        if (speed < clearly_slower * greatest) lowest = std::min(lowest, speed);
+        if (clearly_slower * speed > lowest) return true;
     }
     return false;
 }
@@ -198,8 +198,8 @@ Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop)
         if (speed > 0) out.use.back().jerk_share = now_.use[i].jerk_share;
         at = to;
     };
-    const auto is_slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
-    const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), is_slower) - stop.begin());
+    const auto slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
+    const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
         const double speed = faster * stop[std::max(k, fastest)].at(0).speed,
                      to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
