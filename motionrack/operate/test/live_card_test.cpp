@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <motionrack/live/test/zero_card.hpp>
 #include <motionrack/operate/live_card.hpp>
 #include <motionrack/operate/service.hpp>
 
@@ -44,6 +45,7 @@ class CardFile {
     std::string place() const { return "port:" + link_.string(); }
 
   private:
+    live::test::ZeroCard zero_;  // no test of another process has it meanwhile
     fs::path folder_ = fs::temp_directory_path() / ("motionrack_live_card_" + std::to_string(::getpid()));
     fs::path link_ = folder_ / "card";
 };

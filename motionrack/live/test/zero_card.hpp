@@ -1,0 +1,27 @@
+// /dev/zero in the place of a real card: one that stands, whatever is written to it.
+#pragma once
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace motionrack::live::test {
+
+/// A card is open once only, and /dev/zero is one for all tests of this computer: the others wait.
+class ZeroCard {
+  public:
+    ZeroCard() { ::flock(lock_, LOCK_EX); }
+    ~ZeroCard() { ::close(lock_); }
+    ZeroCard(const ZeroCard&) = delete;
+    ZeroCard& operator=(const ZeroCard&) = delete;
+
+    static constexpr const char* path = "/dev/zero";
+
+  private:
+    int lock_ = ::open((std::filesystem::temp_directory_path() / "motionrack_zero_card.lock").c_str(),
+                       O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+};
+
+}  // namespace motionrack::live::test
