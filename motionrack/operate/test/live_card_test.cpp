@@ -195,10 +195,10 @@ TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
     };
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\xFF');
-    for (const auto& [path, says] :
-         {Bad{"/nowhere/card", "no card behind it"}, Bad{"/dev/full", "could not be written"},
-          Bad{memory.c_str(), "no card answers"}}) {
-        file.points_to(path);
+    for (const Bad& bad : {Bad{"/nowhere/card", "no card behind it"}, Bad{"/dev/full", "could not be written"},
+                           Bad{memory.c_str(), "no card answers"}}) {
+        const char* const says = bad.says;
+        file.points_to(bad.name);
         Real o(file);
         o.at(0.05, [&](Machine& m) {
             EXPECT_TRUE(m.service().begin("bench", dora, "w1", [&](const Result<std::string>& told) {
