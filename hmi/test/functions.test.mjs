@@ -1,7 +1,7 @@
 // The functions of a card's library from the page: the service, a form, its answers, and STOP while a function waits.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { answered, call, choose, panel } from './library.mjs';
+import { answered, call, choose, driveX, panel } from './library.mjs';
 import { named, openTab, picture, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
 
 const all = suite(test);
@@ -25,12 +25,7 @@ test('functions are called in the service of the card, and STOP ends one that wa
     .getByText(/must be 1 to/)
     .first()
     .waitFor();
-  await call(tab, 'TCurve_F', { m_Pulse: 500 });
-  await answered(tab, 'X drives.');
-  await call(tab, 'wait');
-  await answered(tab, 'X stands as commanded.');
-  await call(tab, 'ReadLPS');
-  await answered(tab, '500 pulses');
+  await driveX(tab);
   for (const scheme of ['light', 'dark'])
     for (const width of [1280, 760]) {
       await tab.page.emulateMedia({ colorScheme: scheme });

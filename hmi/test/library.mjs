@@ -19,3 +19,12 @@ export async function call(tab, name, texts = {}) {
     .click();
 }
 export const answered = (tab, text) => calls(tab).getByText(text).first().waitFor();
+/** 500 pulses of X, to their end. */
+export async function driveX(tab) {
+  await call(tab, 'TCurve_F', { m_Pulse: 500 });
+  await answered(tab, 'X drives.');
+  await call(tab, 'wait');
+  await answered(tab, 'X stands as commanded.');
+  await call(tab, 'ReadLPS');
+  await answered(tab, '500 pulses');
+}

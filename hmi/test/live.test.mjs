@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import test from 'node:test';
-import { answered, call, panel } from './library.mjs';
+import { answered, call, driveX, panel } from './library.mjs';
 import {
   LIVE_SERVER,
   openBrowser,
@@ -60,12 +60,7 @@ test('a real card says where it is, moves in service only, and STOP ends its pul
     await call(tab, 'SetRange', { data: 800000 });
     await state(tab, 'service');
     await answered(tab, 'Written.');
-    await call(tab, 'TCurve_F', { m_Pulse: 500 });
-    await answered(tab, 'X drives.');
-    await call(tab, 'wait');
-    await answered(tab, 'X stands as commanded.');
-    await call(tab, 'ReadLPS');
-    await answered(tab, '500 pulses');
+    await driveX(tab);
     await card.getByRole('row', { name: /^x 500 / }).waitFor();
     await card.getByText('REAL CARD, IN SERVICE').waitFor();
     const badge = tab.page.getByTitle('Card bench is a real one: its motors move.');

@@ -11,17 +11,12 @@ import { typed, unitName, whole } from '../parts/numbers';
 import { Button, Choice, Field, Led, Panel } from '../parts/ui';
 import { Lamps } from '../panels/dro';
 import { Chart, Legend } from '../scope/chart';
+import { COUNTERS, CounterHeads } from './counters';
 import { useHistory } from './history';
 import { LiveMcx } from './mcx314_live';
 import { fieldValues } from './words';
 
 const EVERY_HZ = 100;
-export const COUNTERS = [
-  { name: 'LP', text: 'pulses sent' },
-  { name: 'EP', text: 'encoder counts' },
-  { name: 'CV', text: 'present speed' },
-  { name: 'CA', text: 'present acceleration' },
-] as const;
 
 const axisAt = (card: CardInfo, which: string): string | undefined =>
   card.axes.find((axis) => axis.channel === which)?.letter;
@@ -36,13 +31,7 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
     <table class="counters">
       <thead>
         <tr>
-          <th scope="col">Channel</th>
-          {COUNTERS.map((one) => (
-            <th key={one.name} scope="col" title={one.text}>
-              {one.name}
-              <small>{one.text}</small>
-            </th>
-          ))}
+          <CounterHeads />
           <th scope="col">Lamps</th>
         </tr>
       </thead>

@@ -5,7 +5,7 @@ import type { CardInfo } from '../link/rack';
 import { whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Empty, Panel } from '../parts/ui';
-import { COUNTERS } from './mcx314';
+import { COUNTERS, CounterHeads } from './counters';
 import { Flags, valueOf, wordOf, type CardAnswer } from './peek';
 
 const EVERY_MS = 250;
@@ -15,13 +15,7 @@ function Counters({ card, seen }: { card: CardInfo; seen: CardAnswer }): JSX.Ele
     <table class="counters live">
       <thead>
         <tr>
-          <th scope="col">Channel</th>
-          {COUNTERS.map((one) => (
-            <th key={one.name} scope="col" title={one.text}>
-              {one.name}
-              <small>{one.text}</small>
-            </th>
-          ))}
+          <CounterHeads />
         </tr>
       </thead>
       <tbody>

@@ -17,8 +17,6 @@ class ZeroCard {
     ZeroCard(const ZeroCard&) = delete;
     ZeroCard& operator=(const ZeroCard&) = delete;
 
-    static constexpr const char* path = "/dev/zero";
-
   private:
     int lock_ = ::open((std::filesystem::temp_directory_path() / "motionrack_zero_card.lock").c_str(),
                        O_CREAT | O_RDWR | O_CLOEXEC, 0666);
