@@ -181,10 +181,13 @@ void Home::run(const Look& look, Instant now) {
             leave_by(HomeCause::done, look, now);
             return;
         case HomeDoes::wait_steady:
-            if (now - steady_since_ >= settings_.settle)
-                leave_by(look.switch_on ? HomeCause::on : HomeCause::off, look, now);
-            else if (now >= deadline_)
-                fail(HomeFault::time, look, now);
+            if (now - steady_since_ < settings_.settle) {
+                if (now >= deadline_) fail(HomeFault::time, look, now);
+            } else if (look.switch_on) {
+                leave_by(HomeCause::on, look, now);
+            } else if (report_.index_lp || !leave_by(HomeCause::unseen, look, now)) {
+                leave_by(HomeCause::off, look, now);
+            }
             return;
         case HomeDoes::zero:
             return zero(look, now);

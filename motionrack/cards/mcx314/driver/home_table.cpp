@@ -53,6 +53,9 @@ constexpr HomeState settle_start = {
 constexpr HomeState settle_wait(std::string_view next) {
     return wait_steady("SETTLE_WAIT", "contacts come to rest", {{{off, next}, {on, "BACK_START"}}});
 }
+/// Where the search did not begin before the switch, it begins anew, for the index behind it.
+constexpr HomeState settle_wait_indexed = wait_steady(
+    "SETTLE_WAIT", "contacts come to rest", {{{unseen, "SEARCH_START"}, {off, "SLOW_START"}, {on, "BACK_START"}}});
 constexpr HomeState slow_start =
     drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT", HomeWay::towards, HomePace::slow, HomeUntil::on);
 constexpr HomeState slow_wait(std::string_view next) {
@@ -95,8 +98,8 @@ constexpr std::array type4 = {
 constexpr std::array type5 = {
     check_start, search_start, search_wait({{{done, "INDEX_START"}, {limit, "REST_START"}}}), index_start,
     index_wait("REST_START"), rest_start, rest_wait, return_start, return_wait, back_start, back_wait, clear_start,
-    clear_wait, settle_start, settle_wait("SLOW_START"), slow_start, slow_wait("ZERO_START"), zero_start,
-    stopping_wait, homed, failed};
+    clear_wait, settle_start, settle_wait_indexed, slow_start, slow_wait("ZERO_START"), zero_start, stopping_wait,
+    homed, failed};
 // clang-format on
 
 // ---- the same as declared state machines
@@ -113,6 +116,8 @@ constexpr std::string_view when(const HomeState& state, HomeCause cause) {
             return "the limit switch in the way is active";
         case early:
             return "the switch came before V was reached (once)";
+        case unseen:
+            return "the home input is not active, the index not seen yet";
     }
     switch (state.does) {
         case HomeDoes::wait_end:

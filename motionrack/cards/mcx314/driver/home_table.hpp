@@ -33,7 +33,8 @@ enum class HomeCause : std::uint8_t {
     on,     ///< the home input is active
     off,    ///< it is not
     limit,  ///< the limit switch in the way was reached, or is active
-    early   ///< the switch came before the speed V was reached
+    early,  ///< the switch came before the speed V was reached
+    unseen  ///< the home input is not active, and the index has not been seen
 };
 
 struct HomeExit {

@@ -123,7 +123,10 @@ void expect_an_end(const Homing& homing) {
     EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
     if (!done) {
         EXPECT_THAT(done.error().message, AllOf(HasSubstr("Axis X is not homed: "), HasSubstr("again.")));
-        EXPECT_FALSE(homing.must_succeed()) << done.error().message;
+        // Where an axis comes to rest right at an index, type 3 says so; where that is depends on the ramp.
+        const bool at_index =
+            homing.type == 3 && done.error().message.find("is active where the switch acts") != std::string::npos;
+        EXPECT_FALSE(homing.must_succeed() && !at_index) << done.error().message;
         return;
     }
     EXPECT_TRUE(done->front().homed);

@@ -64,6 +64,18 @@ TEST(HomingBySource, Type4StopsAtTheIndexBeforeItGoesBackAndEndsAtTheOrigin) {
     EXPECT_EQ(rig.driver.ReadLPS(0), 0);
 }
 
+TEST(HomingBySource, Type4StopsAtTheIndexWhereverItBegins) {
+    for (const double start : {20.0, 0.5, -7.5, -8.5}) {  // before the switch, on it, beyond the limit switch
+        SCOPED_TRACE(start);
+        HomeRig rig({RigAxis{.start_mm = start}});
+        rig.start();
+        const HomeReport report = homed_by(rig, HomeType4);
+        EXPECT_LT(stay_in(report, "INDEX_WAIT").from, stay_in(report, "SLOW_WAIT").from);
+        EXPECT_TRUE(report.index_lp.has_value());
+        EXPECT_NEAR(rig.position(), 1, 1e-9);
+    }
+}
+
 TEST(HomingBySource, Type4TakesAnIndexAtWhichItStandsAlready) {
     HomeRig rig({RigAxis{.wired_index = false}});
     rig.start();
@@ -113,6 +125,15 @@ TEST(HomingBySource, AnOriginTooNearToTheLimitToBrakeIsSaidToBe) {
                       "decelerated"));
         EXPECT_FALSE(rig.driver.moving(axis_x));
     }
+}
+
+TEST(HomingBySource, Type4EndsNowhereWithoutAnIndexBeforeTheLimit) {
+    HomeRig rig({RigAxis{.home_mm = -7.8}});  // its next index is at -10 mm
+    rig.start();
+    const auto done = HomeType4(rig.driver, axis_x, origin_in0, 50, 1000, 100);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("the encoder's index (IN2, active High) was not seen within"));
+    EXPECT_FALSE(rig.driver.moving(axis_x));
 }
 
 TEST(HomingBySource, TypesWithAnIndexRefuseItsInputAsTheOrigin) {
