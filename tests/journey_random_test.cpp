@@ -62,7 +62,7 @@ TEST_P(JourneyAtRandom, TinyMovesEndExactlyStayOnTheirPathAndKeepSpeedAndAcceler
 TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLimits) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", thorough() ? 40 : 20);
     const RackConfig config = router(GetParam());
-    int stopped = 0;
+    std::uint64_t stopped = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         const test::RandomProgram program = test::ProgramMaker(seed, test::ProgramSize::mixed).make();
         if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) continue;
@@ -81,7 +81,7 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
         ++stopped;
         if (testing::Test::HasFailure()) break;
     }
-    EXPECT_GT(stopped, 10);
+    EXPECT_GE(4 * stopped, count) << "most last longer than until their stop";
 }
 
 /// X, Y, Z and A in each line.

@@ -86,7 +86,7 @@ Orders anything_to_pulse_chip(Random& random);
 std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders,
                            double max_ns = 3e7);
 
-/// Fails if the two racks of a story differ. Every fourth seed is recorded.
+/// Fails if the two racks of a story differ. Every fifth seed is recorded.
 void expect_the_same_however_it_is_cut(const Bench& bench, std::uint64_t seed);
 
 }  // namespace motionrack::rack::cut
