@@ -159,7 +159,7 @@ Result<std::unique_ptr<Session>> Session::copy() {
     std::unique_ptr<Session> out(new Session(rack_.config(), job_ ? Programs::yes : Programs::no));
     out->rack_.copy_from(rack_);
     out->desk_.copy_from(desk_);
-    out->ran_ = ran_;
+    if (job_) out->job_->copy_from(*job_);
     out->trace_unit_ = trace_unit_;
     return out;
 }

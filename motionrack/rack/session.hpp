@@ -90,8 +90,8 @@ class Session {
     Result<void> fault(std::string_view fault, std::string_view target);
 
     // ---- what a controller does
-    /// Runs a part program on the rack's controller, once, at time 0 of a rack that was opened for programs: what is
-    /// wrong in it is found before anything moves.
+    /// Runs a part program on the controller of a rack that was opened for programs, from where the axes stand: see
+    /// PositionReference. What is wrong in it is found before anything moves.
     ProgramReport run_program(const ProgramOrder& order);
     /// Homes axes: letters, with blanks and commas between them or not; empty: all that have a home switch. Errors (in
     /// `ended`): as home_axes, and refused by check_free.
@@ -154,8 +154,7 @@ class Session {
 
     Rack rack_;
     std::unique_ptr<Job> job_;  // may be nullptr: no programs
-    bool ran_ = false;          // a program did
-    std::string program_;       // its text
+    std::string program_;       // the text of the last one
     std::atomic<bool> stop_{false};
     std::function<bool(const JobProgress&)> progress_;
     std::function<void(const Told&)> on_condition_;
