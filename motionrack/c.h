@@ -76,8 +76,8 @@ typedef struct mr_rack mr_rack;
  * MR_BAD_CALL, MR_BAD_INPUT, MR_IO, MR_INTERNAL. */
 MR_API int mr_rack_open(const char* toml_path_or_text, mr_rack** out);
 
-/* Ends a rack and frees it; a recording that runs is ended first. NULL: nothing is done; neither is anything in a
- * call-back of this rack. */
+/* Ends a rack and frees it; a recording that runs is ended first, and if that fails mr_last_error() tells what became
+ * of it. NULL: nothing is done; neither is anything in a call-back of this rack. */
 MR_API void mr_rack_close(mr_rack* rack);
 
 /* The sentence of the last error in this thread, "" if there was none. Valid until the next error in this thread. */

@@ -234,6 +234,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
         settings.signals.emplace_back(signals.substr(at, end - at));
         at = end;
     }
+    if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // what is lost holds its name no more
     MOTIONRACK_TRY(recorder_, WaveRecorder::create(rack_, settings));
     next_look_ = now();
     return {};

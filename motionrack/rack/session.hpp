@@ -131,6 +131,8 @@ class Session {
     /// empty: all but the pins that cards drive on demand. `version`: of the program that records. One whose end failed
     /// is given up for it. Errors: refused (one runs already, the name's ending), bad_input (no signal fits), io.
     Result<void> start_trace(const std::string& path, std::string_view signals, std::string_view version = {});
+    /// One runs, or could not be ended.
+    bool is_recording() const { return recorder_ != nullptr; }
     /// Ends it. Errors: refused (none runs), io: it goes on, and what could not be written is kept for the next time;
     /// an .h5 file is lost.
     Result<void> stop_trace();
