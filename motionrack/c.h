@@ -76,8 +76,8 @@ typedef struct mr_rack mr_rack;
  * MR_BAD_CALL, MR_BAD_INPUT, MR_IO, MR_INTERNAL. */
 MR_API int mr_rack_open(const char* toml_path_or_text, mr_rack** out);
 
-/* Ends a rack and frees it; a recording that runs is ended first. NULL: nothing is done; neither is anything in a
- * call-back of this rack. */
+/* Ends a rack and frees it; a recording that runs is ended first, and if that fails mr_last_error() tells what became
+ * of it. NULL: nothing is done; neither is anything in a call-back of this rack. */
 MR_API void mr_rack_close(mr_rack* rack);
 
 /* The sentence of the last error in this thread, "" if there was none. Valid until the next error in this thread. */
@@ -290,18 +290,24 @@ typedef struct mr_run_result {
     int line, column;     /* of the first error, from 1; 0: it has none */
     double seconds;       /* virtual time that it took */
     double path_mm;       /* length of its path in X, Y, Z */
-    double deviation_mm;  /* how far the machine was from the program at most */
+    double deviation_mm;  /* how far the machine was from the program at most, by the positions of the last mr_home */
     const char* sentence; /* how it ended, and what was wrong, a line each; holds until the next program or mr_home of
                            * this rack, and its end */
 } mr_run_result;
 
-/* Runs a part program (G-code) on the rack's controller, as `motionrack run` does, from its first line to standstill.
- * `path_or_text` is the path of a file, beside which its subprograms lie, or, if it has a line end in it, the text. All
- * of it is read first: if anything is wrong, nothing moves, and mr_last_error() has a line for each mistake, with line
- * and column. A program begins where the rack file says that the machine stands: at time 0, and once a rack; wires may
- * be driven, faults injected and a recording begun before. During it counters are recorded every 50 ms. `options` and
- * `result` may be NULL. MR_BAD_CALL, MR_BAD_INPUT, MR_IO and MR_REFUSED (the rack has no axes; it is not at time 0; a
- * call-back called): nothing moved. MR_MACHINE, MR_STOPPED: it moved. MR_INTERNAL. */
+/* Runs a part program (G-code) on the rack's controller, as `motionrack run` does, from its first line to standstill:
+ * at any time, one after the other. `path_or_text` is the path of a file, beside which its subprograms lie, or, if it
+ * has a line end in it, the text. All of it is read first: if anything is wrong, nothing moves, and mr_last_error() has
+ * a line for each mistake, with line and column. Wires may be driven, faults injected and recordings begun before;
+ * during it counters are recorded every 50 ms. A program begins where the controller has the axes: where the rack file
+ * says that the machine stands, or where mr_home found it, and on from there by the pulses that the card has sent
+ * since, whoever ordered them (of a servo by what its motor has turned). What a host wrote into the card's counters
+ * does not count. G-code modes and offsets begin anew, and an mcx314 is set up anew: what a host wrote into its
+ * registers is gone, outputs too, and EP begins at 0. An axis whose position an earlier program or mr_home has lost
+ * keeps programs from beginning until it is homed. `options` and `result` may be NULL; `result` and mr_report are of
+ * this program alone. MR_BAD_CALL, MR_BAD_INPUT, MR_IO and MR_REFUSED (the rack has no axes; an axis moves, or its
+ * position was lost; a host wrote to the counter of a databoard4002; a call-back called): nothing moved. MR_MACHINE,
+ * MR_STOPPED: it moved. MR_INTERNAL. */
 MR_API int mr_run_program(mr_rack* rack, const char* path_or_text, const mr_run_options* options,
                           mr_run_result* result);
 
@@ -318,9 +324,10 @@ MR_API const char* mr_report(const mr_rack* rack);
 /* ---- The whole world ---- */
 
 /* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The
- * same calls from here on do the same in both, but a controller's memory belongs to its host: the first mr_home of a
- * copy sets its cards up anew. A recording and the call-back of mr_on_condition stay with the first. *copy is set to
- * NULL if it fails. MR_BAD_CALL, MR_REFUSED (a call-back called), MR_INTERNAL. */
+ * same calls from here on do the same in both; where its axes stand and whether that is trusted goes with it. But a
+ * driver's memory belongs to its host: the first mr_home of a copy sets its cards up anew. A recording and the
+ * call-back of mr_on_condition stay with the first. *copy is set to NULL if it fails. MR_BAD_CALL, MR_REFUSED (a
+ * call-back called), MR_INTERNAL. */
 MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);
 
 /* Equal worlds have equal hashes: time, cards, wires, parts and the history of the wires. How the time was cut into

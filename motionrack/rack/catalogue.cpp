@@ -90,7 +90,7 @@ class Mcx314Card final : public MotionCard {
 
     Result<control::PathAxes*> path_axes(const RackConfig& config,
                                          const std::optional<control::Point>& position) override {
-        const Stand stand = stand_now();
+        const Stand stand = position ? Stand() : stand_now();
         for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), mcx314::HostTimes{access_, latency_});
         axes_->set_probe(probe_channels(config));

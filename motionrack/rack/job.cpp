@@ -69,7 +69,7 @@ control::gcode::Settings reader_settings(const RackConfig& config, bool block_de
     return settings;
 }
 
-Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)) {
+Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)), reference_(rack) {
     monitor_ =
         std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
     monitor_->on_sample(settings_.on_sample);
@@ -104,6 +104,7 @@ void Job::listen(const std::vector<control::BlockStart>& starts) {
 Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
     control::ControllerSettings settings;
     settings.gcode = settings_.reading ? *settings_.reading : reader_settings(rack_.config());
+    settings.gcode.start = start_;
     settings.kept_back = rack_.axes().front().card->kept_back();
     settings.jerk_limited = rack_.config().jerk_limited();
     if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
@@ -155,14 +156,44 @@ void Job::give(std::string_view program, std::string name, control::gcode::Setti
     settings_.reading = std::move(reading);
 }
 
+Result<control::Point> Job::start() const {
+    MOTIONRACK_CHECK(reference_.check());
+    return reference_.position();
+}
+
+/// Nothing of the program before is left.
+void Job::restart() {
+    planned_.clear();
+    line_ = 0;
+    start_ = reference_.position();
+    given_ = rack_.kernel().now();
+    std::vector<WatchedAxis> watched = watched_axes(rack_);
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+        watched[i].origin = reference_.real_origin(i);
+        watched[i].commanded_beyond = reference_.commanded_origin(i) - watched[i].origin;
+    }
+    monitor_->restart(std::move(watched));
+}
+
+/// Once the card is set up, which sets its counters.
+void Job::note_before() {
+    before_.clear();
+    for (const RunningAxis& axis : rack_.axes())
+        before_.push_back({axis.card->pulses_made(axis.channel), axis.turned_by().count(rack_.kernel().now()),
+                           axis.card->pulse_counter(axis.channel), axis.card->encoder_counter(axis.channel)});
+}
+
 JobOutcome Job::run() {
     JobOutcome out;
-    const Result<control::PathAxes*> axes = rack_.path_axes();
+    restart();
+    const Result<control::PathAxes*> axes = rack_.path_axes(start_);
     if (!axes) {
         out.ended = tl::unexpected<Error>(axes.error());
         return out;
     }
+    note_before();
     TrustWatch trust(rack_);
+    reference_.begin(trust);
     lines_ = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
@@ -185,21 +216,57 @@ JobOutcome Job::run() {
     collect_conditions(out);
     collect_breaches(out);
     tell(others, out);
-    for (TrustFinding& found : trust.look(true)) {
-        if (found.axis == TrustFinding::no_axis) continue;  // told with the conditions
-        if (found.lost)
-            out.position_trusted = false;
-        else
-            out.warnings.push_back({found.at, 0, std::move(found.text)});
-    }
+    judge_positions(trust, out);
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
-        out.position_trusted = out.position_trusted && rack_.stop_latch().keeps_position(axis.index);
         if (!axis.servo) continue;
         const double off = std::fabs(axis.real_end - axis.planned_end);
         if (out.rest_axis < 0 || off > out.rest_off) out.rest_off = off, out.rest_axis = axis.index;
     }
     rack_.stop_latch().disarm();
+    return out;
+}
+
+/// An axis that has lost its position keeps the next program from beginning.
+void Job::judge_positions(TrustWatch& trust, JobOutcome& out) {
+    for (TrustFinding& found : trust.look(true)) {
+        if (found.axis == TrustFinding::no_axis) continue;  // told with the conditions
+        if (found.lost) {
+            out.position_trusted = false;
+            reference_.lose(found.axis, std::move(found.text));
+        } else {
+            out.warnings.push_back({found.at, 0, std::move(found.text)});
+        }
+    }
+    const StopLatch& latch = rack_.stop_latch();
+    for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
+        if (latch.keeps_position(rack_.axes()[i].config.index())) continue;
+        out.position_trusted = false;
+        reference_.lose(i, "steps may have been lost in a stop");
+    }
+}
+
+HomingOutcome Job::home(const HomingSettings& settings) {
+    const auto number = [this](char letter) {
+        std::size_t i = 0;
+        while (rack_.axes()[i].config.letter != letter) ++i;
+        return i;
+    };
+    std::vector<TrustWatch::Mark> found(rack_.axes().size());
+    const TrustWatch watch(rack_);
+    HomingSettings heard = settings;
+    heard.on_homed = [&](char letter, Instant since) {
+        found[number(letter)] = {since, watch.mark(number(letter)).lost_pulses};
+        if (settings.on_homed) settings.on_homed(letter, since);
+    };
+    HomingOutcome out = home_axes(rack_, heard);
+    for (const HomedAxis& axis : out.axes) {
+        const std::size_t i = number(axis.letter);
+        if (axis.begun && axis.outcome.homed)
+            reference_.set(i, axis.counter_position, found[i]);
+        else if (axis.begun)
+            reference_.lose(i, "its search for home did not end at home");
+    }
     return out;
 }
 
@@ -266,12 +333,14 @@ void Job::collect_breaches(JobOutcome& out) {
 }
 
 void Job::collect_conditions(JobOutcome& out) {
-    for (const sim::Condition& condition : rack_.kernel().conditions())
-        out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
+    const sim::Kernel& kernel = rack_.kernel();
+    for (const sim::Condition& condition : kernel.conditions(told_))
+        if (condition.at >= given_) out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
     for (std::string& text : rack_.stop_latch().contacts().take_alarms())
         out.warnings.push_back({rack_.kernel().now(), 0, std::move(text)});
-    if (const std::uint64_t dropped = rack_.kernel().dropped_conditions())
-        out.warnings.push_back({rack_.kernel().now(), 0, fmt::format("{} earlier conditions were not kept", dropped)});
+    if (const std::uint64_t dropped = kernel.dropped_conditions(); dropped > told_)
+        out.warnings.push_back({kernel.now(), 0, fmt::format("{} earlier conditions were not kept", dropped - told_)});
+    told_ = kernel.dropped_conditions() + kernel.conditions().size();
     for (JobWarning& warning : out.warnings) {
         if (warning.line != 0) continue;
         for (const DrivenBlock& block : monitor_->blocks())
@@ -282,26 +351,29 @@ void Job::collect_conditions(JobOutcome& out) {
 std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
     std::vector<AxisOutcome> out;
     const Instant now = rack_.kernel().now();
-    for (RunningAxis& axis : rack_.axes()) {
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+        RunningAxis& axis = rack_.axes()[i];
+        const Before& before = before_[i];
         AxisOutcome one;
         one.index = axis.config.index();
         one.unit = axis.config.unit();
         one.limits = rack_.config().limits()[static_cast<std::size_t>(one.index)];
         const std::int64_t commanded = axis.turned_by().count(now);
+        const auto counts = [&](std::int64_t pulses) {
+            return static_cast<std::int64_t>(std::floor(static_cast<double>(pulses) * counts_per_pulse(axis.config)));
+        };
         one.servo = axis.servo != nullptr;
-        one.pulses_sent = axis.card->pulses_made(axis.channel);
-        one.pulses_net = commanded;
+        one.pulses_sent = axis.card->pulses_made(axis.channel) - before.pulses_made;
+        one.pulses_net = commanded - before.commanded;
         one.pulse_position = axis.card->pulse_counter(axis.channel);
-        one.pulse_start =
-            static_cast<std::int64_t>(std::floor(axis.config.start_position * axis.config.pulses_per_unit() + 0.5));
-        one.counts_read = axis.card->encoder_counter(axis.channel);
-        one.lost_pulses = commanded - axis.machine->rotor().count(now);
-        one.counts_expected =
-            static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse(axis.config)));
+        one.pulse_start = before.pulse_counter;
+        one.counts_read = axis.card->encoder_counter(axis.channel) - before.encoder_counter;
+        one.lost_pulses = commanded - axis.machine->rotor().count(now) - reference_.lost_before(i);
+        one.counts_expected = counts(commanded) - counts(before.commanded);
         one.planned_end = rack_.config().positions_alone(axis.config)
                               ? sent_to[static_cast<std::size_t>(one.index)]
                               : static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();
-        one.real_end = axis.machine->position(now);
+        one.real_end = axis.machine->position(now) + (reference_.real_origin(i) - axis.config.start_position);
         one.top = monitor_->statistics(one.index);
         out.push_back(std::move(one));
     }

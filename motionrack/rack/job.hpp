@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <motionrack/control/controller.hpp>
+#include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/live_drive.hpp>
 #include <motionrack/rack/monitor.hpp>
 #include <motionrack/rack/order_plan.hpp>
+#include <motionrack/rack/position_reference.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <optional>
 #include <string>
@@ -45,12 +47,12 @@ struct AxisOutcome {
     std::int64_t pulses_sent = 0;      ///< pulses of both directions since the job began
     std::int64_t pulses_net = 0;       ///< of them, forward less backward
     std::int64_t pulse_position = 0;   ///< the card's counter LP at the end
-    std::int64_t pulse_start = 0;      ///< and at the start
-    std::int64_t counts_read = 0;      ///< the card's encoder counter EP at the end
-    std::int64_t counts_expected = 0;  ///< what EP would be if every pulse had moved the motor
+    std::int64_t pulse_start = 0;      ///< and when the job began
+    std::int64_t counts_read = 0;      ///< by which the card's encoder counter EP has changed
+    std::int64_t counts_expected = 0;  ///< and would have if every pulse had moved the motor
     std::int64_t lost_pulses = 0;      ///< pulses that the motor did not follow
     double planned_end = 0;            ///< mm or degrees
-    double real_end = 0;               ///< where the machine is
+    double real_end = 0;               ///< where the machine is, by the last reference of its position
     AxisStatistics top;
 };
 
@@ -88,17 +90,28 @@ std::vector<WatchedAxis> watched_axes(Rack& rack);
 /// How a rack's controller reads part programs; they begin where the axes start.
 control::gcode::Settings reader_settings(const RackConfig& config, bool block_delete = false);
 
-/// Runs a program that has been checked on a rack at standstill. `monitor` keeps what was seen.
+/// Runs programs that have been checked on a rack at standstill, one after the other: each begins where its axes stand,
+/// and its outcome is of it alone. `monitor` keeps what was seen of the last one.
 class Job {
   public:
     /// Before the rack is started: adds the monitor to it.
     Job(Rack& rack, JobSettings settings);
     ~Job();
 
-    /// Another program than that of the settings, before run(), and how it is read. The text must outlive the job.
+    /// Another program than that of the settings, before run(), and how it is read. The text must outlive the run.
     void give(std::string_view program, std::string name, control::gcode::Settings reading);
 
+    /// Between programs: where the next one begins, mm or degrees. Errors: those of PositionReference::check.
+    Result<control::Point> start() const;
     JobOutcome run();
+    /// home_axes, which gives axes another reference.
+    HomingOutcome home(const HomingSettings& settings);
+    /// Where the controller of this job's world has its axes becomes that of another one, whose rack is this one's
+    /// copy.
+    void copy_from(const Job& other) {
+        reference_.copy_from(other.reference_);
+        told_ = other.told_;
+    }
     const Monitor& monitor() const { return *monitor_; }
     /// Every planned move as it was handed out, at most `most_planned`.
     const std::vector<control::PlannedMove>& planned() const { return planned_; }
@@ -112,6 +125,14 @@ class Job {
         std::int64_t lines = 0;
     };
 
+    /// What was counted when the program began.
+    struct Before {
+        std::int64_t pulses_made = 0, commanded = 0, pulse_counter = 0, encoder_counter = 0;
+    };
+
+    void restart();
+    void note_before();
+    void judge_positions(TrustWatch& trust, JobOutcome& out);
     Result<void> drive(control::PathAxes& axes, JobOutcome& out);
     Result<void> drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out);
     void programmed(const control::Move& move, const control::Point& start, JobOutcome& out);
@@ -126,8 +147,13 @@ class Job {
 
     Rack& rack_;
     JobSettings settings_;
+    PositionReference reference_;
+    control::Point start_ = {};   ///< of the program
+    std::vector<Before> before_;  ///< one an axis
+    std::uint64_t told_ = 0;      ///< conditions of the kernel, by the programs before
     std::unique_ptr<Monitor> monitor_;
     std::vector<control::PlannedMove> planned_;
+    Instant given_{};  ///< before its axes were set up
     Instant began_{};
     int line_ = 0;            ///< being driven
     std::int64_t lines_ = 0;  ///< of the program

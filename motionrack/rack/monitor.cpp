@@ -63,22 +63,46 @@ void Monitor::Ear::settle() {
     ++jumps;
 }
 
+void Monitor::Ear::restart(const TopSpeed& fresh, double rate, Instant now) {
+    speed = fresh;
+    good = follower = present = rate;
+    away = rounding = explained = jump = 0;
+    pending = false;
+    since = piece_since = now;
+    jumps = 0;
+}
+
+Monitor::Seen::Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t most_samples)
+    : kept(most_samples) {
+    for (const WatchedAxis& axis : axes) {
+        // A servo follows a voltage in steps; a card that has none of these limits is not held to them.
+        const bool watched = axis.servo == nullptr && axis.start_hz > 0;
+        jump_watches.emplace_back(axis.start_hz, axis.accel_hz, watched ? period : never);
+    }
+}
+
 Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples)
     : kernel_(kernel),
       id_(kernel.add(*this, sim::Phase::observers, "monitor")),
       axes_(std::move(axes)),
       period_(period),
-      kept_(most_samples) {
+      most_samples_(most_samples),
+      seen_(axes_, period, most_samples) {
     ears_.reserve(axes_.size());  // they are listened with
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_.emplace_back(axes_[i].jump_hz, period);
         ears_[i].full_step = axes_[i].full_step;
         ears_[i].accel_hz = axes_[i].accel_hz;
         axes_[i].commanded->listen(ears_[i]);
-        // A servo follows a voltage in steps; a card that has none of these limits is not held to them.
-        const bool watched = axes_[i].servo == nullptr && axes_[i].start_hz > 0;
-        jump_watches_.emplace_back(axes_[i].start_hz, axes_[i].accel_hz, watched ? period : never);
     }
+}
+
+void Monitor::restart(std::vector<WatchedAxis> axes) {
+    axes_ = std::move(axes);
+    seen_ = Seen(axes_, period_, most_samples_);
+    const Instant now = kernel_.now();
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+        ears_[i].restart(TopSpeed(axes_[i].jump_hz, period_), axes_[i].commanded->rate(now), now);
 }
 
 // ---- in virtual time
@@ -94,10 +118,10 @@ void Monitor::finish() {
     kernel_.schedule(id_, never);
     take(kernel_.now());
     drain();
-    if (block_open_) close_block(kernel_.now());
+    if (seen_.block_open) close_block(kernel_.now());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_[i].settle();
-        AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
+        AxisStatistics& out = seen_.statistics[static_cast<std::size_t>(axes_[i].index)];
         ears_[i].speed.finish();
         out.top_speed = ears_[i].speed.hz() / axes_[i].pulses_per_unit;
         out.top_jump = ears_[i].jump / axes_[i].pulses_per_unit;
@@ -112,11 +136,11 @@ void Monitor::act(Instant now) {
 }
 
 void Monitor::take(Instant now) {
-    if (ring_end_ - ring_begin_ >= ring_size) {
-        ++ring_lost_;
+    if (seen_.ring_end - seen_.ring_begin >= ring_size) {
+        ++seen_.ring_lost;
         return;
     }
-    RawSample& raw = ring_[ring_end_++ % ring_size];
+    RawSample& raw = ring_[seen_.ring_end++ % ring_size];
     raw.at = now;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         raw.count[i] = axes_[i].real->count(now);
@@ -130,48 +154,48 @@ void Monitor::take(Instant now) {
 // ---- between runs
 
 void Monitor::planned(std::int64_t block, const control::PlannedMove& move) {
-    planned_.push_back({block, move});
+    seen_.planned.push_back({block, move});
 }
 
 void Monitor::started(const std::vector<control::BlockStart>& starts) {
-    starts_.insert(starts_.end(), starts.begin(), starts.end());
+    seen_.starts.insert(seen_.starts.end(), starts.begin(), starts.end());
 }
 
 void Monitor::drain() {
-    while (ring_begin_ < ring_end_) work_off(ring_[ring_begin_++ % ring_size]);
-    ring_begin_ = ring_end_ = 0;
+    while (seen_.ring_begin < seen_.ring_end) work_off(ring_[seen_.ring_begin++ % ring_size]);
+    seen_.ring_begin = seen_.ring_end = 0;
 }
 
 void Monitor::close_block(Instant end) {
-    open_block_.end = end;
-    if (blocks_.size() < most_blocks)
-        blocks_.push_back(open_block_);
+    seen_.open_block.end = end;
+    if (seen_.blocks.size() < most_blocks)
+        seen_.blocks.push_back(seen_.open_block);
     else
-        ++blocks_left_out_;
-    block_open_ = false;
+        ++seen_.blocks_left_out;
+    seen_.block_open = false;
 }
 
 void Monitor::work_off(const RawSample& raw) {
-    while (!starts_.empty() && starts_.front().at <= raw.at) {
-        const control::BlockStart start = starts_.front();
-        starts_.pop_front();
-        if (block_open_) close_block(start.at);
+    while (!seen_.starts.empty() && seen_.starts.front().at <= raw.at) {
+        const control::BlockStart start = seen_.starts.front();
+        seen_.starts.pop_front();
+        if (seen_.block_open) close_block(start.at);
         if (start.block < 0) continue;
-        current_ = start.block;
-        while (planned_.size() > 1 && planned_[1].block < current_) planned_.pop_front();
-        for (const Planned& planned : planned_) {
-            if (planned.block != current_) continue;
-            open_block_ = {current_,
-                           planned.move.move.line,
-                           planned.move.move.kind,
-                           planned.move.length,
-                           planned.move.entry,
-                           planned.move.cruise,
-                           planned.move.exit,
-                           start.at,
-                           start.at,
-                           0};
-            block_open_ = true;
+        seen_.current = start.block;
+        while (seen_.planned.size() > 1 && seen_.planned[1].block < seen_.current) seen_.planned.pop_front();
+        for (const Planned& planned : seen_.planned) {
+            if (planned.block != seen_.current) continue;
+            seen_.open_block = {seen_.current,
+                                planned.move.move.line,
+                                planned.move.move.kind,
+                                planned.move.length,
+                                planned.move.entry,
+                                planned.move.cruise,
+                                planned.move.exit,
+                                start.at,
+                                start.at,
+                                0};
+            seen_.block_open = true;
             begin_programmed(planned.move);
         }
     }
@@ -181,7 +205,8 @@ void Monitor::work_off(const RawSample& raw) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axes_[i].index);
         sample.position[axis] = axes_[i].origin + static_cast<double>(raw.count[i]) / axes_[i].pulses_per_unit;
-        sample.commanded[axis] = axes_[i].origin + static_cast<double>(raw.commanded[i]) / axes_[i].pulses_per_unit;
+        sample.commanded[axis] = axes_[i].origin + axes_[i].commanded_beyond +
+                                 static_cast<double>(raw.commanded[i]) / axes_[i].pulses_per_unit;
         sample.volts[axis] = raw.volts[i];
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
     }
@@ -190,27 +215,28 @@ void Monitor::work_off(const RawSample& raw) {
     const ProgramDistance distance = deviation_at(sample.position);
     look_at_deviation(sample, distance);
     const double off = distance.mm;
-    if (off > worst_.mm)
-        worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
-    if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
-    ++taken_;
-    kept_.add(sample, off);
+    if (off > seen_.worst.mm)
+        seen_.worst = {
+            off, sample.at, seen_.open_block.line, {sample.position[0], sample.position[1], sample.position[2]}};
+    if (seen_.block_open) seen_.open_block.deviation_mm = std::max(seen_.open_block.deviation_mm, off);
+    ++seen_.taken;
+    seen_.kept.add(sample, off);
     if (on_sample_) on_sample_(sample, off);
 }
 
 void Monitor::accelerations(const RawSample& raw, Sample& sample) {
-    std::move_backward(last_.begin(), last_.end() - 1, last_.end());
-    last_[0] = raw;
-    if (++last_count_ < 5) return;
-    const double seconds = to_seconds(raw.at - last_[4].at);
+    std::move_backward(seen_.last.begin(), seen_.last.end() - 1, seen_.last.end());
+    seen_.last[0] = raw;
+    if (++seen_.last_count < 5) return;
+    const double seconds = to_seconds(raw.at - seen_.last[4].at);
     if (seconds <= 0) return;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axes_[i].index);
-        const double accel = (raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds;
-        const bool jumped = raw.jumps[i] != last_[4].jumps[i];
+        const double accel = (raw.rate[i] - seen_.last[4].rate[i]) / axes_[i].pulses_per_unit / seconds;
+        const bool jumped = raw.jumps[i] != seen_.last[4].jumps[i];
         sample.accel[axis] = jumped ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(accel);
         if (jumped) continue;
-        statistics_[axis].top_accel = std::max(statistics_[axis].top_accel, std::fabs(accel));
+        seen_.statistics[axis].top_accel = std::max(seen_.statistics[axis].top_accel, std::fabs(accel));
         const double limit = axes_[i].accel_hz / axes_[i].pulses_per_unit;
         if (axes_[i].start_hz <= 0 || std::fabs(accel) <= accel_reserve * limit) continue;
         Breach breach = breach_here(sample);
@@ -218,47 +244,47 @@ void Monitor::accelerations(const RawSample& raw, Sample& sample) {
         breach.axis = axes_[i].index;
         breach.value = std::fabs(accel);
         breach.limit = limit;
-        breaches_.add(breach);
+        seen_.breaches.add(breach);
     }
 }
 
 Breach Monitor::breach_here(const Sample& sample) const {
     Breach out;
     out.at = sample.at;
-    out.line = open_block_.line;
+    out.line = seen_.open_block.line;
     out.place = {sample.position[0], sample.position[1], sample.position[2]};
     return out;
 }
 
 void Monitor::look_for_jumps(const RawSample& raw, const Sample& sample) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const JumpWatch::Jump jump = jump_watches_[i].look(raw.commanded[i]);
+        const JumpWatch::Jump jump = seen_.jump_watches[i].look(raw.commanded[i]);
         if (jump.hz <= 0) continue;
         Breach breach = breach_here(sample);
         breach.kind = BreachKind::jump;
         breach.axis = axes_[i].index;
-        breach.at = sample.at - jump_watches_[i].middle();
+        breach.at = sample.at - seen_.jump_watches[i].middle();
         breach.value = jump.hz / axes_[i].pulses_per_unit;
         breach.limit = axes_[i].start_hz / axes_[i].pulses_per_unit;
         breach.times = jump.first;
-        breaches_.add(breach);
+        seen_.breaches.add(breach);
     }
 }
 
 /// A motor that does not follow is another matter: it is the pulses that must not leave the path.
 void Monitor::look_at_deviation(const Sample& sample, const ProgramDistance& off) {
-    const bool was_beside = beside_;
-    beside_ = false;
+    const bool was_beside = seen_.beside;
+    seen_.beside = false;
     if (allowed_mm_ <= 0 || off.judged_mm <= off.tolerance_mm + allowed_mm_) return;
     const ProgramDistance led = deviation_at(sample.commanded);
     if (led.judged_mm <= led.tolerance_mm + allowed_mm_) return;
-    beside_ = true;
+    seen_.beside = true;
     Breach breach = breach_here(sample);
     breach.kind = BreachKind::deviation;
     breach.value = led.judged_mm;
     breach.limit = led.tolerance_mm + allowed_mm_;
     breach.times = !was_beside;
-    breaches_.add(breach);
+    seen_.breaches.add(breach);
 }
 
 std::array<double, 3> Monitor::place_at(Instant at) const {
@@ -273,38 +299,38 @@ std::array<double, 3> Monitor::place_at(Instant at) const {
 /// Several blocks may follow on one move, or on several that have become one.
 void Monitor::begin_programmed(const control::PlannedMove& block) {
     const std::int64_t index = block.move.index;
-    if (part_.first < 0 || index != current_programmed_) {
-        part_.first = current_programmed_ < 0 ? index : std::min(index, current_programmed_);
-        before_mm_ = current_mm_;
-        current_mm_ = 0;
-        current_programmed_ = index;
-        program_.drop_before(part_.first);
+    if (seen_.part.first < 0 || index != seen_.current_programmed) {
+        seen_.part.first = seen_.current_programmed < 0 ? index : std::min(index, seen_.current_programmed);
+        seen_.before_mm = seen_.current_mm;
+        seen_.current_mm = 0;
+        seen_.current_programmed = index;
+        seen_.program.drop_before(seen_.part.first);
     }
-    current_mm_ += block.length;
+    seen_.current_mm += block.length;
 }
 
 /// The host hears of a joint a little after it happened, so the moves of the block before and of the one after count
 /// too. A block may stand for several moves, and a move for several blocks.
 void Monitor::find_programmed() {
     constexpr double longer = 2, more_mm = 1;  // a program's path than that of what it is driven as
-    part_.last = std::numeric_limits<std::int64_t>::max();
-    part_.reach_mm = more_mm + longer * (before_mm_ + current_mm_);
+    seen_.part.last = std::numeric_limits<std::int64_t>::max();
+    seen_.part.reach_mm = more_mm + longer * (seen_.before_mm + seen_.current_mm);
     std::int64_t next = -1;
-    for (const Planned& planned : planned_) {
+    for (const Planned& planned : seen_.planned) {
         const std::int64_t index = planned.move.move.index;
-        if (planned.block <= current_ + 1) {
-            if (planned.block > current_) part_.reach_mm += longer * planned.move.length;
+        if (planned.block <= seen_.current + 1) {
+            if (planned.block > seen_.current) seen_.part.reach_mm += longer * planned.move.length;
             next = index;
         } else if (index > next) {
-            part_.last = index;
+            seen_.part.last = index;
             return;
         }
     }
 }
 
 ProgramDistance Monitor::deviation_at(const std::array<double, control::axis_count>& position) const {
-    if (current_ < 0) return {};
-    return program_.distance(part_, position[0], position[1], position[2]);
+    if (seen_.current < 0) return {};
+    return seen_.program.distance(seen_.part, position[0], position[1], position[2]);
 }
 
 }  // namespace motionrack::rack

@@ -21,18 +21,19 @@
 
 namespace motionrack::rack {
 
-/// One axis as the monitor sees it. Position in mm or degrees = origin + count / counts_per_unit.
+/// One axis as the monitor sees it. Position in mm or degrees = origin + count / pulses_per_unit.
 struct WatchedAxis {
     int index = 0;                          ///< 0 .. 5: control::axis_letters
     sim::Motion* commanded = nullptr;       ///< the card's pulses
     const sim::Motion* real = nullptr;      ///< the rotor, in pulses
     const parts::DcMotor* servo = nullptr;  ///< what turns it, if no pulses do
     double pulses_per_unit = 1;
-    double origin = 0;      ///< mm or degrees where both counts are 0
-    double jump_hz = 1;     ///< rates that change by more than this at once are jumps, not ramps
-    double full_step = 16;  ///< pulses: a change that is over before the axis is that far away is no jump
-    double accel_hz = 0;    ///< the axis' acceleration limit, pulses/s2
-    double start_hz = 0;    ///< its start speed, pulses/s
+    double origin = 0;            ///< mm or degrees where the real count is 0
+    double commanded_beyond = 0;  ///< and how much more where the commanded one is
+    double jump_hz = 1;           ///< rates that change by more than this at once are jumps, not ramps
+    double full_step = 16;        ///< pulses: a change that is over before the axis is that far away is no jump
+    double accel_hz = 0;          ///< the axis' acceleration limit, pulses/s2
+    double start_hz = 0;          ///< its start speed, pulses/s
 };
 
 struct Sample {
@@ -82,12 +83,15 @@ class Monitor final : public sim::Device {
     /// dropped).
     Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples);
 
+    /// Another program: forgets what it saw of the one before. Nothing moves; `axes` are those that it was made with,
+    /// wherever their counts begin now.
+    void restart(std::vector<WatchedAxis> axes);
     /// Begins sampling now.
     void begin();
     /// Takes the last sample and ends.
     void finish();
     /// A move of the program, before it is planned.
-    void programmed(const control::Move& move, const control::Point& start) { program_.add(move, start); }
+    void programmed(const control::Move& move, const control::Point& start) { seen_.program.add(move, start); }
     /// A planned move was handed to the axes.
     void planned(std::int64_t block, const control::PlannedMove& move);
     /// Planned moves that have really begun since the last call.
@@ -98,19 +102,19 @@ class Monitor final : public sim::Device {
     /// Hears every sample with its deviation in mm, between runs; nothing is left out.
     void on_sample(std::function<void(const Sample&, double deviation)> call) { on_sample_ = std::move(call); }
 
-    const std::vector<Sample>& samples() const { return kept_.samples(); }
-    const std::vector<double>& deviations() const { return kept_.deviations(); }  ///< mm, one a sample
-    const AxisStatistics& statistics(int index) const { return statistics_[static_cast<std::size_t>(index)]; }
-    const Deviation& worst() const { return worst_; }
+    const std::vector<Sample>& samples() const { return seen_.kept.samples(); }
+    const std::vector<double>& deviations() const { return seen_.kept.deviations(); }  ///< mm, one a sample
+    const AxisStatistics& statistics(int index) const { return seen_.statistics[static_cast<std::size_t>(index)]; }
+    const Deviation& worst() const { return seen_.worst; }
     /// What the axes were asked for and must not have been.
-    const std::vector<Breach>& breaches() const { return breaches_.all(); }
+    const std::vector<Breach>& breaches() const { return seen_.breaches.all(); }
     /// Before begin(): how far beyond the program's own tolerance pulses may lead, mm; 0, as at first: however far.
     void set_allowed_deviation(double mm) { allowed_mm_ = mm; }
     /// Where the machine was at about that instant, mm.
     std::array<double, 3> place_at(Instant at) const;
-    const std::vector<DrivenBlock>& blocks() const { return blocks_; }
-    std::int64_t blocks_left_out() const { return blocks_left_out_; }
-    std::int64_t samples_taken() const { return taken_; }
+    const std::vector<DrivenBlock>& blocks() const { return seen_.blocks; }
+    std::int64_t blocks_left_out() const { return seen_.blocks_left_out; }
+    std::int64_t samples_taken() const { return seen_.taken; }
     Duration period() const { return period_; }
 
     void act(Instant now) override;
@@ -122,6 +126,8 @@ class Monitor final : public sim::Device {
         Ear(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
+        /// Whoever drove it before does not matter: it has this rate since now.
+        void restart(const TopSpeed& fresh, double rate, Instant now);
         /// The last change stays: it was a jump.
         void settle();
         TopSpeed speed;
@@ -151,6 +157,33 @@ class Monitor final : public sim::Device {
         std::int64_t block = 0;
         control::PlannedMove move;
     };
+    /// Of one program.
+    struct Seen {
+        Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t most_samples);
+        std::size_t ring_begin = 0;
+        std::size_t ring_end = 0;
+        std::int64_t ring_lost = 0;
+        std::array<RawSample, 5> last = {};  // for accelerations, newest first
+        int last_count = 0;
+        trace::SampleKeeper<Sample> kept;
+        std::int64_t taken = 0;
+        std::array<AxisStatistics, control::axis_count> statistics = {};
+        std::deque<Planned> planned;
+        std::deque<control::BlockStart> starts;
+        std::int64_t current = -1;
+        ProgrammedPath program;
+        ProgramPart part{-1, 0, 0};            ///< where the machine may be
+        std::int64_t current_programmed = -1;  ///< move at which the current block begins
+        double before_mm = 0, current_mm = 0;  ///< that blocks have on the move before, and on this one
+        DrivenBlock open_block;
+        bool block_open = false;
+        std::vector<DrivenBlock> blocks;
+        std::int64_t blocks_left_out = 0;
+        Deviation worst;
+        std::vector<JumpWatch> jump_watches;  ///< of axes whose pulses move them; one an axis
+        Breaches breaches;
+        bool beside = false;  ///< the pulses lead too far from the program
+    };
 
     void take(Instant now);
     void work_off(const RawSample& raw);
@@ -168,34 +201,12 @@ class Monitor final : public sim::Device {
     std::vector<WatchedAxis> axes_;
     std::vector<Ear> ears_;
     Duration period_;
+    std::size_t most_samples_;
     std::vector<RawSample> ring_;
-    std::size_t ring_begin_ = 0;
-    std::size_t ring_end_ = 0;
-    std::int64_t ring_lost_ = 0;
+    Seen seen_;
     bool running_ = false;
-
-    std::array<RawSample, 5> last_ = {};  // for accelerations, newest first
-    int last_count_ = 0;
-    trace::SampleKeeper<Sample> kept_;
     std::function<void(const Sample&, double)> on_sample_;
-    std::int64_t taken_ = 0;
-    std::array<AxisStatistics, control::axis_count> statistics_ = {};
-    std::deque<Planned> planned_;
-    std::deque<control::BlockStart> starts_;
-    std::int64_t current_ = -1;
-    ProgrammedPath program_;
-    ProgramPart part_{-1, 0, 0};             ///< where the machine may be
-    std::int64_t current_programmed_ = -1;   ///< move at which the current block begins
-    double before_mm_ = 0, current_mm_ = 0;  ///< that blocks have on the move before, and on this one
-    DrivenBlock open_block_;
-    bool block_open_ = false;
-    std::vector<DrivenBlock> blocks_;
-    std::int64_t blocks_left_out_ = 0;
-    Deviation worst_;
-    std::vector<JumpWatch> jump_watches_;  ///< of axes whose pulses move them; one an axis
-    Breaches breaches_;
     double allowed_mm_ = 0;
-    bool beside_ = false;  ///< the pulses lead too far from the program
 };
 
 }  // namespace motionrack::rack

@@ -288,12 +288,35 @@ Result<control::PathAxes*> Rack::path_axes(const std::optional<control::Point>& 
     return axes_.front().card->path_axes(config_, position);
 }
 
+namespace {
+
+/// Whoever reset a card that positions by itself, or wrote its counter, has moved the ground under its axis.
+Result<void> check_agrees(const RunningAxis& axis, double position) {
+    const double units = axis.config.pulses_per_unit();
+    const double counted =
+        axis.card->counter_origin() + static_cast<double>(axis.card->pulse_counter(axis.channel)) / units;
+    constexpr double slack_pulses = 2;
+    if (std::fabs(counted - position) * units <= slack_pulses) return {};
+    return fail(
+        Trouble::refused,
+        fmt::format("Card {} has axis {} at {:.4f} {}, but it is at {:.4f}: somebody wrote to the card's counter, "
+                    "or its encoder is not counted. Nothing was moved; home it, or take another rack.",
+                    axis.config.card, axis.config.letter, counted, axis.config.unit(), position));
+}
+
+}  // namespace
+
 Result<control::PathAxes*> Rack::positioning_axes(const std::optional<control::Point>& position) {
     std::array<control::Axis*, control::axis_count> axes = {};
     for (const RunningAxis& axis : axes_) {
         control::Axis*& one = axes[static_cast<std::size_t>(axis.config.index())];
         MOTIONRACK_TRY(one, axis.card->axis(config_, axis.config.letter));
-        if (position) MOTIONRACK_CHECK(one->set_position((*position)[static_cast<std::size_t>(axis.config.index())]));
+        if (!position) continue;
+        const double here = (*position)[static_cast<std::size_t>(axis.config.index())];
+        if (one->trusted())
+            MOTIONRACK_CHECK(check_agrees(axis, here));
+        else
+            MOTIONRACK_CHECK(one->set_position(here));
     }
     return &positioning_.emplace(axes, config_.limits(), axes_.front().card->host());
 }

@@ -85,8 +85,10 @@ class Rack {
     void start();
     bool started() const { return started_; }
     /// All axes of the rack as a group that follows paths: those of one card that can, or axes that position one by one
-    /// (see point_to_point). They are set up at the machine's start position, or go on from where their counters say
-    /// that they stand. Errors: refused if the rack has both kinds. The rack must be started.
+    /// (see point_to_point). They are set up at `position` (one that positions by itself, and knows where it is, must
+    /// agree), or go on from where their counters say that they stand. Errors: refused if the rack has both kinds, or
+    /// an axis does not agree. The rack must be started.
+    Result<control::PathAxes*> path_axes(const std::optional<control::Point>& position);
     Result<control::PathAxes*> path_axes() { return path_axes(start_position()); }
     Result<control::PathAxes*> path_axes_here() { return path_axes(std::nullopt); }
     /// For progress, draining and Ctrl-C: see VirtualPort. The stop latch is looked at after each call.
@@ -98,7 +100,6 @@ class Rack {
     std::string describe(const sim::Condition& condition);
 
   private:
-    Result<control::PathAxes*> path_axes(const std::optional<control::Point>& position);
     Result<control::PathAxes*> positioning_axes(const std::optional<control::Point>& position);
     void build_cards();
     void build_axes();

@@ -159,7 +159,7 @@ Result<std::unique_ptr<Session>> Session::copy() {
     std::unique_ptr<Session> out(new Session(rack_.config(), job_ ? Programs::yes : Programs::no));
     out->rack_.copy_from(rack_);
     out->desk_.copy_from(desk_);
-    out->ran_ = ran_;
+    if (job_) out->job_->copy_from(*job_);
     out->trace_unit_ = trace_unit_;
     return out;
 }
@@ -234,6 +234,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
         settings.signals.emplace_back(signals.substr(at, end - at));
         at = end;
     }
+    if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // what is lost holds its name no more
     MOTIONRACK_TRY(recorder_, WaveRecorder::create(rack_, settings));
     next_look_ = now();
     return {};

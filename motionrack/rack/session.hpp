@@ -90,8 +90,8 @@ class Session {
     Result<void> fault(std::string_view fault, std::string_view target);
 
     // ---- what a controller does
-    /// Runs a part program on the rack's controller, once, at time 0 of a rack that was opened for programs: what is
-    /// wrong in it is found before anything moves.
+    /// Runs a part program on the controller of a rack that was opened for programs, from where the axes stand: see
+    /// PositionReference. What is wrong in it is found before anything moves.
     ProgramReport run_program(const ProgramOrder& order);
     /// Homes axes: letters, with blanks and commas between them or not; empty: all that have a home switch. Errors (in
     /// `ended`): as home_axes, and refused by check_free.
@@ -131,6 +131,8 @@ class Session {
     /// empty: all but the pins that cards drive on demand. `version`: of the program that records. One whose end failed
     /// is given up for it. Errors: refused (one runs already, the name's ending), bad_input (no signal fits), io.
     Result<void> start_trace(const std::string& path, std::string_view signals, std::string_view version = {});
+    /// One runs, or could not be ended.
+    bool is_recording() const { return recorder_ != nullptr; }
     /// Ends it. Errors: refused (none runs), io: it goes on, and what could not be written is kept for the next time;
     /// an .h5 file is lost.
     Result<void> stop_trace();
@@ -154,8 +156,7 @@ class Session {
 
     Rack rack_;
     std::unique_ptr<Job> job_;  // may be nullptr: no programs
-    bool ran_ = false;          // a program did
-    std::string program_;       // its text
+    std::string program_;       // the text of the last one
     std::atomic<bool> stop_{false};
     std::function<bool(const JobProgress&)> progress_;
     std::function<void(const Told&)> on_condition_;

@@ -76,22 +76,17 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
         return fail(Trouble::refused,
                     "The rack has no axes, so no program can run on it. Nothing was moved; give it "
                     "some in its rack file.");
-    if (ran_ || now() != Instant{})
-        return fail(
-            Trouble::refused,
-            fmt::format(
-                "A program begins where the rack file says that the machine stands, at time 0, and once a rack; "
-                "this one is at {:.6f} s. Nothing was moved; open another rack.",
-                to_seconds(now())));
+    MOTIONRACK_CHECK(room_for(longest_drive));
+    MOTIONRACK_TRY(const control::Point start, job_->start());
     std::string name;
     MOTIONRACK_TRY(control::gcode::Settings reading, read_program(order, name));
+    reading.start = start;
     const control::gcode::Check check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
         report.place = check.problems.front().place;
         return fail(has_unreadable(check) ? Trouble::io : Trouble::bad_input, problems_text(check, name));
     }
     const RaisedFlag driving(driving_);
-    ran_ = true;
     stop_ = false;
     progress_ = order.progress;
     job_->give(program_, name, std::move(reading));
@@ -99,6 +94,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     progress_ = {};
     rack_.set_stop_flag(nullptr);
     between();
+    if (report.outcome.axes.empty()) return report.outcome.ended;  // its axes could not be had
     report.summary = summary_of(rack_.config(), report.outcome);
     const JobOutcome& outcome = report.outcome;
     if (!outcome.ended) {
@@ -129,7 +125,7 @@ HomingOutcome Session::home(std::string_view axes) {
         if (c != ',' && c != ' ') settings.axes += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     const RaisedFlag driving(driving_);
     rack_.on_slice(homing_slice, [this] { between(); });
-    out = home_axes(rack_, settings);
+    out = job_ ? job_->home(settings) : home_axes(rack_, settings);
     rack_.on_slice(homing_slice, {});
     between();
     return out;

@@ -27,12 +27,12 @@ class AxisOutcome:
     pulses_sent: int  #: of both directions
     pulses_net: int  #: forward less backward
     pulse_position: int  #: the card's counter LP at the end
-    pulse_start: int  #: and at the start
-    counts_read: int  #: the card's encoder counter EP at the end
-    counts_expected: int  #: what EP would be if every pulse had moved the motor
+    pulse_start: int  #: and when the program began
+    counts_read: int  #: by which the card's encoder counter EP has changed
+    counts_expected: int  #: and would have if every pulse had moved the motor
     lost_pulses: int  #: pulses that the motor did not follow
     planned_end: float
-    real_end: float  #: where the machine is
+    real_end: float  #: where the machine is, by the positions of the last homing
     top_speed: float
     top_accel: float  #: over 4 samples without a jump
     top_jump: float  #: greatest change of speed at once

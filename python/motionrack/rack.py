@@ -220,8 +220,9 @@ class Rack:
         name: str | None = None,
         tools: str | os.PathLike[str] | None = None,
     ) -> Outcome:
-        """Runs a part program from time 0 to standstill: its text, or the file at ``path``,
-        beside which its subprograms lie.
+        """Runs a part program to standstill: its text, or the file at ``path``, beside which its subprograms lie.
+        It begins where the axes stand: where the rack file says, or after other programs and :meth:`home` where the
+        pulses since have led, whoever ordered them. G-code modes begin anew.
 
         ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
         ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see
@@ -229,7 +230,8 @@ class Rack:
         lines)`` is called about every 50 ms of virtual time and may look, not move.
 
         BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved.
-        Refused on a rack that has no axes or is not at time 0. What the machine did wrong is the outcome's ``error``.
+        Refused on a rack that has no axes, while an axis moves, and where an earlier program or :meth:`home` has lost a
+        position, until that axis is homed. What the machine did wrong is the outcome's ``error``.
         """
         given, name = _program(program, path, name, tools, block_delete)
         ran = _core.run(self._world, given, ticks_of(sample_period), profile, list(faults), progress)

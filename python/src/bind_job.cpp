@@ -15,12 +15,14 @@ namespace motionrack::python {
 
 namespace {
 
-/// A program that was run, with its rack, which has the samples.
+/// A program that was run, with its rack, which has the samples until it runs the next one.
 struct Ran {
     std::shared_ptr<World> world;
     rack::JobOutcome outcome;
+    std::optional<trace::ReportData> kept = {};
 
     trace::ReportData report() const {
+        if (kept) return *kept;
         return rack::report_of(world->running(), *world->job(), outcome, world->program(), world->program_name());
     }
 };
@@ -171,7 +173,7 @@ control::gcode::Settings check_program(const World& world, const GivenProgram& p
     return world.check(program);
 }
 
-std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks,
+std::shared_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks,
                          const std::optional<std::string>& profile, const std::vector<std::string>& faults,
                          const py::object& progress) {
     control::gcode::Settings reading;
@@ -188,13 +190,18 @@ std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram
         ~Unheard() { world.on_progress({}); }
     } unheard{*world};
     // What Python raised stops the run and goes on; a stop of the machine is part of the outcome.
-    return std::make_unique<Ran>(Ran{world, alone(*world, [&] { return world->run(program, std::move(reading)); })});
+    auto out = std::make_shared<Ran>(Ran{world, {}});
+    const auto superseded = [last = std::weak_ptr<Ran>(out)] {
+        if (const std::shared_ptr<Ran> ran = last.lock()) ran->kept = ran->report();
+    };
+    out->outcome = alone(*world, [&] { return world->run(program, std::move(reading), superseded); });
+    return out;
 }
 
 }  // namespace
 
 void bind_job(py::module_& m) {
-    py::class_<Ran>(m, "Ran", "A program that was run; motionrack.Outcome is what people use.")
+    py::class_<Ran, std::shared_ptr<Ran>>(m, "Ran", "A program that was run; motionrack.Outcome is what people use.")
         .def("error",
              [](const Ran& ran) -> py::object {
                  if (ran.outcome.ended) return py::none();

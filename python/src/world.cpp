@@ -152,7 +152,7 @@ Result<void> World::set_wire(const std::string& name, double value) {
 rack::HomingOutcome World::home(rack::HomingSettings settings) {
     running();
     settings.stop = &stop_;
-    rack::HomingOutcome out = rack::home_axes(*rack_, settings);
+    rack::HomingOutcome out = job_ ? job_->home(settings) : rack::home_axes(*rack_, settings);
     listen_again();
     return out;
 }
@@ -161,6 +161,7 @@ rack::HomingOutcome World::home(rack::HomingSettings settings) {
 
 control::gcode::Settings World::reading_of(const GivenProgram& program) const {
     control::gcode::Settings out = rack::reader_settings(config_, program.block_delete);
+    if (job_) out.start = value_of(job_->start());
     if (!program.folder.empty()) out.subprogram = rack::subprograms_in(program.folder);
     if (!program.tools_name.empty())
         out.tools = value_of(control::gcode::read_tool_table(program.tools, program.tools_name));
@@ -177,16 +178,12 @@ control::gcode::Settings World::check(const GivenProgram& program) const {
     return reading;
 }
 
-Result<rack::JobOutcome> World::run(const GivenProgram& program, control::gcode::Settings reading) {
-    if (ran_ || (started() && now() != Instant{}))
-        return fail(
-            Trouble::refused,
-            fmt::format(
-                "A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
-                "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
-                to_seconds(now())));
+Result<rack::JobOutcome> World::run(const GivenProgram& program, control::gcode::Settings reading,
+                                    std::function<void()> superseded) {
     running();
-    ran_ = true;
+    MOTIONRACK_TRY(reading.start, job_->start());
+    if (superseded_) superseded_();
+    superseded_ = std::move(superseded);
     program_ = program;
     job_->give(program_.text, program_.name, std::move(reading));
     rack::JobOutcome out = job_->run();

@@ -75,11 +75,14 @@ class World final : public Host {
     // ---- wires
     Result<void> set_wire(const std::string& name, double value);
 
-    // ---- a part program, once, from time 0
-    /// How the program is read, which is good; else throws every problem, in the order of its lines. Nothing moves.
+    // ---- part programs, one after the other, from where the axes stand
+    /// How the program is read, which is good; else throws every problem, in the order of its lines, or why none can
+    /// begin now. Nothing moves.
     control::gcode::Settings check(const GivenProgram& program) const;
-    /// A program that check() has found good, and how it is read.
-    Result<rack::JobOutcome> run(const GivenProgram& program, control::gcode::Settings reading);
+    /// A program that check() has found good, and how it is read. `superseded` is called before the samples of the next
+    /// one take the place of its own.
+    Result<rack::JobOutcome> run(const GivenProgram& program, control::gcode::Settings reading,
+                                 std::function<void()> superseded);
     /// See home_axes; `settings.stop` is this world's own.
     rack::HomingOutcome home(rack::HomingSettings settings);
     const rack::Job* job() const { return job_.get(); }
@@ -120,8 +123,7 @@ class World final : public Host {
     GivenProgram program_;
     std::vector<std::string> fault_texts_;
     Duration sample_period_ = milliseconds(1);
-    bool ran_ = false;
-    std::function<void()> look_;
+    std::function<void()> look_, superseded_;
     std::function<void(const rack::JobProgress&)> progress_;
 
     std::unique_ptr<rack::Rack> rack_;

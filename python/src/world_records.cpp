@@ -86,7 +86,7 @@ void World::copy_from(World& other) {
     plan_->copy_from(*other.plan_);
     bell_->ring_no_more();
     listen_again();
-    ran_ = ran_ || other.ran_;
+    if (job_) job_->copy_from(*other.job_);
 }
 
 }  // namespace motionrack::python

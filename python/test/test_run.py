@@ -140,10 +140,12 @@ class Mistakes(unittest.TestCase):
         self.assertFalse(rack._world.started())
         self.assertTrue(rack.run(TEXT).ok)
 
-    def test_a_program_is_run_from_time_0_once(self) -> None:
+    def test_a_lost_position_keeps_the_next_program_from_beginning(self) -> None:
         rack = Rack.template()
-        rack.advance(ms=1)
-        with self.assertRaises(Refused):
+        rack.fault("X", "motor.lose_steps", 64)
+        lost = rack.run(TEXT)
+        self.assertFalse(lost.position_trusted)
+        with self.assertRaisesRegex(Refused, "position of axis X is not trusted"):
             rack.run(TEXT)
         self.assertTrue(rack.fresh().run(TEXT).ok)
 
@@ -237,6 +239,29 @@ class Homing(unittest.TestCase):
 
 
 class Programs(unittest.TestCase):
+    def test_begin_where_the_axes_stand(self) -> None:
+        rack = Rack.template()
+        rack.advance(ms=1)
+        first = rack.run("G21 G90\nG1 X10 F1200\nM2\n")
+        picture = first.svg()
+        rack.advance(ms=1)
+        copy = rack.copy()
+        second = rack.run("G21 G91\nG1 X5 F1200\nM2\n").check()
+        self.assertEqual((round(first.path_mm, 9), round(second.path_mm, 9)), (10, 5))
+        self.assertEqual(second.axes["X"].pulses_net * 2, first.check().axes["X"].pulses_net)
+        self.assertLess(second.worst.mm, 0.02)
+        self.assertAlmostEqual(second.axes["X"].real_end, 15, delta=0.01)
+        self.assertAlmostEqual(float(second.trace["x.position"][0]), 10, delta=0.01)
+        self.assertEqual(first.svg(), picture, "what came of the first one stays")
+        self.assertEqual(copy.run("G21 G91\nG1 X5 F1200\nM2\n").trace_hash, second.trace_hash)
+
+    def test_begin_where_homing_left_the_axes(self) -> None:
+        rack = Rack.from_file(EXAMPLES / "08_homing" / "machine.toml")
+        self.assertTrue(rack.home().ok)
+        outcome = rack.run("G21 G90\nG1 X20 F1200\nM2\n").check()
+        self.assertLess(outcome.worst.mm, 0.02)
+        self.assertAlmostEqual(outcome.axes["X"].planned_end, 20, delta=0.01)
+
     def test_have_tools_and_the_subprograms_beside_them(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, "part.ngc").write_text("G21 F600\nT3 M6 G43\no<side> call [7]\nM2\n", encoding="utf-8")

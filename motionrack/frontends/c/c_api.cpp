@@ -55,8 +55,9 @@ int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
 }
 
 void mr_rack_close(mr_rack* rack) {
-    const bool free = rack == nullptr || guarded([&] { return rack->session->check_free(); }) == MR_OK;
-    if (free) delete rack;
+    if (rack == nullptr || guarded([&] { return rack->session->check_free(); }) != MR_OK) return;
+    if (rack->session->is_recording()) (void)guarded([&] { return rack->session->stop_trace(); });
+    delete rack;
 }
 
 const char* mr_last_error(void) {

@@ -181,14 +181,7 @@ TEST(CProgram, ThatTheMachineStopsOrWhosePositionIsLostIsNotOk) {
     EXPECT_STREQ(mr_last_error(), lost.sentence);
 }
 
-TEST(CProgram, RunsOnceAtTimeZeroOnARackWithAxes) {
-    World world(homing_rack);
-    world.pass(1);
-    run(world, square, MR_REFUSED);
-    EXPECT_THAT(mr_last_error(), HasSubstr("at time 0"));
-    World twice(homing_rack);
-    run(twice, square, MR_OK);
-    run(twice, square, MR_REFUSED);
+TEST(CProgram, NeedsARackWithAxes) {
     World board("card.c1 = \"databoard4002\"");
     run(board, square, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("no axes"));

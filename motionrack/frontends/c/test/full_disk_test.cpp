@@ -1,10 +1,9 @@
 // Recordings over the C interface whose disk is full: what a failed end leaves, and what helps.
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
+#include <motionrack/frontends/c/test/full_disk.hpp>
 #include <motionrack/frontends/c/test/world.hpp>
 #include <sstream>
 #include <string>
@@ -13,23 +12,6 @@ namespace motionrack::c_test {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// While it lives no file of this process becomes longer, as on a full disk.
-class FullDisk {
-  public:
-    explicit FullDisk(rlim_t bytes) {
-        std::signal(SIGXFSZ, SIG_IGN);
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit little{bytes, before_.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &little);
-    }
-    ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-    FullDisk(const FullDisk&) = delete;
-    FullDisk& operator=(const FullDisk&) = delete;
-
-  private:
-    rlimit before_{};
-};
 
 /// A second of a drive, recorded; the disk is full at 0.4 s and at the end, or never.
 std::string recorded(const std::string& path, bool full) {

@@ -1,9 +1,8 @@
 // Recordings of HDF5 over the C interface, read back by the C++ reader.
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
+#include <motionrack/frontends/c/test/full_disk.hpp>
 #include <motionrack/frontends/c/test/world.hpp>
 #include <motionrack/trace/recording.hpp>
 #include <sstream>
@@ -110,17 +109,12 @@ TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
     ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
     world.write(0x00, 0x0120);
     {
-        std::signal(SIGXFSZ, SIG_IGN);
-        rlimit before{};
-        ::getrlimit(RLIMIT_FSIZE, &before);
-        const rlimit little{20'000, before.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &little);
+        const FullDisk disk(20'000);
         world.pass(1'500'000'000);
         const std::uint64_t hash = world.hash();
         EXPECT_EQ(mr_trace_stop(world), MR_IO);
         EXPECT_THAT(mr_last_error(), HasSubstr("What was recorded is lost"));
         EXPECT_EQ(world.hash(), hash);
-        ::setrlimit(RLIMIT_FSIZE, &before);
     }
     world.pass(100'000'000);
     EXPECT_EQ(mr_trace_stop(world), MR_IO) << "it stays lost";
@@ -130,6 +124,51 @@ TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
     EXPECT_FALSE(std::filesystem::exists(h5));
     std::filesystem::remove(h5 + ".new");
     std::filesystem::remove(csv);
+}
+
+TEST(CHdf5, AnEndThatHasNoRoomIsToldAndTheFileDoesNotTakeItsName) {
+    World world;
+    world.set_up(1, 4000);
+    const std::string h5 = temporary("end.h5"), part = h5 + ".new";
+    for (const rlim_t beyond : {0, 1, 500, 2'000}) {  // what is written until then fits
+        SCOPED_TRACE(beyond);
+        ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
+        world.command(1, 0x06, 500);
+        world.write(0x00, 0x0120);
+        world.pass(1'000'000'000);
+        const std::uint64_t hash = world.hash();
+        {
+            const FullDisk disk(std::filesystem::file_size(part) + beyond);
+            EXPECT_EQ(mr_trace_stop(world), MR_IO);
+        }
+        EXPECT_THAT(mr_last_error(), HasSubstr("did not take its name"));
+        EXPECT_EQ(world.hash(), hash);
+        EXPECT_FALSE(std::filesystem::exists(h5));
+        const auto cut_off = trace::RecordingReader::open(part);
+        EXPECT_FALSE(cut_off && cut_off->whole());
+    }
+    ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
+    EXPECT_EQ(mr_trace_stop(world), MR_OK) << "with room again: " << mr_last_error();
+    std::filesystem::remove(h5);
+    std::filesystem::remove(part);
+}
+
+TEST(CHdf5, ARackThatIsClosedTellsWhatBecameOfItsRecording) {
+    const std::string h5 = temporary("closed.h5");
+    mr_rack* rack = nullptr;
+    ASSERT_EQ(mr_rack_open(one_card, &rack), MR_OK);
+    ASSERT_EQ(mr_trace_start(rack, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
+    ASSERT_EQ(mr_advance_ns(rack, 1'000'000), MR_OK);
+    EXPECT_EQ(mr_trace_unit(rack, 7), MR_REFUSED);
+    const std::string before = mr_last_error();
+    {
+        const FullDisk disk(std::filesystem::file_size(h5 + ".new"));
+        mr_rack_close(rack);
+    }
+    EXPECT_NE(mr_last_error(), before);
+    EXPECT_THAT(mr_last_error(), HasSubstr("did not take its name"));
+    EXPECT_FALSE(std::filesystem::exists(h5));
+    std::filesystem::remove(h5 + ".new");
 }
 
 }  // namespace
