@@ -15,12 +15,18 @@ constexpr Duration look_every = milliseconds(1);
 }  // namespace
 
 Positioning::Positioning(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host)
-    : axes_(axes), limits_(limits), host_(host) {}
+    : axes_(axes), limits_(limits), host_(host) {
+    stand_here();
+}
+
+void Positioning::stand_here() {
+    for (std::size_t i = 0; i < axes_.size(); ++i) commanded_[i] = axes_[i] != nullptr ? axes_[i]->position() : 0;
+}
 
 Result<void> Positioning::begin() {
     blocks_ = 0;
     starts_.clear();
-    for (std::size_t i = 0; i < axes_.size(); ++i) commanded_[i] = axes_[i] != nullptr ? axes_[i]->position() : 0;
+    stand_here();
     return {};
 }
 
@@ -94,7 +100,9 @@ Result<void> Positioning::follow(const PlannedMove& move) {
         return fail(Trouble::stopped, "Stopped on request before a move; the axes stand.", {move.move.line, 0});
     Result<void> done = move.move.kind == MoveKind::dwell ? dwell(move.move.seconds) : order(move);
     if (done && move.move.kind != MoveKind::dwell) done = wait();
-    if (!done && done.error().place.line == 0) done.error().place.line = move.move.line;
+    if (done) return done;
+    stand_here();  // somewhere on the way
+    if (done.error().place.line == 0) done.error().place.line = move.move.line;
     return done;
 }
 

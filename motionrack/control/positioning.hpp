@@ -29,6 +29,7 @@ class Positioning final : public PathAxes {
     std::vector<BlockStart> take_starts() override;
 
   private:
+    void stand_here();
     Result<void> dwell(double seconds);
     Result<void> order(const PlannedMove& move);
     Result<void> wait();

@@ -110,7 +110,8 @@ void Stream::begin_cut(const Step& step, bool by_hand) {
     for (std::size_t i = 0; i < worst.size(); ++i)
         pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / least_pulses);
-    if (!ride_)
+    // Axes that position one by one would come to rest at the end of each.
+    if (!ride_ && !settings_.gcode.point_to_point)
         cut.pieces = static_cast<int>(
             std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
     cutting_ = cut;

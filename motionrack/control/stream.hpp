@@ -7,7 +7,8 @@
 //   driving ──hold()──► held ──resume()──► driving        a step done or M0: paused ──resume()──► driving
 //   stop(), a fault: rest
 //
-// Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon. With each move that it hands
+// Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon; to axes that position one by
+// one they go whole, and an override counts from the next one on. With each move that it hands
 // over, the path that is known ends at rest: a sender that falls silent leaves the machine standing at the end of its
 // last line.
 //

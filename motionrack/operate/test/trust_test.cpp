@@ -250,6 +250,62 @@ TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
     EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch, where it should be 2.0000 mm behind it"));
 }
 
+TEST(AServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.2, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 1)); });
+    o.at(3, [&](Machine& m) {
+        EXPECT_NEAR(o.x(), 105, 0.3);
+        EXPECT_TRUE(m.jog_by('X', 20, 50));
+    });
+    o.at(6, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 2)); });
+    o.run(9);
+    EXPECT_NEAR(o.x(), 130, 0.3);
+}
+
+TEST(AServoAxis, DrivesALongLineInOneGo) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
+    o.run(3);
+    EXPECT_NEAR(o.x(), 600, 0.3);
+    EXPECT_GT(o.top_speed, 480) << "of 500";
+}
+
+TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
+    o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(3, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        EXPECT_LT(o.x(), 500);
+        EXPECT_TRUE(m.resume());
+    });
+    o.run(12);
+    EXPECT_NEAR(o.x(), 600, 0.3);
+}
+
+TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
+    o.at(0.8, [](Machine& m) { m.stop(); });
+    double rest = 0;
+    o.at(3, [&](Machine& m) {
+        rest = o.x();
+        EXPECT_LT(rest, 500);
+        m.reset();
+    });
+    o.at(3.2, [](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 2)); });
+    o.at(5, [&](Machine& m) {
+        EXPECT_NEAR(o.x(), rest + 5, 0.5);
+        EXPECT_TRUE(m.line("G90 G0 X600", 3));
+    });
+    o.run(14);
+    EXPECT_NEAR(o.x(), 600, 0.3);
+}
+
 TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
