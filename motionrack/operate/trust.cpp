@@ -40,12 +40,31 @@ void Trust::begin_at_home(char letter, Instant since) {
     begin(letter, {since, watch_.mark(number(letter)).lost_pulses});
 }
 
+/// The counter of a card that was reset means nothing at once. While a stop comes, its own alarm tells of it.
+void Trust::lose_reset(bool comes_to_rest, std::vector<Alarm>& out) {
+    const rack::StopLatch& latch = rack_.stop_latch();
+    if (std::exchange(trips_, latch.trips()) == latch.trips() || !latch.tripped_by(rack::StopSource::watchdog)) return;
+    for (const rack::RackAxis& axis : rack_.config().axes) {
+        if (latch.keeps_position(axis.index()) || !of(axis.letter)) continue;
+        lose(axis.letter);
+        if (comes_to_rest) continue;
+        Alarm& alarm = out.emplace_back();
+        alarm.source = "position";
+        alarm.axis = axis.letter;
+        alarm.text =
+            fmt::format("The watchdog of card {} restarted it. The position of axis {} is not trusted any more.",
+                        axis.card, axis.letter);
+    }
+}
+
 /// While axes search home nothing is known of them yet; while a stop comes its own alarm says what is lost by it.
 std::vector<Alarm> Trust::look(Instant now, MachineState state) {
     std::vector<Alarm> out;
     if (state == MachineState::homing || now < due_) return out;
     rack_.stop_latch().following().look(now);
-    if (rack_.stop_latch().latched() && state != MachineState::error_stop) return out;
+    const bool comes_to_rest = rack_.stop_latch().latched() && state != MachineState::error_stop;
+    lose_reset(comes_to_rest, out);
+    if (comes_to_rest) return out;
     due_ = now + look_every;
     const bool stand = stands(state), stood = std::exchange(stood_, stand);
     for (const rack::TrustFinding& found : watch_.look(stand && stood)) {

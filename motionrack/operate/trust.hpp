@@ -41,8 +41,10 @@ class Trust {
     std::size_t index(char letter) const;
     std::size_t number(char letter) const;  ///< in Rack::axes()
     void begin(char letter, const rack::TrustWatch::Mark& from);
+    void lose_reset(bool comes_to_rest, std::vector<Alarm>& out);
 
     rack::Rack& rack_;
+    std::uint64_t trips_ = 0;  ///< of the stop latch, looked at
     rack::TrustWatch watch_;
     std::array<bool, control::axis_count> trusted_ = {};
     Instant due_{};

@@ -177,7 +177,9 @@ class Homing {
                 if (!work->begun || work->ended) continue;
                 work->axis->step(port.now());
                 sample(*work);
-                if (work->axis->state() == control::AxisState::homing) {
+                // A search that was stopped has an end of its own, when the axis stands.
+                const control::AxisState state = work->axis->state();
+                if (state == control::AxisState::homing || state == control::AxisState::stopping) {
                     running = true;
                 } else {
                     work->ended = true;

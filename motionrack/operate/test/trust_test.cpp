@@ -306,6 +306,47 @@ TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
     EXPECT_NEAR(o.x(), 600, 0.3);
 }
 
+TEST(AServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 0)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X200", 1)); });
+    o.at(4, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(4.5, [](Machine& m) { m.stop(); });
+    o.at(6, [](Machine& m) {
+        EXPECT_FALSE(m.status().axes[0].trusted);
+        m.reset();
+    });
+    o.at(6.1, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 150)); });
+    o.at(6.3, [](Machine& m) {
+        EXPECT_TRUE(m.status().axes[0].trusted) << m.status().why;
+        EXPECT_TRUE(m.line("G91 G0 X5", 1));
+    });
+    o.run(9);
+    EXPECT_NEAR(o.x(), 155, 0.3);
+}
+
+TEST(AServoAxis, MovesAgainAfterItsCardWasReset) {
+    for (const bool homes : {true, false}) {
+        Operated o(carriage());
+        const auto recover = [homes](Machine& m) { EXPECT_TRUE(homes ? m.home("X") : m.declare_position('X', 200)); };
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 0)); });
+        o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
+        o.at(0.6, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
+        o.at(5, [](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::error_stop);
+            EXPECT_FALSE(m.status().axes[0].trusted);
+        });
+        o.at(5.1, [](Machine& m) { m.reset(); });
+        o.at(5.2, recover);
+        o.at(20, [](Machine& m) {
+            EXPECT_TRUE(m.status().axes[0].trusted) << m.status().why;
+            EXPECT_TRUE(m.line("G90 G0 X300", 2));
+        });
+        o.run(25);
+        EXPECT_NEAR(o.x(), 300, 0.3) << (homes ? "homed" : "declared") << ": " << o.machine->status().why;
+    }
+}
+
 TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });

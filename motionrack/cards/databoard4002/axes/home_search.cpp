@@ -116,7 +116,7 @@ Result<void> HomeSearch::drive(bool towards, int rate) {
     MOTIONRACK_CHECK(driver_.set_target(far));
     MOTIONRACK_TRY(const Events old,
                    driver_.enable_events(static_cast<std::uint8_t>(marks() | event::POSITION | event::STOP)));
-    static_cast<void>(old);
+    MOTIONRACK_CHECK(check_set_up(old));
     return driver_.go();
 }
 
@@ -168,12 +168,17 @@ Result<void> HomeSearch::count(Instant now) {
     return {};
 }
 
+Result<void> HomeSearch::check_set_up(const Events& seen) const {
+    if (!seen.was_reset()) return {};
+    return failed("the card was reset (its watchdog, or the bus); home again, by which it is set up anew");
+}
+
 Result<void> HomeSearch::look_at_events(Instant now) {
     if (!driver_.status().event()) return {};
     // Without the marks: a bounce of the reference must not set the counter to 0 once more.
     constexpr auto others = static_cast<std::uint8_t>(event::POSITION | event::STOP);
     MOTIONRACK_TRY(const Events seen, driver_.enable_events(others));
-    if (seen.was_reset()) return failed("the card was reset (its watchdog, or the bus); set it up again");
+    MOTIONRACK_CHECK(check_set_up(seen));
     if (seen.stop()) stop_seen_ = later(now, contacts_rest);
     if ((seen.word & marks()) != 0) {
         marked_ = true;

@@ -65,6 +65,7 @@ class HomeSearch {
     Result<void> check_edge(double way);
     double towards(double way) const { return order_.towards_plus ? way : -way; }
     Result<void> look_standing(Instant now);
+    Result<void> check_set_up(const Events& seen) const;
     Result<void> look_at_events(Instant now);
     Result<void> look_at_stop(Instant now);
     Result<void> count(Instant now);

@@ -41,7 +41,8 @@ Result<void> PositionAxis::set_up() {
     MOTIONRACK_CHECK(driver_.set_slope(table_));
     MOTIONRACK_TRY(last_counts_, driver_.position());
     doing_ = Doing::nothing;
-    trusted_ = false;
+    trusted_ = unanswered_ = false;
+    set_up_at_ = host_.now();
     error_.reset();
     return {};
 }
@@ -97,7 +98,8 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
         trusted_ = false;
         return refuse(
             what,
-            "the card was reset since it was set up; its table and position are gone. Set it up again and home it");
+            "the card was reset since it was set up; its table and position are gone. Home it, or declare where it "
+            "stands: that sets it up anew");
     }
     progress_time_ = progress_time(settings_.scale.speed(rate));
     progress_from_ = last_counts_;
@@ -262,6 +264,7 @@ void PositionAxis::rest(Instant now) {
 void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
     trusted_ = trusted_ && counted;
+    unanswered_ = unanswered_ || !counted;
     hold_after_ = false, next_jog_ = 0;
     static_cast<void>(driver_.quit());
     rest(host_.now());
@@ -275,6 +278,9 @@ Result<void> PositionAxis::set_position(double position) {
         return refuse("Position",
                       fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
+    // What its watchdog has done meanwhile a card tells with its events.
+    if (host_.now() != set_up_at_) MOTIONRACK_CHECK(driver_.enable_events(event::POSITION | event::STOP));
+    if (unanswered_ || driver_.met_reset()) MOTIONRACK_CHECK(set_up());
     MOTIONRACK_TRY(const std::int64_t here, counts());
     offset_ = position - static_cast<double>(here) / settings_.counts_per_unit;
     trusted_ = true;
@@ -300,8 +306,11 @@ Result<void> PositionAxis::home(const control::HomeOrder& order, Instant now) {
         std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(longest_move)));
     frame.offset = offset_;
     frame.settle = settings_.settle;
-    trusted_ = false;
+    trusted_ = hold_after_ = false;
     error_.reset();
+    search_.begin(order, frame, now);
+    if (!driver_.met_reset()) return {};
+    MOTIONRACK_CHECK(set_up());  // the card was reset since, which it told just now
     search_.begin(order, frame, now);
     return {};
 }

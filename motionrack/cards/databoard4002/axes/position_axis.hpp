@@ -90,6 +90,8 @@ class PositionAxis final : public control::Axis {
     double offset_ = 0;  // the position where the counter is 0
     std::int64_t last_counts_ = 0;
     bool trusted_ = false;
+    bool unanswered_ = false;  // the card may have been reset since set_up()
+    Instant set_up_at_{};
     bool forward_ = true;
     bool hold_after_ = false;  // a move, not a stop: it is to be held
     Doing doing_ = Doing::nothing;

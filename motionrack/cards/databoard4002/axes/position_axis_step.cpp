@@ -24,7 +24,7 @@ void PositionAxis::look_at_events(Instant now) {
         return end_with(
             {Trouble::machine,
              fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
-                         "trusted. Set it up again and home it.",
+                         "trusted. Home it, by which the card is set up anew.",
                          settings_.name)});
     if (seen->stop()) stop_seen_ = later(now, contacts_rest);
     if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping))
@@ -53,7 +53,7 @@ void PositionAxis::look_at_stop() {
 void PositionAxis::settle(Instant now) {
     const std::int64_t before = last_counts_;
     if (const auto here = counts(); !here) {
-        trusted_ = false;
+        trusted_ = false, unanswered_ = true;
         if (!error_) error_ = here.error();
         if (now - still_since_ > watchdog_rest) doing_ = Doing::nothing;  // until then it may still drive
         return;

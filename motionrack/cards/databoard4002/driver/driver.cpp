@@ -88,6 +88,7 @@ Result<int> Driver::connect() {
                         settings_.select));
     MOTIONRACK_CHECK(enable_events(0));
     MOTIONRACK_CHECK(clear_watch_out());
+    met_reset_ = false;
     return version();
 }
 

@@ -89,6 +89,8 @@ class Driver {
     // ---- events
     /// Writes the enables (bits of C4) and returns the EVENT word that was freed by it.
     Result<Events> enable_events(std::uint8_t enables);
+    /// An EVENT word told of a reset since connect(): the card has no table any more, and nothing moves it.
+    bool met_reset() const { return met_reset_; }
     /// Waits until one of `wanted` (01h, 02h, 04h, 20h) has happened and returns the word, with the same enables
     /// afterwards. Errors: machine after `timeout` or if the card was reset meanwhile; stopped where the user asked to
     /// stop.
@@ -125,6 +127,7 @@ class Driver {
     Interrupt& interrupt_;
     DriverSettings settings_;
     std::uint8_t enables_ = 0;
+    bool met_reset_ = false;
 };
 
 }  // namespace motionrack::databoard4002

@@ -14,7 +14,9 @@ Result<Events> Driver::enable_events(std::uint8_t enables) {
     port_.out(ports::C4, enables);
     enables_ = enables;
     MOTIONRACK_CHECK(wait_ready("the EVENT word"));
-    return Events{port_.in(ports::DATA)};
+    const Events seen{port_.in(ports::DATA)};
+    met_reset_ = met_reset_ || seen.was_reset();
+    return seen;
 }
 
 Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting how) {
