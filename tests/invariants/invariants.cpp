@@ -97,6 +97,7 @@ void Invariants::see(const Sight& now) {
     if (now.at - base_at_ >= interval) end_interval(now);
     see_jumps(now);
     if (may_declare_ > 0) --may_declare_;
+    if (hangs_ > 0) --hangs_;
     if (may_move_ > 0) --may_move_;
     last_ = now;
     last_.alarms = nullptr;
@@ -172,7 +173,8 @@ void Invariants::see_positions(const Sight& now) {
             found(Rule::position_is_true, now.at,
                   fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
                               axis.place));
-        const double tolerance = facts_[i].servo ? 3 / facts_[i].pulses_per_unit : 1.5 / facts_[i].pulses_per_unit;
+        const double unseen = facts_[i].servo && blind_ ? facts_[i].following_alarm : 0;
+        const double tolerance = std::max(unseen, (facts_[i].servo ? 3 : 1.5) / facts_[i].pulses_per_unit);
         const double error = std::fabs(off - own.offset);
         const bool wrong = axis.trusted && error > tolerance && now.state != MachineState::homing;
         if (!wrong) {
@@ -224,7 +226,7 @@ void Invariants::see_stop(const Sight& now) {
     }
     // One that comes with the reset is looked at in the next slice.
     unheeded_ = now.latched && rests ? unheeded_ + 1 : 0;
-    if (unheeded_ > 3)
+    if (unheeded_ > (hangs_ > 0 ? pictures_of_a_hang : 3))
         found(Rule::reset_is_needed, now.at,
               fmt::format("the machine is in the state '{}' while a stop is in force", operate::name_of(now.state)));
     if (last_.latched && !now.latched && knows_orders_ && !reset_)

@@ -37,13 +37,13 @@ enum class Ending : std::uint8_t { clean, killed, power };
 constexpr std::array ending_names = {"ends clean", "is killed", "loses power"};
 
 constexpr std::size_t events_kept = 12;
-/// mm: a record that is trusted says where the machine stands.
-constexpr double record_tolerance = 0.05;
+/// mm: a record that is trusted says where the machine stands, one of a servo within what its card's lock holds.
+constexpr double stepper_tolerance = 0.05, servo_tolerance = 0.35;
 /// Steps that are lost so shortly before the end are not found any more.
 constexpr Duration found_within = milliseconds(100);
 
 rack::RackConfig draw_rack(Draws& draws, std::string& what) {
-    const int kind = draws.pick(4);
+    const int kind = draws.pick(5);
     const char* profile = draws.one_in(2) ? "trapezoid" : "jerk_limited";
     rack::RackConfig out;
     if (kind == 0) {
@@ -52,11 +52,11 @@ rack::RackConfig draw_rack(Draws& draws, std::string& what) {
                    "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n")
                    .config;
     } else {
-        const char* name = kind == 1 ? "single" : "router";
+        const char* name = std::array{"", "single", "router", "router", "carriage"}[kind];
         out = *rack::read_rack_text(*rack::rack_template(name)).config;
     }
-    out.controller.profile = profile;
-    what += fmt::format("{}, {}", std::array{"two axes", "single", "router", "router"}[kind], profile);
+    if (!out.point_to_point()) out.controller.profile = profile;
+    what += fmt::format("{}, {}", std::array{"two axes", "single", "router", "router", "carriage"}[kind], profile);
     return out;
 }
 
@@ -179,7 +179,7 @@ class Lives {
                 found({Rule::position_is_true,
                        {},
                        fmt::format("axis {} is trusted after a run that did not end by itself", kept.letter)});
-            if (std::fabs(kept.place - real->place) > record_tolerance && !lost_at_end_)
+            if (std::fabs(kept.place - real->place) > tolerance() && !lost_at_end_)
                 found({Rule::position_is_true,
                        {},
                        fmt::format("the record has axis {} at {:.4f}, it stands at {:.4f}", kept.letter, kept.place,
@@ -282,6 +282,8 @@ class Lives {
         if (fault.text.empty()) return;
         ++out_.faults;
         tell(fault.text);
+        if (fault.text.find(".encoder.") != std::string::npos) watch_->invariants().blinded();
+        if (fault.text.find(".hang") != std::string::npos) watch_->invariants().hung();
         if (!fault.disturbs) return;
         watch_->invariants().disturbed();
         disturbed_ = machine_->now();
@@ -298,7 +300,7 @@ class Lives {
                 laws.disturbed();
                 machine_->stop();
                 laws.ordered(Order::stop);
-                wait_until_ = now + whole_seconds(2);
+                wait_until_ = now + whole_seconds(runs_out() ? 8 : 2);
                 return;
             case 1:
                 machine_->reset();
@@ -326,7 +328,7 @@ class Lives {
             default: {
                 const Status& status = machine_->status();
                 const double place = status.axes.front().place;
-                if (status.state != MachineState::standstill || std::fabs(place - 15) > record_tolerance)
+                if (status.state != MachineState::standstill || std::fabs(place - 15) > tolerance())
                     found({Rule::usable_again, now,
                            fmt::format("it was sent to X 15 and is at {:.4f} in the state '{}': {}", place,
                                        operate::name_of(status.state), status.why)});
@@ -334,6 +336,10 @@ class Lives {
             }
         }
     }
+
+    /// A servo without voltage comes to rest by its friction.
+    bool runs_out() const { return config_.axes.front().servo.has_value(); }
+    double tolerance() const { return runs_out() ? servo_tolerance : stepper_tolerance; }
 
     /// For whoever looks for a cause.
     void tell(const std::string& event) {
