@@ -15,18 +15,22 @@ constexpr Duration look_every = milliseconds(1);
 }  // namespace
 
 Positioning::Positioning(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host)
-    : axes_(axes), limits_(limits), host_(host) {
-    stand_here();
+    : axes_(axes), limits_(limits), host_(host) {}
+
+void Positioning::look_where_they_stand() {
+    for (std::size_t i = 0; i < axes_.size(); ++i) commanded_[i] = axes_[i] != nullptr ? axes_[i]->position() : 0;
+    known_ = true;
 }
 
-void Positioning::stand_here() {
-    for (std::size_t i = 0; i < axes_.size(); ++i) commanded_[i] = axes_[i] != nullptr ? axes_[i]->position() : 0;
+Point Positioning::commanded_position() {
+    if (!known_) look_where_they_stand();
+    return commanded_;
 }
 
 Result<void> Positioning::begin() {
     blocks_ = 0;
     starts_.clear();
-    stand_here();
+    look_where_they_stand();
     return {};
 }
 
@@ -101,7 +105,7 @@ Result<void> Positioning::follow(const PlannedMove& move) {
     Result<void> done = move.move.kind == MoveKind::dwell ? dwell(move.move.seconds) : order(move);
     if (done && move.move.kind != MoveKind::dwell) done = wait();
     if (done) return done;
-    stand_here();  // somewhere on the way
+    known_ = false;  // they stand somewhere on the way
     if (done.error().place.line == 0) done.error().place.line = move.move.line;
     return done;
 }

@@ -24,12 +24,12 @@ class Positioning final : public PathAxes {
     Result<void> follow(const PlannedMove& move) override;
     Result<void> finish() override;
     void stop(bool immediate) override;
-    Point commanded_position() override { return commanded_; }
+    Point commanded_position() override;
     std::vector<PathNote> take_notes() override { return {}; }
     std::vector<BlockStart> take_starts() override;
 
   private:
-    void stand_here();
+    void look_where_they_stand();
     Result<void> dwell(double seconds);
     Result<void> order(const PlannedMove& move);
     Result<void> wait();
@@ -39,6 +39,7 @@ class Positioning final : public PathAxes {
     MachineLimits limits_;
     Interrupt& host_;
     Point commanded_ = {};
+    bool known_ = false;  ///< where they were sent, or stand; else their cards are asked
     std::int64_t blocks_ = 0;
     std::vector<BlockStart> starts_;
 };
