@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <motionrack/operate/logbook.hpp>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@ using nlohmann::json;
 
 constexpr const char* kept_key = "machine";
 constexpr Duration keep_every = milliseconds(100);
+constexpr double least_shift = 0.02;  ///< mm or degrees; one that is held swings by a count
 constexpr Duration again_within = whole_seconds(1);
 constexpr Duration repeat_every = whole_seconds(10);
 constexpr std::int64_t max_repeats = 20;
@@ -57,7 +59,7 @@ void Logbook::see(const Status& status) {
     see_settings(status);
     see_positions(status);
     see_state(status);
-    if (!stands(status.state) && status.at - kept_ >= keep_every) keep(status);
+    if ((!stands(status.state) || has_shifted(status)) && status.at - kept_ >= keep_every) keep(status);
 }
 
 void Logbook::stopped(const StopReport& report) {
@@ -165,8 +167,17 @@ void Logbook::see_positions(const Status& status) {
     }
 }
 
+/// A servo may be pushed, or come to rest late, while the machine stands.
+bool Logbook::has_shifted(const Status& status) const {
+    for (std::size_t i = 0; i < kept_axes_.size() && i < status.axes.size(); ++i)
+        if (std::fabs(status.axes[i].commanded - kept_axes_[i]) > least_shift) return true;
+    return false;
+}
+
 void Logbook::keep(const Status& status) {
     kept_ = status.at;
+    kept_axes_.clear();
+    for (const AxisStatus& axis : status.axes) kept_axes_.push_back(axis.commanded);
     if (journal_ == nullptr) return;
     journal_->keep(kept_key, json{{"state", name_of(status.state)},
                                   {"program", status.program_runs ? status.program : ""},

@@ -39,6 +39,7 @@ class Logbook {
     void see_alarms(const Status& status);
     void see_settings(const Status& status);
     void see_positions(const Status& status);
+    bool has_shifted(const Status& status) const;
     void keep(const Status& status);
     void write(Instant at, const std::string& kind, const std::string& text, const std::string& data);
 
@@ -52,6 +53,7 @@ class Logbook {
     std::int64_t last_alarm_ = 0;
     std::set<std::int64_t> active_, open_;  ///< alarms whose cause is there; that nobody has acknowledged
     Instant kept_{};
+    std::vector<double> kept_axes_;  ///< by their counters
     std::optional<StopReport> stopped_;
     std::int64_t repeats_ = 0;  ///< orders to stop an idle machine
     Instant repeated_{};

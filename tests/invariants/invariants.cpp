@@ -173,8 +173,7 @@ void Invariants::see_positions(const Sight& now) {
             found(Rule::position_is_true, now.at,
                   fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
                               axis.place));
-        const double unseen = facts_[i].servo && blind_ ? facts_[i].following_alarm : 0;
-        const double tolerance = std::max(unseen, (facts_[i].servo ? 3 : 1.5) / facts_[i].pulses_per_unit);
+        const double tolerance = (facts_[i].servo ? 3 : 1.5) / facts_[i].pulses_per_unit;
         const double error = std::fabs(off - own.offset);
         const bool wrong = axis.trusted && error > tolerance && now.state != MachineState::homing;
         if (!wrong) {

@@ -90,9 +90,6 @@ class Invariants {
     void ordered(Order order);
     /// From outside something was pushed, held or written, so that pulses and places part by right.
     void disturbed();
-    /// An encoder may be broken from now on: what the card of a servo does not see nobody knows, up to its limit of the
-    /// following error.
-    void blinded() { blind_ = true; }
     /// A card hangs: whoever talks to it waits for an answer, for 2 s at most, and does nothing else.
     void hung() { hangs_ = pictures_of_a_hang; }
     void see(const Sight& sight);
@@ -137,7 +134,6 @@ class Invariants {
     bool knows_orders_ = false, parts_stand_ = false;
     bool reset_ = false;                         ///< since the stop
     bool reset_now_ = false, stop_now_ = false;  ///< since the last picture, the one that came last
-    bool blind_ = false;
     static constexpr int pictures_of_a_hang = 1'500;
     int hangs_ = 0;
     int may_move_ = 0, may_declare_ = 0, stop_due_ = 0;  ///< for so many pictures

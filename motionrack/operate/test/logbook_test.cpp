@@ -252,5 +252,25 @@ TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
     EXPECT_EQ(changed.sentence, "Entry 3 was changed.");
 }
 
+TEST_F(ALogbook, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {
+    open();
+    Status status;
+    status.state = MachineState::standstill;
+    status.axes.resize(1);
+    status.axes[0].trusted = true;
+    book_->see(status);
+    status.at = milliseconds(500);
+    status.axes[0].commanded = status.axes[0].place = 1.57;
+    book_->see(status);
+    book_.reset();
+    ASSERT_TRUE(journal_->close());
+    journal_.reset();
+    open();
+    ASSERT_TRUE(journal_->before());
+    const std::vector<Standing> kept = read_last(*journal_->before(), table()).axes;
+    ASSERT_EQ(kept.size(), 1u);
+    EXPECT_DOUBLE_EQ(kept[0].commanded, 1.57);
+}
+
 }  // namespace
 }  // namespace motionrack::operate
