@@ -16,7 +16,7 @@ using nlohmann::json;
 
 constexpr const char* kept_key = "machine";
 constexpr Duration keep_every = milliseconds(100);
-constexpr double least_shift = 0.02;  ///< mm or degrees; one that is held swings by a count
+constexpr double min_shift = 0.02;  ///< mm or degrees; one that is held swings by a count
 constexpr Duration again_within = whole_seconds(1);
 constexpr Duration repeat_every = whole_seconds(10);
 constexpr std::int64_t max_repeats = 20;
@@ -170,7 +170,7 @@ void Logbook::see_positions(const Status& status) {
 /// A servo may be pushed, or come to rest late, while the machine stands.
 bool Logbook::has_shifted(const Status& status) const {
     for (std::size_t i = 0; i < kept_axes_.size() && i < status.axes.size(); ++i)
-        if (std::fabs(status.axes[i].commanded - kept_axes_[i]) > least_shift) return true;
+        if (std::fabs(status.axes[i].commanded - kept_axes_[i]) > min_shift) return true;
     return false;
 }
 

@@ -290,7 +290,7 @@ Result<control::PathAxes*> Rack::path_axes(const std::optional<control::Point>& 
 
 namespace {
 
-/// Whoever reset a card that positions by itself, or wrote its counter, has moved the ground under its axis.
+/// A host that resets a card that positions by itself, or writes its counter, shifts the axis' positions.
 Result<void> check_agrees(const RunningAxis& axis, double position) {
     const double units = axis.config.pulses_per_unit();
     const double counted =

@@ -90,7 +90,7 @@ class Invariants {
     void ordered(Order order);
     /// From outside something was pushed, held or written, so that pulses and places part by right.
     void disturbed();
-    /// A card hangs: whoever talks to it waits for an answer, for 2 s at most, and does nothing else.
+    /// A card hangs: its host waits for an answer, for 2 s at most, and does nothing else.
     void hung() { hangs_ = pictures_of_a_hang; }
     void see(const Sight& sight);
     /// A rule that is looked at elsewhere.

@@ -46,6 +46,7 @@ constexpr Duration found_within = milliseconds(100);
 rack::RackConfig draw_rack(Draws& draws, std::string& what) {
     // MOTIONRACK_CARRIAGES=1 draws servos too, which do not keep all laws yet.
     const int kind = draws.pick(from_environment("MOTIONRACK_CARRIAGES", 0) != 0 ? 5 : 4);
+    const char* name = std::array{"two axes", "single", "router", "router", "carriage"}[static_cast<std::size_t>(kind)];
     const char* profile = draws.one_in(2) ? "trapezoid" : "jerk_limited";
     rack::RackConfig out;
     if (kind == 0) {
@@ -54,11 +55,10 @@ rack::RackConfig draw_rack(Draws& draws, std::string& what) {
                    "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n")
                    .config;
     } else {
-        const char* name = std::array{"", "single", "router", "router", "carriage"}[kind];
         out = *rack::read_rack_text(*rack::rack_template(name)).config;
     }
     if (!out.point_to_point()) out.controller.profile = profile;
-    what += fmt::format("{}, {}", std::array{"two axes", "single", "router", "router", "carriage"}[kind], profile);
+    what += fmt::format("{}, {}", name, profile);
     return out;
 }
 

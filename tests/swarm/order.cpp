@@ -233,7 +233,7 @@ DrawnFault draw_fault(Machine& machine, Draws& draws) {
     if (target.faults.empty()) return {};
     const std::string_view fault =
         target.faults[static_cast<std::size_t>(draws.pick(static_cast<int>(target.faults.size())))];
-    // Without its encoder a servo is where nobody knows, up to its limit of the following error.
+    // Without its encoder the place of a servo is unknown, up to its limit of the following error.
     const bool servo = machine.rack().axes().front().servo != nullptr;
     if (servo && fault.starts_with("encoder.")) return {};
     const double value = draws.one_in(3) ? 0 : draws.one_in(2) ? 1 : draws.number(1, 200);

@@ -278,7 +278,7 @@ Result<void> PositionAxis::set_position(double position) {
         return refuse("Position",
                       fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
-    // What its watchdog has done meanwhile a card tells with its events.
+    // Its events tell whether its watchdog has reset the card meanwhile.
     if (host_.now() != set_up_at_) MOTIONRACK_CHECK(driver_.enable_events(event::POSITION | event::STOP));
     if (unanswered_ || driver_.met_reset()) MOTIONRACK_CHECK(set_up());
     MOTIONRACK_TRY(const std::int64_t here, counts());

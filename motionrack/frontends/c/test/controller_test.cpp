@@ -12,23 +12,6 @@ namespace {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-constexpr const char* homing_rack = R"(
-[card.c1]
-type = "mcx314"
-[axis.X]
-card = "c1"
-channel = "x"
-start_mm = 5
-max_mm = 300
-[axis.X.switches]
-home_mm = 1
-limit_minus_mm = -1
-limit_plus_mm = 301
-[axis.Y]
-card = "c1"
-channel = "y"
-max_mm = 200
-)";
 constexpr const char* square = "G21 G90\nG1 X15 F1200\nG1 Y10\nG1 X5\nG1 Y0\nM2\n";
 
 struct Progress {
@@ -50,12 +33,6 @@ struct Progress {
     }
     mr_run_options options() { return {nullptr, 0, &Progress::call, this}; }
 };
-
-mr_run_result run(World& world, const std::string& program, int expected, const mr_run_options* options = nullptr) {
-    mr_run_result result{-1, -1, -1, -1, -1, -1, nullptr};
-    EXPECT_EQ(mr_run_program(world, program.c_str(), options, &result), expected) << mr_last_error();
-    return result;
-}
 
 TEST(CProgram, IsDrivenToItsEndAndReportsWhatCameOfIt) {
     World world(homing_rack);

@@ -11,32 +11,9 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* machine = R"(
-[card.c1]
-type = "mcx314"
-[axis.X]
-card = "c1"
-channel = "x"
-start_mm = 5
-max_mm = 300
-[axis.X.switches]
-home_mm = 1
-limit_minus_mm = -1
-limit_plus_mm = 301
-[axis.Y]
-card = "c1"
-channel = "y"
-max_mm = 200
-)";
 constexpr std::int64_t pulses_of_mm = 640;
 constexpr const char* to_15_10 = "G21 G90\nG1 X15 F1200\nG1 Y10\nM2\n";
 constexpr const char* to_20_0 = "G21 G90\nG1 X20 F1200\nG1 Y0\nM2\n";
-
-mr_run_result drive(mr_rack* rack, const char* program, int expected = MR_OK, const mr_run_options* options = nullptr) {
-    mr_run_result result{-1, -1, -1, -1, -1, -1, nullptr};
-    EXPECT_EQ(mr_run_program(rack, program, options, &result), expected) << mr_last_error();
-    return result;
-}
 
 void stands_at(World& world, double x, double y) {
     EXPECT_EQ(world.peek("x.LP"), std::llround(x * pulses_of_mm));
@@ -46,11 +23,11 @@ void stands_at(World& world, double x, double y) {
 }
 
 TEST(CPrograms, AProgramBeginsWhereHomingLeftTheAxes) {
-    World world(machine);
+    World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
     const double homed = static_cast<double>(world.peek("x.LP")) / pulses_of_mm;
     EXPECT_NEAR(homed, 1, 0.01);
-    const mr_run_result result = drive(world, to_15_10);
+    const mr_run_result result = run(world, to_15_10);
     EXPECT_EQ(result.ok, 1);
     EXPECT_NEAR(result.path_mm, 15 - homed + 10, 1e-9);
     EXPECT_LT(result.deviation_mm, 0.02);
@@ -58,11 +35,11 @@ TEST(CPrograms, AProgramBeginsWhereHomingLeftTheAxes) {
 }
 
 TEST(CPrograms, TheSecondBeginsWhereTheFirstEndedAndItsNumbersAreItsOwn) {
-    World world(machine), alone(machine);
-    const mr_run_result first = drive(world, to_15_10);
+    World world(homing_rack), alone(homing_rack);
+    const mr_run_result first = run(world, to_15_10);
     EXPECT_NEAR(first.path_mm, 20, 1e-9);
     const std::uint64_t between = mr_now_ns(world);
-    const mr_run_result second = drive(world, to_20_0);
+    const mr_run_result second = run(world, to_20_0);
     EXPECT_EQ(second.ok, 1);
     EXPECT_NEAR(second.path_mm, 15, 1e-9);
     EXPECT_NEAR(second.seconds, static_cast<double>(mr_now_ns(world) - between) * 1e-9, 2e-3);
@@ -71,15 +48,15 @@ TEST(CPrograms, TheSecondBeginsWhereTheFirstEndedAndItsNumbersAreItsOwn) {
     EXPECT_THAT(mr_report(world), HasSubstr(std::to_string(5 * pulses_of_mm))) << "pulses of X";
     EXPECT_THAT(mr_report(world), HasSubstr(std::to_string(10 * pulses_of_mm))) << "and of Y";
     stands_at(world, 20, 0);
-    drive(world, "G21 G91\nG1 X-1 F600\nM2\n");
-    EXPECT_NEAR(drive(world, "G21\nG1 X20 F600\nM2\n").path_mm, 1, 1e-9) << "modes begin anew: G90";
+    run(world, "G21 G91\nG1 X-1 F600\nM2\n");
+    EXPECT_NEAR(run(world, "G21\nG1 X20 F600\nM2\n").path_mm, 1, 1e-9) << "modes begin anew: G90";
     stands_at(world, 20, 0);
 }
 
 TEST(CPrograms, TimeThatPassesBeforeAProgramChangesNoneOfItsNumbers) {
-    World early(machine), late(machine);
+    World early(homing_rack), late(homing_rack);
     late.pass(1'250'000'000);
-    const mr_run_result one = drive(early, to_15_10), other = drive(late, to_15_10);
+    const mr_run_result one = run(early, to_15_10), other = run(late, to_15_10);
     EXPECT_EQ(other.seconds, one.seconds);
     EXPECT_EQ(other.path_mm, one.path_mm);
     EXPECT_EQ(other.deviation_mm, one.deviation_mm);
@@ -87,27 +64,27 @@ TEST(CPrograms, TimeThatPassesBeforeAProgramChangesNoneOfItsNumbers) {
 }
 
 TEST(CPrograms, HowTheTimeBetweenTwoIsCutDoesNotMatter) {
-    World whole(machine), cut(machine);
-    drive(whole, to_15_10);
-    drive(cut, to_15_10);
+    World whole(homing_rack), cut(homing_rack);
+    run(whole, to_15_10);
+    run(cut, to_15_10);
     whole.pass(1'000'000'000);
     for (const std::uint64_t ns : {1u, 299'999'999u, 0u, 650'000'000u, 50'000'000u}) cut.pass(ns);
-    drive(whole, to_20_0);
-    drive(cut, to_20_0);
+    run(whole, to_20_0);
+    run(cut, to_20_0);
     EXPECT_EQ(cut.hash(), whole.hash());
 }
 
 TEST(CPrograms, WhatTheHostMovedByRegistersIsKnown) {
-    World world(machine);
+    World world(homing_rack);
     world.set_up(1, 4000);
     world.command(1, 0x06, 640);
     world.write(0x00, 0x0120);
     world.pass(50'000'000);
-    drive(world, to_15_10, MR_REFUSED);
+    run(world, to_15_10, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("Axis X moves at"));
     world.pass(1'000'000'000);
     world.command(1, 0x09, 12'345);  // the card's counter is the host's
-    const mr_run_result result = drive(world, to_15_10);
+    const mr_run_result result = run(world, to_15_10);
     EXPECT_NEAR(result.path_mm, 9 + 10, 1e-9) << "from 5 mm + 640 pulses";
     EXPECT_LT(result.deviation_mm, 0.02);
     EXPECT_THAT(mr_report(world), HasSubstr(std::to_string(9 * pulses_of_mm)));
@@ -115,14 +92,14 @@ TEST(CPrograms, WhatTheHostMovedByRegistersIsKnown) {
 }
 
 TEST(CPrograms, OneThatWasStoppedLeavesTheAxesForTheNext) {
-    World world(machine);
+    World world(homing_rack);
     const mr_run_options options{
         nullptr, 0, [](void*, double seconds, std::int64_t, std::int64_t) { return static_cast<int>(seconds >= 0.2); },
         nullptr};
-    drive(world, to_15_10, MR_STOPPED, &options);
+    run(world, to_15_10, MR_STOPPED, &options);
     const double stands = world.part("X.position_mm");
     EXPECT_LT(stands, 14);
-    const mr_run_result result = drive(world, to_15_10);
+    const mr_run_result result = run(world, to_15_10);
     EXPECT_EQ(result.ok, 1);
     EXPECT_NEAR(result.path_mm, 15 - stands + 10, 0.01);
     EXPECT_LT(result.deviation_mm, 0.02);
@@ -130,24 +107,24 @@ TEST(CPrograms, OneThatWasStoppedLeavesTheAxesForTheNext) {
 }
 
 TEST(CPrograms, AMistakeInTheSecondMovesNothing) {
-    World world(machine);
-    drive(world, to_15_10);
+    World world(homing_rack);
+    run(world, to_15_10);
     const std::uint64_t hash = world.hash();
-    const mr_run_result wrong = drive(world, "G21 G90\nG1 X7 F600\nG1 Xq\n", MR_BAD_INPUT);
+    const mr_run_result wrong = run(world, "G21 G90\nG1 X7 F600\nG1 Xq\n", MR_BAD_INPUT);
     EXPECT_EQ(wrong.line, 3);
     EXPECT_EQ(wrong.seconds, 0);
     EXPECT_EQ(world.hash(), hash);
     stands_at(world, 15, 10);
-    drive(world, to_20_0);
+    run(world, to_20_0);
     stands_at(world, 20, 0);
 }
 
 TEST(CPrograms, ACopyRunsTheSecondAsTheFirstWorldDoes) {
-    World world(machine);
+    World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
-    drive(world, to_15_10);
+    run(world, to_15_10);
     World copy(world.rack);
-    const mr_run_result one = drive(world, to_20_0), other = drive(copy, to_20_0);
+    const mr_run_result one = run(world, to_20_0), other = run(copy, to_20_0);
     EXPECT_EQ(other.seconds, one.seconds);
     EXPECT_EQ(other.path_mm, one.path_mm);
     EXPECT_EQ(other.deviation_mm, one.deviation_mm);
@@ -156,12 +133,12 @@ TEST(CPrograms, ACopyRunsTheSecondAsTheFirstWorldDoes) {
 }
 
 TEST(CPrograms, ARecordingThatIsBegunBeforeHasAllOfThem) {
-    World world(machine);
+    World world(homing_rack);
     const std::string csv = temporary("programs.csv");
     ASSERT_EQ(mr_trace_start(world, csv.c_str(), "X.step Y.step"), MR_OK) << mr_last_error();
-    drive(world, to_15_10);
+    run(world, to_15_10);
     world.pass(100'000'000);
-    drive(world, to_20_0);
+    run(world, to_20_0);
     ASSERT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
     const std::string table = text_of_file(csv);
     EXPECT_EQ(count_of(table, ",X.step,1\r\n"), 15 * pulses_of_mm);
@@ -170,7 +147,7 @@ TEST(CPrograms, ARecordingThatIsBegunBeforeHasAllOfThem) {
 }
 
 TEST(CPrograms, ALostPositionKeepsTheNextFromBeginningUntilTheAxisIsHomed) {
-    World world(machine);
+    World world(homing_rack);
     struct Pusher {
         mr_rack* rack;
         bool pushed = false;
@@ -181,19 +158,19 @@ TEST(CPrograms, ALostPositionKeepsTheNextFromBeginningUntilTheAxisIsHomed) {
         }
     } pusher{world.rack};
     const mr_run_options options{nullptr, 0, &Pusher::call, &pusher};
-    drive(world, to_15_10, MR_MACHINE, &options);
+    run(world, to_15_10, MR_MACHINE, &options);
     EXPECT_THAT(mr_last_error(), HasSubstr("64 pulses"));
     const std::uint64_t hash = world.hash();
-    drive(world, to_20_0, MR_REFUSED);
+    run(world, to_20_0, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("The position of axis X is not trusted since"));
     EXPECT_THAT(mr_last_error(), HasSubstr("home it"));
     EXPECT_EQ(world.hash(), hash);
     {
         World copy(world.rack);
-        drive(copy, to_20_0, MR_REFUSED);
+        run(copy, to_20_0, MR_REFUSED);
     }
     ASSERT_EQ(mr_home(world, "X"), MR_OK) << mr_last_error();
-    const mr_run_result result = drive(world, to_20_0);
+    const mr_run_result result = run(world, to_20_0);
     EXPECT_EQ(result.ok, 1);
     EXPECT_LT(result.deviation_mm, 0.02);
     EXPECT_THAT(result.sentence, Not(HasSubstr("lost")));
@@ -201,31 +178,31 @@ TEST(CPrograms, ALostPositionKeepsTheNextFromBeginningUntilTheAxisIsHomed) {
 }
 
 TEST(CPrograms, AHomingThatFindsNothingKeepsProgramsFromBeginning) {
-    World world(machine);
+    World world(homing_rack);
     EXPECT_EQ(mr_fault(world, "home.stuck_open", "X"), MR_OK);
     EXPECT_EQ(mr_home(world, "X"), MR_MACHINE);
-    drive(world, to_15_10, MR_REFUSED);
+    run(world, to_15_10, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("its search for home did not end at home"));
     EXPECT_EQ(mr_fault(world, "home.stuck_open=0", "X"), MR_OK);
     ASSERT_EQ(mr_home(world, "X"), MR_OK) << mr_last_error();
-    drive(world, to_15_10);
+    run(world, to_15_10);
     stands_at(world, 15, 10);
 }
 
 TEST(CPrograms, AfterAnEmergencyStopAxesAreHomedAndProgramsRunAgain) {
-    World world(machine);
+    World world(homing_rack);
     const mr_run_options options{nullptr, 0,
                                  [](void* user, double seconds, std::int64_t, std::int64_t) {
                                      if (seconds > 0.2) mr_wire_set(static_cast<mr_rack*>(user), "estop", 0);
                                      return 0;
                                  },
                                  world.rack};
-    drive(world, to_15_10, MR_MACHINE, &options);
-    drive(world, to_15_10, MR_REFUSED);
+    run(world, to_15_10, MR_MACHINE, &options);
+    run(world, to_15_10, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("The position of axis X is not trusted"));
     world.set("estop", 1);
     ASSERT_EQ(mr_home(world, "X"), MR_OK) << mr_last_error();
-    EXPECT_EQ(drive(world, to_15_10).ok, 1);
+    EXPECT_EQ(run(world, to_15_10).ok, 1);
     stands_at(world, 15, 10);
 }
 
@@ -253,28 +230,28 @@ cam_to_mm = 132
 TEST(CPrograms, AServoGoesOnFromWhereItStands) {
     World world(carriage);
     world.pass(10'000'000);
-    EXPECT_EQ(drive(world, "G21 G90\nG1 X150 F6000\nM2\n").ok, 1);
+    EXPECT_EQ(run(world, "G21 G90\nG1 X150 F6000\nM2\n").ok, 1);
     EXPECT_NEAR(world.part("X.position_mm"), 150, 0.2);
-    const mr_run_result second = drive(world, "G21 G91\nG1 X-30 F6000\nM2\n");
+    const mr_run_result second = run(world, "G21 G91\nG1 X-30 F6000\nM2\n");
     EXPECT_EQ(second.ok, 1) << second.sentence;
     EXPECT_NEAR(second.path_mm, 30, 0.2);
     EXPECT_NEAR(world.part("X.position_mm"), 120, 0.4);
     World copy(world.rack);
-    EXPECT_EQ(drive(copy, "G21 G90\nG1 X200 F6000\nM2\n").ok, 1) << mr_last_error();
+    EXPECT_EQ(run(copy, "G21 G90\nG1 X200 F6000\nM2\n").ok, 1) << mr_last_error();
     EXPECT_NEAR(copy.part("X.position_mm"), 200, 0.3);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
-    EXPECT_EQ(drive(world, "G21 G90\nG1 X200 F6000\nM2\n").ok, 1) << mr_last_error();
+    EXPECT_EQ(run(world, "G21 G90\nG1 X200 F6000\nM2\n").ok, 1) << mr_last_error();
     EXPECT_NEAR(world.part("X.position_mm"), 200, 0.3);
     constexpr std::uint32_t select = 1, command = 3;
     EXPECT_EQ(mr_write8(world, "board", select, 13), MR_OK);
     world.pass(10'000'000);
     EXPECT_EQ(mr_write8(world, "board", command, 'A'), MR_OK) << "here is 0, says the host";
     world.pass(10'000'000);
-    drive(world, "G21 G90\nG1 X210 F6000\nM2\n", MR_REFUSED);
+    run(world, "G21 G90\nG1 X210 F6000\nM2\n", MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("somebody wrote to the card's counter"));
     EXPECT_STREQ(mr_report(world), "") << "nothing was moved";
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
-    EXPECT_EQ(drive(world, "G21 G90\nG1 X210 F6000\nM2\n").ok, 1) << mr_last_error();
+    EXPECT_EQ(run(world, "G21 G90\nG1 X210 F6000\nM2\n").ok, 1) << mr_last_error();
     EXPECT_NEAR(world.part("X.position_mm"), 210, 0.3);
 }
 

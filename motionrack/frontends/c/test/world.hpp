@@ -32,6 +32,23 @@ card = "c1"
 channel = "u"
 encoder_counts_per_rev = 0
 )";
+inline constexpr const char* homing_rack = R"(
+[card.c1]
+type = "mcx314"
+[axis.X]
+card = "c1"
+channel = "x"
+start_mm = 5
+max_mm = 300
+[axis.X.switches]
+home_mm = 1
+limit_minus_mm = -1
+limit_plus_mm = 301
+[axis.Y]
+card = "c1"
+channel = "y"
+max_mm = 200
+)";
 
 class World {
   public:
@@ -78,6 +95,14 @@ class World {
 
     mr_rack* rack = nullptr;
 };
+
+/// A program to its end, which is `expected`.
+inline mr_run_result run(mr_rack* rack, const std::string& program, int expected = MR_OK,
+                         const mr_run_options* options = nullptr) {
+    mr_run_result result{-1, -1, -1, -1, -1, -1, nullptr};
+    EXPECT_EQ(mr_run_program(rack, program.c_str(), options, &result), expected) << mr_last_error();
+    return result;
+}
 
 // ---- files
 
