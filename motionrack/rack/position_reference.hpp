@@ -1,5 +1,5 @@
 // Where a rack's controller has its axes, between programs and homings: an axis was at its reference, and its pulses
-// lead on from there, whoever ordered them. Of a servo it is what its motor turns.
+// lead on from there, by whatever order. Of a servo it is what its motor turns.
 //
 //   rack file ──start──┐
 //   home ──position────┴─► reference ──pulses since──► where a program begins

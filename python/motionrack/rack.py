@@ -222,7 +222,7 @@ class Rack:
     ) -> Outcome:
         """Runs a part program to standstill: its text, or the file at ``path``, beside which its subprograms lie.
         It begins where the axes stand: where the rack file says, or after other programs and :meth:`home` where the
-        pulses since have led, whoever ordered them. G-code modes begin anew.
+        pulses since have led, by whatever order. G-code modes begin anew.
 
         ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
         ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see
