@@ -82,8 +82,8 @@ std::vector<Move> inverse_time(double step) {
 }
 
 void curve(benchmark::State& state, const std::vector<Move>& moves) {
-    CurveBuilder builder(machine(), Point{});
-    CurveItem item;
+    PathBuilder builder(machine(), Point{});
+    PathElement item;
     std::size_t i = 0;
     double pieces = 0;
     for (auto _ : state) {
@@ -93,7 +93,7 @@ void curve(benchmark::State& state, const std::vector<Move>& moves) {
         if (++i == moves.size()) {
             builder.flush();
             while (builder.pull(item)) ++pieces;
-            builder = CurveBuilder(machine(), Point{});
+            builder = PathBuilder(machine(), Point{});
             i = 0;
         }
     }
@@ -114,8 +114,8 @@ BENCHMARK_CAPTURE(curve, arcs_of_20_mm, arcs(20));
 void ride(benchmark::State& state, const std::vector<Move>& moves) {
     double cells = 0;
     for (auto _ : state) {
-        Ride ride(machine(), Point{},
-                  [&](const Stretch& stretch) { cells += static_cast<double>(stretch.feed.size()); });
+        OfflineTrajectory ride(machine(), Point{},
+                               [&](const Stretch& stretch) { cells += static_cast<double>(stretch.feed.size()); });
         for (const Move& move : moves) ride.push(move);
         ride.flush();
     }
@@ -134,16 +134,16 @@ BENCHMARK_CAPTURE(ride, arcs_of_1_mm, arcs(1));
 void rider(benchmark::State& state, const std::vector<Move>& moves) {
     using Clock = std::chrono::steady_clock;
     std::vector<double> seconds;
-    Rider rider(machine(), Point{});
+    TrajectoryGenerator rider(machine(), Point{});
     std::size_t i = 0;
     for (auto _ : state) {
         const Clock::time_point begin = Clock::now();
-        while (!rider.has_room() && rider.next(false) == RideNext::motion) rider.pass(std::min(0.05, rider.left()));
+        while (!rider.has_room() && rider.next(false) == NextMotion::motion) rider.pass(std::min(0.05, rider.left()));
         rider.push({moves[i]});
         seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
         if (++i < moves.size()) continue;
         state.PauseTiming();
-        rider = Rider(machine(), Point{});
+        rider = TrajectoryGenerator(machine(), Point{});
         i = 0;
         state.ResumeTiming();
     }

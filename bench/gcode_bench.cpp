@@ -60,7 +60,7 @@ void read_with_meaning(benchmark::State& state, Kind kind) {
     const Program program = make(kind);
     const gcode::Settings settings = machine();
     for (auto _ : state) {
-        gcode::Reader reader(program.text, settings);
+        gcode::ProgramReader reader(program.text, settings);
         double sum = 0;
         std::int64_t moves = 0;
         for (;;) {

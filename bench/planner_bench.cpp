@@ -43,7 +43,7 @@ void trapezoid_plan(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const Trapezoid p(t.distance, t.speed, t.accel);
+        const TrapezoidalProfile p(t.distance, t.speed, t.accel);
         benchmark::DoNotOptimize(p);
     }
 }
@@ -54,7 +54,7 @@ void trapezoid_plan_between_speeds(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const Trapezoid p(t.distance, t.entry, t.exit, t.speed, t.accel);
+        const TrapezoidalProfile p(t.distance, t.entry, t.exit, t.speed, t.accel);
         benchmark::DoNotOptimize(p);
     }
 }
@@ -132,8 +132,8 @@ void sample_s_curve(benchmark::State& state) {
 BENCHMARK(sample_s_curve);
 
 void sample_trapezoid(benchmark::State& state) {
-    sample_four_axes<Trapezoid>(
-        state, {Trapezoid(20, 100, 1000), Trapezoid(15, 80, 800), Trapezoid(12, 90, 900), Trapezoid(30, 120, 1500)});
+    sample_four_axes<TrapezoidalProfile>(state, {TrapezoidalProfile(20, 100, 1000), TrapezoidalProfile(15, 80, 800),
+                                                 TrapezoidalProfile(12, 90, 900), TrapezoidalProfile(30, 120, 1500)});
 }
 BENCHMARK(sample_trapezoid);
 
@@ -188,7 +188,7 @@ std::vector<Move> curve(int count, double step) {
 
 void look_ahead(benchmark::State& state, double step) {
     const auto moves = curve(100'000, step);
-    Planner planner(machine(), Point{}, {1024});
+    LookAheadPlanner planner(machine(), Point{}, {1024});
     PlannedMove planned;
     std::size_t i = 0;
     double top = 0;
@@ -198,7 +198,7 @@ void look_ahead(benchmark::State& state, double step) {
         if (++i == moves.size()) {
             planner.flush();
             while (planner.pull(planned)) top = std::max(top, planned.cruise);
-            planner = Planner(machine(), Point{}, {1024});
+            planner = LookAheadPlanner(machine(), Point{}, {1024});
             i = 0;
         }
     }
@@ -224,17 +224,17 @@ void look_ahead_with_full_passes(benchmark::State& state) {
     };
     std::vector<Node> window;
     Geometry last;
-    AlongPath last_along;
+    AlongPathLimits last_along;
     Point at{};
     std::size_t i = 0;
     double committed = 0;
     for (auto _ : state) {
         const Move& move = moves[i];
         const Geometry path = geometry_of(move, at);
-        const AlongPath along = limits.along(path, move);
+        const AlongPathLimits along = limits.along(path, move);
         const double joint = window.empty() ? 0
-                                            : limits.joint_squared(last, last_along.speed, path, along.speed, move.path,
-                                                                   move.tolerance_mm);
+                                            : limits.max_junction_velocity2(last, last_along.speed, path, along.speed,
+                                                                            move.path, move.tolerance_mm);
         if (window.size() == 1024) {
             committed = window[1].entry;
             window.erase(window.begin());

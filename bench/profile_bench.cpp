@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t task_count = 8192;
 
 struct Task {
-    TravelState from, to;
-    TravelLimits limits;
+    KinematicState from, to;
+    KinematicLimits limits;
 };
 
 /// Everything at random: limits within an order of magnitude, speeds up to `moving` of what is allowed.
@@ -28,7 +28,7 @@ std::vector<Task> tasks(double moving) {
         t.limits.speed = between(20, 200);
         t.limits.accel = between(200, 2000);
         t.limits.jerk = between(4e3, 4e4);
-        for (TravelState* state : {&t.from, &t.to}) {
+        for (KinematicState* state : {&t.from, &t.to}) {
             state->position = between(-100, 100);
             // as much acceleration as leaves half of the speed
             const double most = std::fmin(t.limits.accel, std::sqrt(t.limits.speed * t.limits.jerk));
@@ -97,12 +97,12 @@ void stop_of_any_motion(benchmark::State& state) {
 BENCHMARK(stop_of_any_motion);
 
 void sample_of_a_travel(benchmark::State& state) {
-    std::vector<Travel> out;
+    std::vector<AxisProfile> out;
     for (const Task& t : tasks(1)) out.push_back(travel_of(t).value());
     std::size_t i = 0;
     double part = 0;
     for (auto _ : state) {
-        const Travel& one = out[i++ & (task_count - 1)];
+        const AxisProfile& one = out[i++ & (task_count - 1)];
         part += 0.37;
         if (part > 1) part -= 1;
         benchmark::DoNotOptimize(one.sample(part * one.duration()));

@@ -11,14 +11,14 @@
 namespace motionrack::rack {
 namespace {
 
+using control::ExecutionState;
 using control::Stream;
-using control::StreamState;
 
 /// A rack whose axes are driven by a Stream, watched all the time.
 struct Watched {
     Rack rack;
     Monitor monitor;
-    control::PathAxes* axes = nullptr;
+    control::AxisGroup* axes = nullptr;
     std::unique_ptr<Stream> stream;
     std::vector<control::Geometry> programmed;
     double tolerance = 0;  ///< how far corners may be cut
@@ -28,10 +28,10 @@ struct Watched {
         : rack(config), monitor(rack.kernel(), watched_axes(rack), milliseconds(1), 1'000'000) {
         rack.start();
         axes = *rack.path_axes();
-        control::StreamSettings settings;
+        control::StreamExecutorSettings settings;
         settings.gcode = reader_settings(config);
         settings.jerk_limited = config.jerk_limited();
-        settings.kept_back = rack.axes().front().card->kept_back();
+        settings.accel_reserve = rack.axes().front().card->accel_reserve();
         stream = std::make_unique<Stream>(*axes, host(), settings);
         stream->on_move([this](const control::Move& move, const control::Point& start) {
             programmed.push_back(control::geometry_of(move, start));
@@ -103,9 +103,9 @@ void drive_all(Watched& w, const std::string& program, const std::function<void(
             ASSERT_TRUE(read) << read.error().text();
             ++next;
         }
-        const Result<StreamState> state = w.stream->drive(next < lines.size());
+        const Result<ExecutionState> state = w.stream->drive(next < lines.size());
         ASSERT_TRUE(state) << state.error().text();
-        if (*state == StreamState::waiting || *state == StreamState::held || *state == StreamState::paused)
+        if (*state == ExecutionState::waiting || *state == ExecutionState::held || *state == ExecutionState::paused)
             w.host().pass(milliseconds(1));
         if (between) between();
     }
@@ -137,7 +137,7 @@ void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize s
             w.stream->set_overrides(static_cast<double>(1 + random() % 200) / 100,
                                     static_cast<double>(25 + random() % 76) / 100);
         if (chance(200) && holds < 40) w.stream->hold(), ++holds;
-        if ((w.stream->state() == StreamState::held || w.stream->state() == StreamState::paused) && chance(20))
+        if ((w.stream->state() == ExecutionState::held || w.stream->state() == ExecutionState::paused) && chance(20))
             w.stream->resume();
     };
     drive_all(w, program.text);
@@ -175,7 +175,7 @@ TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     double held_at = -1;
     w.on_slice = [&] {
         if (!asked && w.rack.axes()[0].machine->position(w.rack.kernel().now()) > 30) w.stream->hold(), asked = true;
-        if (w.stream->state() == StreamState::held) {
+        if (w.stream->state() == ExecutionState::held) {
             const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
             if (held_at < 0) held_at = x;
             EXPECT_DOUBLE_EQ(x, held_at);
@@ -183,7 +183,7 @@ TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     };
     int waits = 0;
     drive_all(w, "G21 G90\nG1 X100 F3000\nG1 Y20\n", [&] {
-        if (w.stream->state() == StreamState::held && ++waits == 100) w.stream->resume();
+        if (w.stream->state() == ExecutionState::held && ++waits == 100) w.stream->resume();
     });
     EXPECT_GT(held_at, 30);
     EXPECT_LT(held_at, 45);
@@ -200,7 +200,7 @@ TEST_P(AStream, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
         bool asked = false;
         w.on_slice = [&] {
             if (!asked && w.seconds() > at) w.stream->hold(), asked = true;
-            if (w.stream->state() == StreamState::held) w.stream->resume();
+            if (w.stream->state() == ExecutionState::held) w.stream->resume();
         };
         drive_all(w, program);
         w.expect_limits();
@@ -239,16 +239,16 @@ TEST_P(AStream, FeelsAnOverrideWithinATenthOfASecondOrSo) {
 
 /// Drives a program in its whole language; how long that takes, s.
 double seconds_of(Watched& w, const std::string& program) {
-    control::gcode::Walk walk(program, w.stream->fresh_settings(), "part.ngc");
+    control::gcode::ProgramFlow walk(program, w.stream->fresh_settings(), "part.ngc");
     const double begun = w.seconds();
     for (bool more = true; more || w.stream->has_work();) {
         for (std::string_view line; more && w.stream->has_room() && (more = walk.next(line));) {
             const auto read = w.stream->line(line, walk.number(), walk);
             EXPECT_TRUE(read) << read.error().text();
         }
-        const Result<StreamState> state = w.stream->drive(more);
+        const Result<ExecutionState> state = w.stream->drive(more);
         if (!state) ADD_FAILURE() << state.error().text();
-        if (*state == StreamState::waiting) w.host().pass(milliseconds(1));
+        if (*state == ExecutionState::waiting) w.host().pass(milliseconds(1));
     }
     return w.seconds() - begun;
 }
@@ -305,7 +305,7 @@ TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
     w.stream->on_event([&](const control::gcode::Step& step) { seen.push_back(step.kind); });
     int waits = 0;
     drive_all(w, "G21 G90 F3000\nG1 X10 M3 S1000\nM0\nG1 X20\nM2\n", [&] {
-        if (w.stream->state() != StreamState::paused) return;
+        if (w.stream->state() != ExecutionState::paused) return;
         EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 10, 1e-9);
         if (++waits == 50) w.stream->resume();
     });
@@ -319,7 +319,7 @@ TEST_P(AStream, InSingleStepPausesAfterEachLine) {
     w.stream->set_single_step(true);
     std::vector<double> stood;
     drive_all(w, "G21 G90 F3000\nG1 X10\nG1 X20\nG1 X30\n", [&] {
-        if (w.stream->state() != StreamState::paused) return;
+        if (w.stream->state() != ExecutionState::paused) return;
         stood.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
         w.stream->resume();
     });
@@ -333,11 +333,11 @@ TEST_P(AStream, WhoseSenderIsSlowStandsBetweenTheLinesAndLosesNothing) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         ASSERT_TRUE(w.stream->line(lines[i], static_cast<int>(i) + 1));
         for (int k = 0; k < 1000; ++k) {
-            const Result<StreamState> state = w.stream->drive(k < 20);
+            const Result<ExecutionState> state = w.stream->drive(k < 20);
             ASSERT_TRUE(state);
-            if (*state == StreamState::rest || *state == StreamState::waiting) w.host().pass(milliseconds(1));
+            if (*state == ExecutionState::rest || *state == ExecutionState::waiting) w.host().pass(milliseconds(1));
         }
-        EXPECT_EQ(w.stream->state(), StreamState::rest);
+        EXPECT_EQ(w.stream->state(), ExecutionState::rest);
     }
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 30, 1e-9);
     w.expect_limits();

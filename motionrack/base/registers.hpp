@@ -56,8 +56,8 @@ constexpr Flaw registers_flaw(std::span<const RegisterInfo> registers) {
         if (const Flaw flaw = fields_flaw(registers[i]); !flaw.empty()) return flaw;
         for (std::size_t j = 0; j < i; ++j) {
             const RegisterInfo &a = registers[j], &b = registers[i];
-            const bool same_direction = (a.access == Access::write) == (b.access == Access::write);
-            if (a.offset == b.offset && same_direction && a.bank == b.bank)
+            const bool tangent_angle_rad = (a.access == Access::write) == (b.access == Access::write);
+            if (a.offset == b.offset && tangent_angle_rad && a.bank == b.bank)
                 return {"the registers ", a.name, " and ", b.name, " are at one offset in one direction and bank"};
         }
     }

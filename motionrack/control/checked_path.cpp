@@ -50,7 +50,7 @@ Result<Geometry> checked_path(const Move& move, const Point& start, const PathLi
                         move.line, move.feed),
             {move.line, 0});
     }
-    if (const int axis = limits.absent_axis(path); axis >= 0) {
+    if (const int axis = limits.missing_axis(path); axis >= 0) {
         return fail(
             Trouble::refused,
             fmt::format("line {} moves axis {} by {}, but this machine has no such axis; the move was not planned. "

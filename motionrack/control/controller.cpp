@@ -82,23 +82,24 @@ std::string words_of(const gcode::Step& step) {
 
 }  // namespace
 
-Controller::Controller(PathAxes& axes, const ControllerSettings& settings) : axes_(axes), settings_(settings) {
+ProgramExecutor::ProgramExecutor(AxisGroup& axes, const ExecutorSettings& settings) : axes_(axes), settings_(settings) {
     plan_from(settings.gcode.start);
 }
 
-void Controller::plan_from(const Point& start) {
+void ProgramExecutor::plan_from(const Point& start) {
     read_to_ = start;
     if (settings_.jerk_limited)
-        planner_ = std::make_unique<RideMoves>(ride_for(axes_, settings_.gcode.limits, settings_.kept_back, {}, start));
+        planner_ = std::make_unique<TrajectoryInterpolator>(
+            make_trajectory_interpolator(axes_, settings_.gcode.limits, settings_.accel_reserve, {}, start));
     else
-        planner_ = std::make_unique<Planner>(
-            planner_for(axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, start));
+        planner_ = std::make_unique<LookAheadPlanner>(
+            make_look_ahead_planner(axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, start));
 }
 
-Result<void> Controller::hand_over() {
+Result<void> ProgramExecutor::hand_over() {
     PlannedMove planned;
     while (true) {
-        if (!held_ && stop_wished()) held_ = planner_->hold();
+        if (!held_ && is_stop_requested()) held_ = planner_->hold();
         if (!planner_->pull(planned)) return held_ ? stopped() : Result<void>{};
         tell(planned);
         MOTIONRACK_CHECK(axes_.follow(planned));
@@ -106,7 +107,7 @@ Result<void> Controller::hand_over() {
 }
 
 /// A move was read: with its number.
-Move Controller::programmed(const Move& read) {
+Move ProgramExecutor::programmed(const Move& read) {
     Move move = read;
     move.index = read_++;
     if (on_move_) on_move_(move, read_to_);
@@ -115,7 +116,7 @@ Move Controller::programmed(const Move& read) {
 }
 
 /// A block is about to be driven.
-void Controller::tell(const PlannedMove& planned) {
+void ProgramExecutor::tell(const PlannedMove& planned) {
     summary_.add(planned);
     if (on_block_) on_block_(blocks_, planned);
     ++blocks_;
@@ -123,23 +124,23 @@ void Controller::tell(const PlannedMove& planned) {
 }
 
 /// What the axes had is driven, and it ends at rest.
-Result<void> Controller::stopped() {
+Result<void> ProgramExecutor::stopped() {
     MOTIONRACK_CHECK(axes_.finish());
     return stopped_on_request(line_, axes_.commanded_position(), settings_.gcode.limits);
 }
 
-void Controller::remember(const gcode::Step& step, ProgramRun& run) {
+void ProgramExecutor::remember(const gcode::Step& step, ProgramResult& run) {
     note({step.line, blocks_ - 1, words_of(step)}, run);
 }
 
-void Controller::note(ProgramEvent event, ProgramRun& run) {
+void ProgramExecutor::note(ProgramEvent event, ProgramResult& run) {
     if (run.events.size() < settings_.event_limit)
         run.events.push_back(std::move(event));
     else
         ++run.events_left_out;
 }
 
-Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
+Result<void> ProgramExecutor::take(const gcode::Step& step, ProgramResult& run) {
     using gcode::StepKind;
     if (step.kind == StepKind::move) {
         run.moves += step.move.kind != MoveKind::dwell;
@@ -157,15 +158,15 @@ Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
 }
 
 /// Everything before it is driven, then the probing move alone; the program goes on where the machine stands.
-Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, ProgramRun& run) {
+Result<void> ProgramExecutor::probe(const gcode::Step& step, gcode::ProgramReader& reader, ProgramResult& run) {
     run.moves += 1;
     planner_->flush();
     MOTIONRACK_CHECK(hand_over());
     MOTIONRACK_CHECK(axes_.finish());
     MOTIONRACK_TRY(const PlannedMove planned,
-                   plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, programmed(step.move)));
+                   plan_single_move(axes_, settings_.gcode.limits, settings_.accel_reserve, programmed(step.move)));
     tell(planned);
-    MOTIONRACK_TRY(const ProbeOutcome outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
+    MOTIONRACK_TRY(const ProbeResult outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
     const Point stands = axes_.commanded_position();
     reader.probed(outcome.hit, outcome.at, stands);
     plan_from(stands);
@@ -177,9 +178,9 @@ Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, P
                 {step.line, 1});
 }
 
-Result<void> Controller::run(std::string_view text, const std::string& file, ProgramRun& run) {
+Result<void> ProgramExecutor::run(std::string_view text, const std::string& file, ProgramResult& run) {
     MOTIONRACK_CHECK(axes_.begin());
-    gcode::Reader reader(text, settings_.gcode, file);
+    gcode::ProgramReader reader(text, settings_.gcode, file);
     Result<void> outcome;
     while (outcome) {
         auto step = reader.next();

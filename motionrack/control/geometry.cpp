@@ -16,10 +16,10 @@ void make_straight(Geometry& path) {
     for (int i = 0; i < axis_count; ++i) change[i] = path.end[i] - path.start[i];
     double length = std::sqrt(change[0] * change[0] + change[1] * change[1] + change[2] * change[2]);
     path.shape = PathShape::line;
-    if (length < smallest_length) {
+    if (length < min_length_mm) {
         length = std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])});
         path.shape = PathShape::rotary;
-        if (length < smallest_length) {
+        if (length < min_length_mm) {
             path.shape = PathShape::nothing;
             return;
         }
@@ -34,7 +34,7 @@ void make_straight(Geometry& path) {
 double swept_angle(double x0, double y0, double x1, double y1, int turns) {
     double angle = motionrack::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1);
     const double whole = turns > 0 ? 2 * pi : -2 * pi;
-    if (std::fabs(angle) < smallest_sweep) {
+    if (std::fabs(angle) < min_sweep_rad) {
         angle = whole;
     } else if ((angle > 0) != (turns > 0)) {
         angle += whole;
@@ -52,7 +52,7 @@ bool make_arc(Geometry& path, const Move& move) {
     const double y1 = path.end[second] - move.centre_second;
     const double radius_start = std::sqrt(x0 * x0 + y0 * y0);
     const double radius_end = std::sqrt(x1 * x1 + y1 * y1);
-    if (radius_start < smallest_length || radius_end < smallest_length) return false;
+    if (radius_start < min_length_mm || radius_end < min_length_mm) return false;
 
     path.shape = PathShape::arc;
     path.first = move.first;
@@ -61,7 +61,7 @@ bool make_arc(Geometry& path, const Move& move) {
     path.centre_first = move.centre_first;
     path.centre_second = move.centre_second;
     path.radius = 0.5 * (radius_start + radius_end);
-    path.growth = radius_end / radius_start - 1;
+    path.radius_growth = radius_end / radius_start - 1;
     path.sweep = swept_angle(x0, y0, x1, y1, move.turns);
     const double along = path.end[path.third] - path.start[path.third];
     const double around = path.radius * path.sweep;
@@ -109,7 +109,7 @@ struct HelixPoint {
 /// Square of the distance from `point` to the helix at `angle` from its start; `rise` is the height per radian.
 double helix_square(const Geometry& path, const HelixPoint& point, double angle, double rise) {
     const double whole = std::fabs(path.sweep);
-    const double radius = path.radius / (1 + 0.5 * path.growth) * (1 + path.growth * angle / whole);
+    const double radius = path.radius / (1 + 0.5 * path.radius_growth) * (1 + path.radius_growth * angle / whole);
     const SinCos apart = sin_cos(angle - point.angle);
     const double radial = point.from_axis - radius * apart.cos;
     const double sideways = radius * apart.sin;
@@ -144,11 +144,12 @@ double distance_to_arc(const Geometry& path, const std::array<double, 3>& point)
     const HelixPoint seen = {std::sqrt(x * x + y * y), angle_from_start(path, x, y),
                              point[path.third] - path.start[path.third]};
     double best = std::min(helix_square(path, seen, 0, climb / whole), helix_square(path, seen, whole, climb / whole));
-    if (std::fabs(climb) < smallest_length) {
+    if (std::fabs(climb) < min_length_mm) {
         if (seen.angle > whole) return std::sqrt(best);
         // of a spiral's turns the two that come nearest to the point's distance from the axis
-        const double grown = seen.from_axis * (1 + 0.5 * path.growth) / path.radius - 1;
-        const double nearest = path.growth == 0 ? 0 : std::floor((grown / path.growth * whole - seen.angle) / (2 * pi));
+        const double grown = seen.from_axis * (1 + 0.5 * path.radius_growth) / path.radius - 1;
+        const double nearest =
+            path.radius_growth == 0 ? 0 : std::floor((grown / path.radius_growth * whole - seen.angle) / (2 * pi));
         const double last = std::floor((whole - seen.angle) / (2 * pi));
         for (const double turn : {nearest, nearest + 1})
             best = std::min(best, helix_square(path, seen, seen.angle + 2 * pi * std::clamp(turn, 0.0, last), 0));
@@ -187,7 +188,7 @@ Point position_at(const Geometry& path, double length) {
         const double part = length / path.length;
         for (int i = 0; i < axis_count; ++i) at[i] = path.start[i] + (path.end[i] - path.start[i]) * part;
         const SinCos turned = sin_cos(path.sweep * part);
-        const double size = 1 + path.growth * part;
+        const double size = 1 + path.radius_growth * part;
         const double x0 = (path.start[path.first] - path.centre_first) * size;
         const double y0 = (path.start[path.second] - path.centre_second) * size;
         at[path.first] = path.centre_first + (x0 * turned.cos - y0 * turned.sin);
@@ -209,7 +210,7 @@ Point tangent_at(const Geometry& path, double length) {
     return tangent;
 }
 
-Point worst_components(const Geometry& path) {
+Point max_tangent_components(const Geometry& path) {
     Point worst;
     for (int i = 0; i < axis_count; ++i)
         worst[i] = std::max(std::fabs(path.tangent_in[i]), std::fabs(path.tangent_out[i]));

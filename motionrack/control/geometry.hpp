@@ -11,13 +11,13 @@ namespace motionrack::control {
 
 /// XYZ paths and radii shorter than this (mm; degrees for rotary moves) count as none: it is far below any pulse and
 /// far above the rounding of coordinates.
-inline constexpr double smallest_length = 1e-9;
+inline constexpr double min_length_mm = 1e-9;
 
 /// Arcs that turn by less than this (rad) are whole turns, as an arc that ends where it starts is.
-inline constexpr double smallest_sweep = 1e-9;
+inline constexpr double min_sweep_rad = 1e-9;
 
 enum class PathShape : std::uint8_t {
-    nothing,  ///< nothing moves: a dwell, or a move that is shorter than smallest_length
+    nothing,  ///< nothing moves: a dwell, or a move that is shorter than min_length_mm
     line,     ///< XYZ moves straight, the rotary axes in proportion
     arc,      ///< an arc or helix; the rotary axes move in proportion to the angle
     rotary    ///< only ABC move
@@ -38,7 +38,7 @@ struct Geometry {
     double centre_first = 0;   ///< arc: mm
     double centre_second = 0;  ///< arc: mm
     double radius = 0;         ///< arc: mm, in its plane; mean of start and end, which may differ by a rounding
-    double growth = 0;         ///< arc: (radius at the end / radius at the start) - 1
+    double radius_growth = 0;  ///< arc: (radius at the end / radius at the start) - 1
     double sweep = 0;          ///< arc: rad, > 0 counter-clockwise seen from the positive third axis
 };
 
@@ -53,7 +53,7 @@ Point position_at(const Geometry& path, double length);
 Point tangent_at(const Geometry& path, double length);
 
 /// Greatest absolute tangent component of each axis anywhere on the path.
-Point worst_components(const Geometry& path);
+Point max_tangent_components(const Geometry& path);
 
 /// Part of the path's length that lies in the plane of the arc: 1 for an arc, less for a helix; 0 if this is no arc.
 double plane_fraction(const Geometry& path);

@@ -41,15 +41,15 @@ struct Move {
     std::uint8_t first = 0;
     std::uint8_t second = 1;
     std::int32_t turns = 0;
-    std::int32_t line = 0;     ///< line of the source, from 1
-    std::int64_t index = -1;   ///< of the program's moves, as they were read, from 0; its parts keep it; -1: of none
-    double feed = 0;           ///< see FeedMode; not used by traverse and dwell
-    double haste = 1;          ///< traverse: part of the axes' greatest speed, above 0 to 1
-    double tolerance_mm = 0;   ///< for PathControl::continuous
-    double centre_first = 0;   ///< mm
-    double centre_second = 0;  ///< mm
-    double seconds = 0;        ///< dwell only
-    Point end = {};            ///< where the move ends
+    std::int32_t line = 0;      ///< line of the source, from 1
+    std::int64_t index = -1;    ///< of the program's moves, as they were read, from 0; its parts keep it; -1: of none
+    double feed = 0;            ///< see FeedMode; not used by traverse and dwell
+    double rapid_override = 1;  ///< traverse: part of the axes' greatest speed, above 0 to 1
+    double tolerance_mm = 0;    ///< for PathControl::continuous
+    double centre_first = 0;    ///< mm
+    double centre_second = 0;   ///< mm
+    double seconds = 0;         ///< dwell only
+    Point end = {};             ///< where the move ends
 };
 
 }  // namespace motionrack::control

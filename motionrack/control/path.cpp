@@ -20,7 +20,7 @@ std::uint64_t power_of_two_from(std::uint64_t least) {
 
 }  // namespace
 
-Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings)
+LookAheadPlanner::LookAheadPlanner(const MachineLimits& limits, const Point& start, LookAheadSettings settings)
     : limits_(limits), drive_(settings.drive), position_(start) {
     const auto window = static_cast<std::uint64_t>(std::clamp(settings.window, 1, widest_window));
     chunk_ = std::max<std::uint64_t>(1, window / 4);
@@ -34,7 +34,7 @@ Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSetting
         half_pulse_[i] = limits[i].pulses_per_unit > 0 ? 0.5 / limits[i].pulses_per_unit : 1e9;
 }
 
-Result<void> Planner::push(const Move& move) {
+Result<void> LookAheadPlanner::push(const Move& move) {
     MOTIONRACK_ASSERT(has_room());
     MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, limits_));
     if (move.kind == MoveKind::dwell) {
@@ -44,7 +44,7 @@ Result<void> Planner::push(const Move& move) {
     if (path.shape == PathShape::nothing) return {};
 
     if (!std::exchange(apart_, false) && merge(move, path)) return {};
-    const AlongPath along = along_of(path, move);
+    const AlongPathLimits along = along_of(path, move);
     double joint = 0;
     if (tail_ != ready_) {
         joint = joint_of(last_, path, along);
@@ -59,24 +59,24 @@ Result<void> Planner::push(const Move& move) {
 }
 
 /// As fast as the hardware can be given such moves, at most.
-AlongPath Planner::along_of(const Geometry& path, const Move& move) const {
-    AlongPath along = limits_.along(path, move);
+AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& move) const {
+    AlongPathLimits along = limits_.along(path, move);
     if (least_seconds_ > 0) along.speed = std::min(along.speed, path.length / least_seconds_);
     return along;
 }
 
 /// Square of the greatest speed.
-double Planner::joint_of(const Last& before, const Geometry& path, const AlongPath& along) const {
-    const double joint =
-        limits_.joint_squared(before.path, before.along.speed, path, along.speed, before.control, before.tolerance_mm);
+double LookAheadPlanner::joint_of(const Last& before, const Geometry& path, const AlongPathLimits& along) const {
+    const double joint = limits_.max_junction_velocity2(before.path, before.along.speed, path, along.speed,
+                                                        before.control, before.tolerance_mm);
     if (joint <= 0 || drive_ == nullptr) return joint;
-    const double speed = drive_->joint_speed(before.path, path);
+    const double speed = drive_->max_junction_velocity(before.path, path);
     return std::min(joint, speed * speed);
 }
 
 /// Along a curve in short lines the hardware's rate stands for more and more speed, or less and less: of what it can
 /// slow down a part goes into that. At corners the speed is low, and lines have room for it.
-double Planner::gain_of(const Last& before, const Geometry& path) const {
+double LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
     constexpr double least_cosine = 0.98;
     if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return 1;
     double cosine = 0;
@@ -86,20 +86,21 @@ double Planner::gain_of(const Last& before, const Geometry& path) const {
     return std::max(1.0, ratio * ratio);
 }
 
-Planner::Node Planner::node_of(const Geometry& path, const AlongPath& along, double joint, double gain) const {
-    const double usable = path.length - (drive_ != nullptr ? drive_->spent_length(path) : 0);
+LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double joint,
+                                                 double gain) const {
+    const double usable = path.length - (drive_ != nullptr ? drive_->constant_velocity_length(path) : 0);
     return {joint, 2 * along.accel * usable, along.speed * along.speed, 0, gain, along.accel * late_seconds_};
 }
 
 /// Square of the speed from which a move can brake to the square `exit`: v^2 + 2 lag v = exit + reach.
-double Planner::braked(const Node& node, double exit) {
+double LookAheadPlanner::braked(const Node& node, double exit) {
     if (node.lag == 0) return exit + node.reach;
     const double speed = std::sqrt(node.lag * node.lag + exit + node.reach) - node.lag;
     return speed * speed;
 }
 
 /// Square of the least speed at the end of a move that begins with the square `entry`.
-double Planner::slowest_exit(const Node& node, double entry) {
+double LookAheadPlanner::slowest_exit(const Node& node, double entry) {
     return node.lag == 0 ? entry - node.reach : entry - std::max(0.0, node.reach - 2 * node.lag * std::sqrt(entry));
 }
 
@@ -112,13 +113,13 @@ bool are_alike(const Move& a, const Move& b) {
     };
     return straight(a) && a.kind == b.kind && a.path == b.path && a.path != PathControl::exact_stop &&
            a.tolerance_mm == b.tolerance_mm && a.feed_mode == FeedMode::units_per_second &&
-           a.feed_mode == b.feed_mode && a.feed == b.feed && a.haste == b.haste;
+           a.feed_mode == b.feed_mode && a.feed == b.feed && a.rapid_override == b.rapid_override;
 }
 
 }  // namespace
 
 /// The places between the moves that the line is to stand for lie in their order along it.
-bool Planner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
+bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
     double squared = 0, reached = 0;
     Point way = {};
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -146,14 +147,15 @@ bool Planner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
 
 /// A straight move of this length takes the hardware's least time at its speed, and most of it can be used for changing
 /// the speed.
-double Planner::least_length(const Geometry& path, const Move& move) const {
+double LookAheadPlanner::least_length(const Geometry& path, const Move& move) const {
     constexpr double spent_lengths = 12;
-    return std::max(limits_.along(path, move).speed * least_seconds_, spent_lengths * drive_->spent_length(path));
+    return std::max(limits_.along(path, move).speed * least_seconds_,
+                    spent_lengths * drive_->constant_velocity_length(path));
 }
 
 /// A straight move that is too short for the hardware at its speed is made longer by the one behind it, where no
 /// entry speed that is final depends on it.
-bool Planner::merge(const Move& move, const Geometry& path) {
+bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     constexpr double part_of_tolerance = 0.25;
     if (least_seconds_ <= 0 || tail_ == ready_ || between_size_ == most_between) return false;
     const std::uint64_t index = tail_ - 1;
@@ -167,7 +169,7 @@ bool Planner::merge(const Move& move, const Geometry& path) {
     double tolerance = std::min({half_pulse_[0], half_pulse_[1], half_pulse_[2]});
     if (move.path == PathControl::continuous) tolerance = std::max(tolerance, part_of_tolerance * move.tolerance_mm);
     if (line.shape != last_.path.shape || !is_on_the_way(line, tolerance)) return false;
-    const AlongPath along = along_of(line, whole);
+    const AlongPathLimits along = along_of(line, whole);
     const double joint = index == ready_ ? node(index).joint : joint_of(before_last_, line, along);
     if (index != ready_ && joint <= 0) return false;
     between_[between_size_++] = position_;
@@ -185,7 +187,7 @@ bool Planner::merge(const Move& move, const Geometry& path) {
     return true;
 }
 
-void Planner::append_dwell(const Move& move) {
+void LookAheadPlanner::append_dwell(const Move& move) {
     flush();
     PlannedMove& planned = slot(tail_);
     planned = PlannedMove{};
@@ -197,7 +199,7 @@ void Planner::append_dwell(const Move& move) {
     ready_ = settled_ = ++tail_;
 }
 
-void Planner::append(const Move& move, const Geometry& path, const AlongPath& along, double joint) {
+void LookAheadPlanner::append(const Move& move, const Geometry& path, const AlongPathLimits& along, double joint) {
     PlannedMove& planned = slot(tail_);
     planned.move = move;
     planned.start = position_;
@@ -215,13 +217,13 @@ void Planner::append(const Move& move, const Geometry& path, const AlongPath& al
     between_size_ = 0;
 }
 
-void Planner::flush() {
+void LookAheadPlanner::flush() {
     backward();
     forward(tail_);
 }
 
 /// From rest at the end of the window towards its start, down to the first move whose entry cannot change.
-void Planner::backward() {
+void LookAheadPlanner::backward() {
     const std::uint64_t last_settled = settled_;
     double entry = 0;
     for (std::uint64_t i = tail_; i > last_settled + 1;) {
@@ -234,7 +236,7 @@ void Planner::backward() {
 }
 
 /// Makes the moves before `until` ready.
-void Planner::forward(std::uint64_t until) {
+void LookAheadPlanner::forward(std::uint64_t until) {
     for (; ready_ < until; ++ready_) {
         const Node& here = node(ready_);
         const bool last = ready_ + 1 == tail_;
@@ -256,13 +258,13 @@ void Planner::forward(std::uint64_t until) {
     settled_ = std::max(settled_, ready_);
 }
 
-bool Planner::pull(PlannedMove& planned) {
+bool LookAheadPlanner::pull(PlannedMove& planned) {
     if (head_ == ready_) return false;
     planned = slot(head_++);
     return true;
 }
 
-bool Planner::pull_early(PlannedMove& planned) {
+bool LookAheadPlanner::pull_early(PlannedMove& planned) {
     if (head_ == ready_ && ready_ != tail_) {
         backward();
         forward(ready_ + 1);
@@ -270,7 +272,7 @@ bool Planner::pull_early(PlannedMove& planned) {
     return pull(planned);
 }
 
-void Planner::change_feeds(const std::function<void(PlannedMove&)>& change) {
+void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& change) {
     if (head_ == tail_) return;
     if (head_ != ready_) committed_ = slot(head_).entry;
     ready_ = settled_ = head_;
@@ -280,7 +282,7 @@ void Planner::change_feeds(const std::function<void(PlannedMove&)>& change) {
         change(planned);
         if (planned.move.kind == MoveKind::dwell) continue;
         const Geometry path = geometry_of(planned.move, planned.start);
-        const AlongPath along = along_of(path, planned.move);
+        const AlongPathLimits along = along_of(path, planned.move);
         planned.accel = along.accel;
         planned.jerk = along.jerk;
         const double joint = i != head_ && node(i).joint > 0 ? joint_of(before, path, along) : 0;
@@ -292,8 +294,8 @@ void Planner::change_feeds(const std::function<void(PlannedMove&)>& change) {
 
 double seconds_of(const PlannedMove& planned) {
     if (planned.move.kind == MoveKind::dwell) return planned.move.seconds;
-    if (planned.jerk > 0) return SCurve(planned.length, planned.cruise, planned.accel, planned.jerk).duration();
-    return Trapezoid(planned.length, planned.entry, planned.exit, planned.cruise, planned.accel).duration();
+    if (planned.jerk > 0) return SCurveProfile(planned.length, planned.cruise, planned.accel, planned.jerk).duration();
+    return TrapezoidalProfile(planned.length, planned.entry, planned.exit, planned.cruise, planned.accel).duration();
 }
 
 void PlanSummary::add(const PlannedMove& planned) {

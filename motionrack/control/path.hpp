@@ -8,8 +8,8 @@
 // every push but when a quarter more than the window is open; it ends where nothing can change any more, which is where
 // an entry speed is limited by its joint and not by braking. So a push costs the same for any window.
 //
-// Hardware asks for moves that take their time (DriveRule::least_seconds). Straight moves that are shorter go into one
-// line with those behind them, as far as the tolerance lets them; what is left short is driven slowly.
+// Hardware asks for moves that take their time (DriveConstraints::least_seconds). Straight moves that are shorter go
+// into one line with those behind them, as far as the tolerance lets them; what is left short is driven slowly.
 #pragma once
 
 #include <array>
@@ -23,20 +23,20 @@
 
 namespace motionrack::control {
 
-struct PlannerSettings {
+struct LookAheadSettings {
     /// Every move is planned with at least this many moves after it in view, unless the path stands still before; 1 ..
     /// 1'000'000.
     int window = 1024;
     /// May be null; must outlive the planner.
-    const DriveRule* drive = nullptr;
+    const DriveConstraints* drive = nullptr;
 };
 
 /// Plans trapezoids for a machine: a planned move for each move. Allocates only when it is made and for the text of an
 /// error.
-class Planner final : public PathPlanner {
+class LookAheadPlanner final : public TrajectoryPlanner {
   public:
     /// `start`: where the machine stands, at rest.
-    Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings = {});
+    LookAheadPlanner(const MachineLimits& limits, const Point& start, LookAheadSettings settings = {});
 
     Result<void> push(const Move& move) override;
     bool has_room() const override { return tail_ - head_ <= mask_; }
@@ -54,8 +54,8 @@ class Planner final : public PathPlanner {
     std::size_t size() const { return tail_ - head_; }
 
     /// Plans the moves that were not pulled once more, with other feeds: `change` gets each of them, in order, and sets
-    /// the feed and the haste of its move. They stay cut and merged as they are, so what could be braked before still
-    /// can be, whatever the speed with which the last pulled move ends.
+    /// the feed and the rapid_override of its move. They stay cut and merged as they are, so what could be braked
+    /// before still can be, whatever the speed with which the last pulled move ends.
     void change_feeds(const std::function<void(PlannedMove&)>& change);
 
     /// Where the path ends so far.
@@ -75,7 +75,7 @@ class Planner final : public PathPlanner {
     /// What the next joint needs of the last move.
     struct Last {
         Geometry path;
-        AlongPath along;
+        AlongPathLimits along;
         PathControl control = PathControl::exact_stop;
         double tolerance_mm = 0;
     };
@@ -83,21 +83,21 @@ class Planner final : public PathPlanner {
     Node& node(std::uint64_t index) { return nodes_[index & mask_]; }
     PlannedMove& slot(std::uint64_t index) { return slots_[index & mask_]; }
     void append_dwell(const Move& move);
-    void append(const Move& move, const Geometry& path, const AlongPath& along, double joint);
+    void append(const Move& move, const Geometry& path, const AlongPathLimits& along, double joint);
     bool merge(const Move& move, const Geometry& path);
     double least_length(const Geometry& path, const Move& move) const;
     bool is_on_the_way(const Geometry& line, double tolerance_mm) const;
-    AlongPath along_of(const Geometry& path, const Move& move) const;
-    double joint_of(const Last& before, const Geometry& path, const AlongPath& along) const;
+    AlongPathLimits along_of(const Geometry& path, const Move& move) const;
+    double joint_of(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
     double gain_of(const Last& before, const Geometry& path) const;
-    Node node_of(const Geometry& path, const AlongPath& along, double joint, double gain) const;
+    Node node_of(const Geometry& path, const AlongPathLimits& along, double joint, double gain) const;
     static double braked(const Node& node, double exit);
     static double slowest_exit(const Node& node, double entry);
     void backward();
     void forward(std::uint64_t until);
 
     PathLimits limits_;
-    const DriveRule* drive_ = nullptr;
+    const DriveConstraints* drive_ = nullptr;
     std::vector<PlannedMove> slots_;
     std::vector<Node> nodes_;
     std::uint64_t mask_ = 0;

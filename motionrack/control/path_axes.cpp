@@ -4,7 +4,7 @@
 
 namespace motionrack::control {
 
-std::string place_text(const Point& at, const MachineLimits& limits) {
+std::string position_text(const Point& at, const MachineLimits& limits) {
     std::string out;
     for (std::size_t i = 0; i < at.size(); ++i)
         if (limits[i].present) out += fmt::format("{}{} {:.4f}", out.empty() ? "" : ", ", axis_letters[i], at[i]);
@@ -14,7 +14,7 @@ std::string place_text(const Point& at, const MachineLimits& limits) {
 tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits) {
     return fail(Trouble::stopped,
                 fmt::format("Stopped on request in line {}; the axes came to rest along the path at {}.", line,
-                            place_text(at, limits)),
+                            position_text(at, limits)),
                 {line, 1});
 }
 

@@ -13,7 +13,7 @@
 namespace motionrack::control {
 
 /// What driving a path differently from how it was programmed costs, told to the user.
-struct PathNote {
+struct PathWarning {
     int line = 0;             ///< line of the part program
     std::string what;         ///< a sentence without the line
     double deviation_mm = 0;  ///< greatest distance from the programmed path that it adds
@@ -23,31 +23,31 @@ struct PathNote {
 };
 
 /// A planned move really began (block >= 0), or everything came to rest (block = -1).
-struct BlockStart {
-    std::int64_t block = -1;  ///< number of the planned move, in the order of PathAxes::follow, from 0
+struct MoveStart {
+    std::int64_t block = -1;  ///< number of the planned move, in the order of AxisGroup::follow, from 0
     int line = 0;
     Instant at{};
 };
 
 /// How a probing move ended.
-struct ProbeOutcome {
+struct ProbeResult {
     bool hit = false;  ///< the probe touched, or left
     Point at = {};     ///< where the axes were at that instant, as the card caught it; if not hit, where they stand
 };
 
 /// "X 10.0000, Y 5.0000": of the axes that are there.
-std::string place_text(const Point& at, const MachineLimits& limits);
+std::string position_text(const Point& at, const MachineLimits& limits);
 
 /// Trouble::stopped, in the words that every card's axes use.
 tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits);
 
-class PathAxes {
+class AxisGroup {
   public:
-    virtual ~PathAxes() = default;
+    virtual ~AxisGroup() = default;
     /// Prepares a new path from where the axes stand. Blocks count from 0 again.
     virtual Result<void> begin() = 0;
     /// What the card asks of joints; null: nothing.
-    virtual const DriveRule* drive_rule() const { return nullptr; }
+    virtual const DriveConstraints* drive_constraints() const { return nullptr; }
     /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion
     /// was stopped by a limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked
     /// to stop.
@@ -58,7 +58,7 @@ class PathAxes {
     /// Returns at standstill, also when it does not; what follows begins there. Needs begin(), and standstill by
     /// finish(). Errors: refused, the card has no probe; machine, the probe touches already (`release`: does not
     /// touch), or as follow().
-    virtual Result<ProbeOutcome> probe(const PlannedMove& move, bool release) {
+    virtual Result<ProbeResult> probe(const PlannedMove& move, bool release) {
         (void)move, (void)release;
         return fail(Trouble::refused, "The axes of this card have no probe.");
     }
@@ -68,8 +68,8 @@ class PathAxes {
     /// Where the card's own pulse counters say the axes are.
     virtual Point commanded_position() = 0;
     /// Since the last call, oldest first.
-    virtual std::vector<PathNote> take_notes() = 0;
-    virtual std::vector<BlockStart> take_starts() = 0;
+    virtual std::vector<PathWarning> take_path_warnings() = 0;
+    virtual std::vector<MoveStart> take_move_starts() = 0;
 };
 
 }  // namespace motionrack::control

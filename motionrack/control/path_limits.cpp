@@ -30,12 +30,12 @@ double square(double x) {
 
 bool is_same_direction(const Point& in, const Point& out) {
     const double linear = square(out[0] - in[0]) + square(out[1] - in[1]) + square(out[2] - in[2]);
-    if (linear > square(same_direction)) return false;
+    if (linear > square(tangent_angle_rad)) return false;
     const double rotary = square(out[3] - in[3]) + square(out[4] - in[4]) + square(out[5] - in[5]);
     if (rotary == 0) return true;
     const double size = std::max(
         {1.0, square(in[3]) + square(in[4]) + square(in[5]), square(out[3]) + square(out[4]) + square(out[5])});
-    return rotary <= square(same_direction) * size;
+    return rotary <= square(tangent_angle_rad) * size;
 }
 
 PathLimits::PathLimits(const MachineLimits& limits) {
@@ -50,16 +50,16 @@ PathLimits::PathLimits(const MachineLimits& limits) {
     }
 }
 
-int PathLimits::absent_axis(const Geometry& path) const {
+int PathLimits::missing_axis(const Geometry& path) const {
     for (int i = 0; i < axis_count; ++i) {
         if (!present_[i] && (path.tangent_in[i] != 0 || path.tangent_out[i] != 0)) return i;
     }
     return -1;
 }
 
-AlongPath PathLimits::along(const Geometry& path, const Move& move) const {
+AlongPathLimits PathLimits::along(const Geometry& path, const Move& move) const {
     const bool arc = path.shape == PathShape::arc;
-    const Point worst = worst_components(path);
+    const Point worst = max_tangent_components(path);
     double per_speed = 0;
     double per_accel = 0;
     for (int i = 0; i < axis_count; ++i) {
@@ -67,7 +67,7 @@ AlongPath PathLimits::along(const Geometry& path, const Move& move) const {
         const bool in_plane = arc && (i == path.first || i == path.second);
         if (!in_plane) per_accel = std::max(per_accel, worst[i] * per_accel_[i]);
     }
-    AlongPath found;
+    AlongPathLimits found;
     found.speed = 1 / per_speed;
     if (arc) {
         const double fraction = plane_fraction(path);
@@ -78,7 +78,7 @@ AlongPath PathLimits::along(const Geometry& path, const Move& move) const {
     }
     found.accel = 1 / per_accel;
     if (move.kind == MoveKind::traverse) {
-        found.speed *= move.haste;
+        found.speed *= move.rapid_override;
     } else {
         found.speed =
             std::min(found.speed, move.feed_mode == FeedMode::inverse_time ? path.length * move.feed : move.feed);
@@ -96,7 +96,8 @@ AlongPath PathLimits::along(const Geometry& path, const Move& move) const {
     return found;
 }
 
-double PathLimits::corner_squared(const Point& in, const Point& out, double mean_length, double tolerance_mm) const {
+double PathLimits::max_corner_velocity2(const Point& in, const Point& out, double mean_length,
+                                        double tolerance_mm) const {
     double per_jump = 0;   // of a unit of speed
     double per_accel = 0;  // of a unit of speed squared per length
     double per_corner = 0;
@@ -109,7 +110,7 @@ double PathLimits::corner_squared(const Point& in, const Point& out, double mean
         if (i < 3) linear += jump * jump;
     }
     double limit = std::min(1 / (per_jump * per_jump), mean_length / per_accel);
-    if (linear > square(same_direction)) {
+    if (linear > square(tangent_angle_rad)) {
         // linear = 4 cos^2(half the inner angle); s / (1 - s) = s (1 + s) / (1 - s^2)
         const double cos_squared = std::min(1.0, 0.25 * linear);
         const double s = std::sqrt(1 - cos_squared);
@@ -120,15 +121,15 @@ double PathLimits::corner_squared(const Point& in, const Point& out, double mean
     return limit;
 }
 
-double PathLimits::joint_squared(const Geometry& before, double speed_before, const Geometry& after, double speed_after,
-                                 PathControl path, double tolerance_mm) const {
+double PathLimits::max_junction_velocity2(const Geometry& before, double speed_before, const Geometry& after,
+                                          double speed_after, PathControl path, double tolerance_mm) const {
     if (path == PathControl::exact_stop) return 0;
     if ((before.shape == PathShape::rotary) != (after.shape == PathShape::rotary)) return 0;
     double limit = square(std::min(speed_before, speed_after));
     if (!is_same_direction(before.tangent_out, after.tangent_in)) {
         if (path == PathControl::exact_path) return 0;
         const double mean_length = 0.5 * (before.length + after.length);
-        limit = std::min(limit, corner_squared(before.tangent_out, after.tangent_in, mean_length, tolerance_mm));
+        limit = std::min(limit, max_corner_velocity2(before.tangent_out, after.tangent_in, mean_length, tolerance_mm));
     }
     return limit < slowest_joint_squared ? 0 : limit;
 }

@@ -9,17 +9,17 @@
 namespace motionrack::control {
 
 /// What the hardware that drives the path asks of it beside what the machine does.
-class DriveRule {
+class DriveConstraints {
   public:
-    virtual ~DriveRule() = default;
+    virtual ~DriveConstraints() = default;
     /// The greatest speed along the path at the joint of two moves, mm/s (degrees/s); infinity if there is no limit.
-    virtual double joint_speed(const Geometry& before, const Geometry& after) const = 0;
+    virtual double max_junction_velocity(const Geometry& before, const Geometry& after) const = 0;
     /// The part of a move, mm (degrees), on which the hardware can neither speed up nor slow down; 0 .. its length.
-    virtual double spent_length(const Geometry& path) const = 0;
+    virtual double constant_velocity_length(const Geometry& path) const = 0;
     /// How many axes it draws together; one more is steered beside these.
-    virtual int most_drawn() const { return axis_count; }
+    virtual int max_interpolated_axes() const { return axis_count; }
     /// A steered axis is told its speed no more often than after so many s.
-    virtual double steering_seconds() const { return 0; }
+    virtual double min_velocity_update_s() const { return 0; }
     /// By what the speed along the path is multiplied at the joint of two moves where the rate of the hardware goes on.
     virtual double speed_ratio(const Geometry& before, const Geometry& after) const {
         (void)before, (void)after;
@@ -37,9 +37,9 @@ class DriveRule {
 ///     }
 ///     planner.flush();
 ///     while (planner.pull(planned)) use(planned);
-class PathPlanner {
+class TrajectoryPlanner {
   public:
-    virtual ~PathPlanner() = default;
+    virtual ~TrajectoryPlanner() = default;
 
     /// Adds a move that starts where the last one ended. Needs has_room(). A move of no length is left out; a dwell
     /// ends the path there. Refused, with the planner as it was: see checked_path.

@@ -44,13 +44,13 @@ Move part_of(const Move& move, const Geometry& path, double from, double to) {
     part.feed = share_of_time(move, path.length, to - from);
     if (path.shape == PathShape::arc) {
         const double turned = std::fabs(path.sweep) * (to - from) / path.length;
-        const int turns = 1 + static_cast<int>((turned - smallest_sweep) / (2 * pi));
+        const int turns = 1 + static_cast<int>((turned - min_sweep_rad) / (2 * pi));
         part.turns = move.turns > 0 ? turns : -turns;
     }
     return part;
 }
 
-Nearest nearest_on(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
     Nearest out;
     if (path.shape == PathShape::arc)
         out.length = length_on_arc(path, place);
@@ -63,7 +63,7 @@ Nearest nearest_on(const Geometry& path, const Point& place, const PulsesPerUnit
 }
 
 Move rest_of(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
-    const double left = path.length - nearest_on(path, place, pulses).length;
+    const double left = path.length - nearest_point(path, place, pulses).length;
     Move rest = move;
     rest.feed = share_of_time(move, path.length, left);
     if (path.shape != PathShape::arc) return rest;

@@ -21,7 +21,7 @@ struct Nearest {
     double length = 0;    ///< along the path
     double distance = 0;  ///< greatest difference of any of the six axes, in its pulses
 };
-Nearest nearest_on(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
+Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
 
 /// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of
 /// an arc so little may be left that it is a straight line.

@@ -8,23 +8,24 @@
 namespace motionrack::control {
 
 /// The limits for planning: a part of each axis' acceleration (0 .. 0.5) is the card's.
-inline MachineLimits without_kept_back(MachineLimits limits, double kept_back) {
-    for (AxisLimits& axis : limits) axis.max_accel *= 1 - kept_back;
+inline MachineLimits without_accel_reserve(MachineLimits limits, double accel_reserve) {
+    for (AxisLimits& axis : limits) axis.max_accel *= 1 - accel_reserve;
     return limits;
 }
 
 /// Trapezoids, as the card asks of joints. `start`: where the axes stand. The axes must live as long.
-inline Planner planner_for(const PathAxes& axes, const MachineLimits& limits, double kept_back,
-                           PlannerSettings settings, const Point& start) {
-    settings.drive = axes.drive_rule();
-    return Planner(without_kept_back(limits, kept_back), start, settings);
+inline LookAheadPlanner make_look_ahead_planner(const AxisGroup& axes, const MachineLimits& limits,
+                                                double accel_reserve, LookAheadSettings settings, const Point& start) {
+    settings.drive = axes.drive_constraints();
+    return LookAheadPlanner(without_accel_reserve(limits, accel_reserve), start, settings);
 }
 
 /// The same with limited jerk.
-inline RideMoves ride_for(const PathAxes& axes, const MachineLimits& limits, double kept_back,
-                          RideMovesSettings settings, const Point& start) {
-    settings.drive = axes.drive_rule();
-    return RideMoves(without_kept_back(limits, kept_back), start, settings);
+inline TrajectoryInterpolator make_trajectory_interpolator(const AxisGroup& axes, const MachineLimits& limits,
+                                                           double accel_reserve, InterpolatorSettings settings,
+                                                           const Point& start) {
+    settings.drive = axes.drive_constraints();
+    return TrajectoryInterpolator(without_accel_reserve(limits, accel_reserve), start, settings);
 }
 
 }  // namespace motionrack::control

@@ -14,27 +14,28 @@ constexpr Duration look_every = milliseconds(1);
 
 }  // namespace
 
-Positioning::Positioning(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host)
+PointToPointAxes::PointToPointAxes(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits,
+                                   Interrupt& host)
     : axes_(axes), limits_(limits), host_(host) {}
 
-void Positioning::look_where_they_stand() {
+void PointToPointAxes::look_where_they_stand() {
     for (std::size_t i = 0; i < axes_.size(); ++i) commanded_[i] = axes_[i] != nullptr ? axes_[i]->position() : 0;
     known_ = true;
 }
 
-Point Positioning::commanded_position() {
+Point PointToPointAxes::commanded_position() {
     if (!known_) look_where_they_stand();
     return commanded_;
 }
 
-Result<void> Positioning::begin() {
+Result<void> PointToPointAxes::begin() {
     blocks_ = 0;
     starts_.clear();
     look_where_they_stand();
     return {};
 }
 
-double Positioning::speed_of(const PlannedMove& move, std::size_t axis) const {
+double PointToPointAxes::speed_of(const PlannedMove& move, std::size_t axis) const {
     const double most = limits_[axis].max_speed;
     if (move.move.kind == MoveKind::traverse) return most;
     const double feed = move.move.feed_mode == FeedMode::inverse_time ? move.move.feed * move.length : move.move.feed;
@@ -42,7 +43,7 @@ double Positioning::speed_of(const PlannedMove& move, std::size_t axis) const {
 }
 
 /// Starts every axis that the move moves; where one refuses, the others are stopped.
-Result<void> Positioning::order(const PlannedMove& move) {
+Result<void> PointToPointAxes::order(const PlannedMove& move) {
     const auto moves = [&](std::size_t i) { return axes_[i] != nullptr && move.move.end[i] != move.start[i]; };
     int moving = 0;
     for (std::size_t i = 0; i < axes_.size(); ++i) moving += moves(i);
@@ -65,7 +66,7 @@ Result<void> Positioning::order(const PlannedMove& move) {
 }
 
 /// Until all stand. The first one that fails, and a wish to stop, stop the others.
-Result<void> Positioning::wait() {
+Result<void> PointToPointAxes::wait() {
     Result<void> ended;
     while (true) {
         bool busy = false;
@@ -89,7 +90,7 @@ Result<void> Positioning::wait() {
     }
 }
 
-Result<void> Positioning::dwell(double seconds) {
+Result<void> PointToPointAxes::dwell(double seconds) {
     const Instant end = later(host_.now(), from_seconds(seconds));
     while (host_.now() < end) {
         if (host_.stop_requested()) return fail(Trouble::stopped, "Stopped on request in a dwell; the axes stand.");
@@ -98,7 +99,7 @@ Result<void> Positioning::dwell(double seconds) {
     return {};
 }
 
-Result<void> Positioning::follow(const PlannedMove& move) {
+Result<void> PointToPointAxes::follow(const PlannedMove& move) {
     starts_.push_back({blocks_++, move.move.line, host_.now()});
     if (host_.stop_requested())
         return fail(Trouble::stopped, "Stopped on request before a move; the axes stand.", {move.move.line, 0});
@@ -110,19 +111,19 @@ Result<void> Positioning::follow(const PlannedMove& move) {
     return done;
 }
 
-Result<void> Positioning::finish() {
+Result<void> PointToPointAxes::finish() {
     starts_.push_back({-1, 0, host_.now()});
     return {};
 }
 
-void Positioning::stop(bool immediate) {
+void PointToPointAxes::stop(bool immediate) {
     for (Axis* axis : axes_) {
         if (axis == nullptr) continue;
         immediate ? axis->stop_now() : axis->stop();
     }
 }
 
-std::vector<BlockStart> Positioning::take_starts() {
+std::vector<MoveStart> PointToPointAxes::take_move_starts() {
     return std::exchange(starts_, {});
 }
 

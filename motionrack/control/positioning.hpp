@@ -13,10 +13,10 @@
 
 namespace motionrack::control {
 
-class Positioning final : public PathAxes {
+class PointToPointAxes final : public AxisGroup {
   public:
     /// `axes`: nullptr where there is none; they must be trusted. `host`: whose time passes.
-    Positioning(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host);
+    PointToPointAxes(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host);
 
     Result<void> begin() override;
     /// Returns when the axes stand. A feed is the speed of the axis that moves, a traverse the greatest speed of each.
@@ -25,8 +25,8 @@ class Positioning final : public PathAxes {
     Result<void> finish() override;
     void stop(bool immediate) override;
     Point commanded_position() override;
-    std::vector<PathNote> take_notes() override { return {}; }
-    std::vector<BlockStart> take_starts() override;
+    std::vector<PathWarning> take_path_warnings() override { return {}; }
+    std::vector<MoveStart> take_move_starts() override;
 
   private:
     void look_where_they_stand();
@@ -41,7 +41,7 @@ class Positioning final : public PathAxes {
     Point commanded_ = {};
     bool known_ = false;  ///< where they were sent, or stand; else their cards are asked
     std::int64_t blocks_ = 0;
-    std::vector<BlockStart> starts_;
+    std::vector<MoveStart> starts_;
 };
 
 }  // namespace motionrack::control

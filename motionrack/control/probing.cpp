@@ -6,8 +6,9 @@
 
 namespace motionrack::control {
 
-Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, double kept_back, const Move& move) {
-    Planner planner = planner_for(axes, limits, kept_back, {}, axes.commanded_position());
+Result<PlannedMove> plan_single_move(AxisGroup& axes, const MachineLimits& limits, double accel_reserve,
+                                     const Move& move) {
+    LookAheadPlanner planner = make_look_ahead_planner(axes, limits, accel_reserve, {}, axes.commanded_position());
     MOTIONRACK_CHECK(planner.push(move));
     planner.flush();
     PlannedMove planned;
@@ -16,7 +17,7 @@ Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, doub
                 {move.line, 1});
 }
 
-std::string probe_text(gcode::Probe probe, const ProbeOutcome& outcome) {
+std::string probe_text(gcode::Probe probe, const ProbeResult& outcome) {
     const bool leaves = gcode::probe_leaves(probe);
     const auto place = fmt::format("X {:.4f} Y {:.4f} Z {:.4f}", outcome.at[0], outcome.at[1], outcome.at[2]);
     if (outcome.hit) return fmt::format("probe {} at {}", leaves ? "left" : "touched", place);

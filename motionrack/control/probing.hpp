@@ -10,9 +10,10 @@ namespace motionrack::control {
 
 /// One move from rest to rest by trapezoids, from where the axes stand. Errors: it is too short to be driven, or not
 /// finite.
-Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, double kept_back, const Move& move);
+Result<PlannedMove> plan_single_move(AxisGroup& axes, const MachineLimits& limits, double accel_reserve,
+                                     const Move& move);
 
 /// "probe touched at X 10.0000 Y 0.0000 Z -3.2150", "probe did not touch on the way to ..".
-std::string probe_text(gcode::Probe probe, const ProbeOutcome& outcome);
+std::string probe_text(gcode::Probe probe, const ProbeResult& outcome);
 
 }  // namespace motionrack::control

@@ -19,7 +19,8 @@ double cube_root(double x) {
     return x * y * y;
 }
 
-Trapezoid::Trapezoid(double distance, double speed, double accel) : distance_(distance), accel_(accel) {
+TrapezoidalProfile::TrapezoidalProfile(double distance, double speed, double accel)
+    : distance_(distance), accel_(accel) {
     const double reach = accel * distance;
     if (reach > speed * speed) {
         cruise_at(speed);
@@ -31,12 +32,12 @@ Trapezoid::Trapezoid(double distance, double speed, double accel) : distance_(di
     duration_ = 2 * cruise_from_;
 }
 
-Trapezoid::Trapezoid(double distance, double entry, double exit, double speed, double accel)
+TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exit, double speed, double accel)
     : distance_(distance), entry_(entry), exit_(exit), accel_(accel) {
     const double reach = accel * distance;
     const double half_gain = 0.5 * (exit - entry) * (exit + entry);  // of the square of the speed
     if (std::fabs(half_gain) > reach) {
-        reach_what_can_be_reached();
+        clamp_exit_velocity();
         return;
     }
     const double peak_squared = 0.5 * (entry * entry + exit * exit) + reach;
@@ -53,7 +54,7 @@ Trapezoid::Trapezoid(double distance, double entry, double exit, double speed, d
     duration_ = cruise_from_ + 2 * (distance - cruise_start_) / (exit + peak_);
 }
 
-void Trapezoid::cruise_at(double speed) {
+void TrapezoidalProfile::cruise_at(double speed) {
     const double per_accel = 1 / accel_;
     const double up = (speed - entry_) * per_accel;
     const double down = (speed - exit_) * per_accel;
@@ -64,7 +65,7 @@ void Trapezoid::cruise_at(double speed) {
     duration_ = cruise_until_ + down;
 }
 
-void Trapezoid::reach_what_can_be_reached() {
+void TrapezoidalProfile::clamp_exit_velocity() {
     const double change = 2 * accel_ * distance_;
     const bool up = exit_ > entry_;
     exit_ = std::sqrt(std::max(0.0, entry_ * entry_ + (up ? change : -change)));
@@ -76,7 +77,7 @@ void Trapezoid::reach_what_can_be_reached() {
     }
 }
 
-SCurve::SCurve(double distance, double speed, double accel, double jerk) : distance_(distance) {
+SCurveProfile::SCurveProfile(double distance, double speed, double accel, double jerk) : distance_(distance) {
     if (!(distance > 0)) return;
     const double accel_squared = accel * accel;
     double rise = 0;      // s, phases 0 and 2
@@ -124,7 +125,7 @@ SCurve::SCurve(double distance, double speed, double accel, double jerk) : dista
     phases_[2] = {speed_up, 0.5 * peak_ * speed_up, peak_, 0, -sixth, -jerk};
 }
 
-std::array<double, 7> SCurve::phase_ends() const {
+std::array<double, 7> SCurveProfile::phase_ends() const {
     return {ends_[0], ends_[1], ends_[2], duration_ - ends_[2], duration_ - ends_[1], duration_ - ends_[0], duration_};
 }
 

@@ -24,16 +24,16 @@ struct ProfileSample {
 };
 
 /// The quickest way over a distance between two speeds, within a speed and an acceleration.
-class Trapezoid {
+class TrapezoidalProfile {
   public:
-    Trapezoid() = default;
+    TrapezoidalProfile() = default;
 
     /// From rest to rest. `distance` >= 0, `speed` > 0, `accel` > 0, all finite.
-    Trapezoid(double distance, double speed, double accel);
+    TrapezoidalProfile(double distance, double speed, double accel);
 
     /// From `entry` to `exit`, both 0 .. `speed`. If the distance is too short to get from the one to the other, the
     /// exit speed becomes the nearest that can be reached; see exit().
-    Trapezoid(double distance, double entry, double exit, double speed, double accel);
+    TrapezoidalProfile(double distance, double entry, double exit, double speed, double accel);
 
     double distance() const { return distance_; }  ///< length
     double duration() const { return duration_; }  ///< s
@@ -49,7 +49,7 @@ class Trapezoid {
 
   private:
     void cruise_at(double speed);
-    void reach_what_can_be_reached();
+    void clamp_exit_velocity();
 
     double distance_ = 0;
     double duration_ = 0;
@@ -64,12 +64,12 @@ class Trapezoid {
 
 /// The quickest way from rest to rest within a speed, an acceleration and a jerk. It is symmetric about its middle, so
 /// only the first half is kept: three phases and half the cruise.
-class SCurve {
+class SCurveProfile {
   public:
-    SCurve() = default;
+    SCurveProfile() = default;
 
     /// `distance` >= 0, the others > 0, all finite.
-    SCurve(double distance, double speed, double accel, double jerk);
+    SCurveProfile(double distance, double speed, double accel, double jerk);
 
     double distance() const { return distance_; }      ///< length
     double duration() const { return duration_; }      ///< s
@@ -104,7 +104,7 @@ class SCurve {
 /// The cube root of x >= 0 to 7e-16 of its value, with the same bits everywhere.
 double cube_root(double x);
 
-inline ProfileSample Trapezoid::sample(double t) const {
+inline ProfileSample TrapezoidalProfile::sample(double t) const {
     if (t < cruise_from_) {
         if (t < 0) t = 0;
         return {t * (entry_ + 0.5 * accel_ * t), entry_ + accel_ * t, accel_, 0};
@@ -117,7 +117,7 @@ inline ProfileSample Trapezoid::sample(double t) const {
     return {distance_, exit_, 0, 0};
 }
 
-inline ProfileSample SCurve::sample(double t) const {
+inline ProfileSample SCurveProfile::sample(double t) const {
     const double left = duration_ - t;
     if (!(left > 0)) return {distance_, 0, 0, 0};
     if (t < 0) t = 0;

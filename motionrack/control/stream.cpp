@@ -21,13 +21,14 @@ constexpr double least_pulses = 200;
 
 }  // namespace
 
-Stream::Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings)
+Stream::Stream(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings)
     : axes_(&axes),
       host_(host),
       settings_(settings),
       limits_(settings.gcode.limits),
       interpreter_(settings.gcode),
-      planner_(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start)),
+      planner_(make_look_ahead_planner(axes, settings.gcode.limits, settings.accel_reserve, settings.planner,
+                                       settings.gcode.start)),
       read_to_(settings.gcode.start) {
     if (settings_.jerk_limited) ride_ = new_ride(settings.gcode.start);
 }
@@ -42,7 +43,7 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
     return {};
 }
 
-gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gcode::Walk& walk) {
+gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk) {
     text_ = text;
     gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
     if (!read) {
@@ -67,13 +68,13 @@ void Stream::move(const Move& move) {
     step.line = move.line;
     step.move = move;
     begin_cut(step, true);
-    interpreter_.stand_at(move.end);
+    interpreter_.resync_position(move.end);
     unpulled_ = true;
     pull_steps();
 }
 
 void Stream::pull_steps() {
-    while (entries_.size() < settings_.most_entries) {
+    while (entries_.size() < settings_.max_entries) {
         if (cutting_) {
             add_piece();
             continue;
@@ -104,8 +105,8 @@ void Stream::begin_cut(const Step& step, bool by_hand) {
     cut.step.move.index = read_++;
     if (on_move_) on_move_(cut.step.move, read_to_);
     if (cut.path.shape == PathShape::nothing) return;
-    const double wanted = limits_.along(cut.path, step.move).speed * settings_.piece_seconds;
-    const Point worst = worst_components(cut.path);
+    const double wanted = limits_.along(cut.path, step.move).speed * settings_.slice_s;
+    const Point worst = max_tangent_components(cut.path);
     double pulses = 0;  // of the fastest axis for a unit of length
     for (std::size_t i = 0; i < worst.size(); ++i)
         pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
@@ -136,21 +137,22 @@ void Stream::add_piece() {
 // ---- wishes
 
 void Stream::hold() {
-    if (wish_ == Wish::stop || !has_work() || state_ == StreamState::held || state_ == StreamState::paused) return;
+    if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::held || state_ == ExecutionState::paused)
+        return;
     wish_ = Wish::hold;
     stop_flag_ = !ride_ && !probing_;
 }
 
 void Stream::resume() {
-    if (state_ != StreamState::held && state_ != StreamState::paused) return;
-    state_ = StreamState::driving;
+    if (state_ != ExecutionState::held && state_ != ExecutionState::paused) return;
+    state_ = ExecutionState::driving;
     if (ride_) ride_->rider().resume();
 }
 
 void Stream::stop() {
     if (!path_begun_ && !has_work()) {
         // A pause behind which nothing waits would make the next line wait.
-        if (state_ == StreamState::held || state_ == StreamState::paused) state_ = StreamState::rest;
+        if (state_ == ExecutionState::held || state_ == ExecutionState::paused) state_ = ExecutionState::rest;
         return;
     }
     wish_ = Wish::stop;
@@ -164,11 +166,11 @@ void Stream::set_overrides(double feed, double rapid) {
 
 // ---- driving
 
-Result<StreamState> Stream::drive(bool more_may_come) {
+Result<ExecutionState> Stream::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
     const bool brakes = wish_ != Wish::none;
     if (brakes && !path_begun_) return stand();
-    if (!brakes && (state_ == StreamState::held || state_ == StreamState::paused)) return state_;
+    if (!brakes && (state_ == ExecutionState::held || state_ == ExecutionState::paused)) return state_;
     pull_steps();
     if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
         feed_ = feed_wanted_;
@@ -188,7 +190,7 @@ Result<StreamState> Stream::drive(bool more_may_come) {
     // all the path there is: that is what it brakes along.
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
     const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
-    if (planner_.size() <= 1 && keep_back) return state_ = StreamState::waiting;
+    if (planner_.size() <= 1 && keep_back) return state_ = ExecutionState::waiting;
     if (PlannedMove planned; planner_.pull_early(planned)) return hand_over(planned);
     return path_begun_ ? finish_path() : stand();
 }
@@ -220,7 +222,7 @@ bool Stream::time_left() {
     return block_began_ + from_seconds(seconds) > host_.now() + settings_.margin;
 }
 
-Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
+Result<ExecutionState> Stream::hand_over(const PlannedMove& planned) {
     if (!path_begun_) {
         if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
@@ -239,44 +241,44 @@ Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
                 --left;
             }
     }
-    state_ = StreamState::driving;
+    state_ = ExecutionState::driving;
     const Result<void> followed = axes_->follow(planned);
-    take_starts();
+    take_move_starts();
     if (!followed) return interrupted(followed.error());
     return state_;
 }
 
-Result<StreamState> Stream::finish_path() {
+Result<ExecutionState> Stream::finish_path() {
     const Result<void> finished = axes_->finish();
-    take_starts();
+    take_move_starts();
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
-    if (ride_) pop_driven(ride_->rider().first_left());
+    if (ride_) pop_driven(ride_->rider().first_pending_move());
     while (handed_ > 0) pop();
-    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = StreamState::paused;
+    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
     if (ride_ && wish_ == Wish::hold && !has_work()) ride_->rider().resume();
     return stand();
 }
 
 /// The axes stand where the path that they had ends.
-Result<StreamState> Stream::stand() {
+Result<ExecutionState> Stream::stand() {
     const Wish wish = std::exchange(wish_, Wish::none);
     stop_flag_ = false;
     if (wish == Wish::stop) {
         forget();
         return state_;
     }
-    if (wish == Wish::hold && has_work()) return state_ = StreamState::held;
+    if (wish == Wish::hold && has_work()) return state_ = ExecutionState::held;
     while (!entries_.empty() && !entries_.front().is_move()) {
         if (entries_.front().is_probe()) return probe();
         const bool pause = entries_.front().step.kind == StepKind::pause;
         pop();
-        if (pause) return state_ = StreamState::paused;
+        if (pause) return state_ = ExecutionState::paused;
     }
-    return state_ = has_work() ? StreamState::driving : StreamState::rest;
+    return state_ = has_work() ? ExecutionState::driving : ExecutionState::rest;
 }
 
-Result<StreamState> Stream::interrupted(const Error& error) {
+Result<ExecutionState> Stream::interrupted(const Error& error) {
     const bool held = !ride_ && error.trouble == Trouble::stopped && wish_ == Wish::hold;
     wish_ = Wish::none;
     stop_flag_ = false;
@@ -287,7 +289,7 @@ Result<StreamState> Stream::interrupted(const Error& error) {
         return tl::unexpected<Error>(error);
     }
     keep_rest_of_path();
-    return state_ = StreamState::held;
+    return state_ = ExecutionState::held;
 }
 
 void Stream::forget() {
@@ -296,15 +298,15 @@ void Stream::forget() {
     moves_ = 0;
     unpulled_ = probe_waits_ = false;
     planned_ = handed_ = 0;
-    state_ = StreamState::rest;
-    interpreter_.straighten();
-    stand_here(*axes_);
+    state_ = ExecutionState::rest;
+    interpreter_.reset_after_program();
+    resync_axes(*axes_);
 }
 
-void Stream::stand_here(PathAxes& axes) {
+void Stream::resync_axes(AxisGroup& axes) {
     axes_ = &axes;
     read_to_ = axes_->commanded_position();
-    interpreter_.stand_at(read_to_);
+    interpreter_.resync_position(read_to_);
     new_planner(read_to_);
 }
 
@@ -317,12 +319,12 @@ gcode::Settings Stream::fresh_settings() const {
     return settings;
 }
 
-void Stream::forget_modes() {
+void Stream::reset_modal_state() {
     interpreter_ = gcode::Interpreter(fresh_settings());
     line_driven_ = 0;
 }
 
-void Stream::forget_offsets() {
+void Stream::clear_offsets() {
     gcode::Settings settings = fresh_settings();
     settings.work_offsets = {};
     settings.g28 = settings.g30 = {};
@@ -330,15 +332,16 @@ void Stream::forget_offsets() {
 }
 
 void Stream::new_planner(const Point& place) {
-    planner_ = planner_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, place);
+    planner_ =
+        make_look_ahead_planner(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, place);
     if (ride_) ride_ = new_ride(place);
     ride_ends_ = true;
 }
 
 // ---- what the machine has passed
 
-void Stream::take_starts() {
-    for (const BlockStart& start : axes_->take_starts()) {
+void Stream::take_move_starts() {
+    for (const MoveStart& start : axes_->take_move_starts()) {
         if (start.block < 0) continue;
         block_began_ = start.at;
         pop_before_block(start.block);

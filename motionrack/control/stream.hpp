@@ -1,6 +1,6 @@
 // Drives G-code that comes line by line, and can be held, slowed and stopped at any instant.
 //
-//   line ──Interpreter──► moves, in pieces ──► entries ──Planner──► PlannedMove ──► PathAxes
+//   line ──Interpreter──► moves, in pieces ──► entries ──LookAheadPlanner──► PlannedMove ──► AxisGroup
 //                                                ▲                       │
 //                  hold: the rest of the path ───┴── from where it stands ┘
 //
@@ -33,18 +33,18 @@
 
 namespace motionrack::control {
 
-struct StreamSettings {
+struct StreamExecutorSettings {
     gcode::Settings gcode;  ///< its start is where the axes stand
-    PlannerSettings planner;
-    bool jerk_limited = false;  ///< not trapezoids, but within each axis' jerk
-    double kept_back = 0;       ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
-    std::size_t most_entries = 1'500;  ///< moves and events that are known and not yet done; 16 or more
-    double piece_seconds = 0.1;        ///< of a long move at its speed
+    LookAheadSettings planner;
+    bool jerk_limited = false;        ///< not trapezoids, but within each axis' jerk
+    double accel_reserve = 0;         ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    std::size_t max_entries = 1'500;  ///< moves and events that are known and not yet done; 16 or more
+    double slice_s = 0.1;             ///< of a long move at its speed
     Duration margin =
         milliseconds(30);  ///< so long before the path that was handed over ends, more of it is handed over
 };
 
-enum class StreamState : std::uint8_t {
+enum class ExecutionState : std::uint8_t {
     rest,     ///< all that is known is done
     driving,  ///< something was handed over
     waiting,  ///< there is time for more lines before the axes need the next move
@@ -58,7 +58,7 @@ struct ProbeReport {
     std::int32_t line = 0;
     gcode::Probe probe = gcode::Probe::none;
     bool begun = false;  ///< false: the probe touched before the move (G38.4, G38.5: did not touch)
-    ProbeOutcome outcome;
+    ProbeResult outcome;
 
     bool failed() const { return !begun || (!outcome.hit && gcode::probe_must(probe)); }
 };
@@ -66,18 +66,18 @@ struct ProbeReport {
 class Stream {
   public:
     /// `host`: whose time passes. The axes' stop flag must be stop_flag().
-    Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings);
+    Stream(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings);
 
     // ---- what may be called at any time, also while drive() runs, from a slice of the host's time
     /// Whether line() takes another one. After a line that probes only when it has been done: the lines after it begin
     /// where it stopped.
     bool has_room() const {
-        return entries_.size() < settings_.most_entries && !unpulled_ && !probe_waits_ && wish_ != Wish::stop;
+        return entries_.size() < settings_.max_entries && !unpulled_ && !probe_waits_ && wish_ != Wish::stop;
     }
     /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
     /// The same of a whole program that is walked through: in its whole language.
-    gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::Walk& walk);
+    gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk);
     /// No more lines of the program come: what waits for the next one (see gcode::Interpreter::finish) is put behind
     /// the others. Needs has_room().
     gcode::Outcome<void> program_over();
@@ -99,12 +99,12 @@ class Stream {
     std::size_t entries() const { return entries_.size(); }
     const ProbeReport& last_probe() const { return last_probe_; }
     /// A probing move was read and is not done.
-    bool probe_waits() const { return probe_waits_; }
+    bool probe_pending() const { return probe_waits_; }
     /// Moves and dwells, as they were read, that are not done.
     std::size_t moves() const { return moves_; }
-    /// 0: none since forget_modes().
-    std::int32_t line_driven() const { return line_driven_; }
-    StreamState state() const { return state_; }
+    /// 0: none since reset_modal_state().
+    std::int32_t current_line() const { return line_driven_; }
+    ExecutionState state() const { return state_; }
     const gcode::Interpreter& interpreter() const { return interpreter_; }
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
 
@@ -115,17 +115,17 @@ class Stream {
     /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room
     /// for another. `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors:
     /// Trouble::machine, the motion was stopped by the machine; everything was forgotten.
-    Result<StreamState> drive(bool more_may_come);
+    Result<ExecutionState> drive(bool more_may_come);
     /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
-    void stand_here(PathAxes& axes);
+    void resync_axes(AxisGroup& axes);
     /// A new program, or after a reset: modes as at the start, no line driven, work offsets kept. Needs rest.
-    void forget_modes();
+    void reset_modal_state();
     /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
-    void forget_offsets();
+    void clear_offsets();
     /// A program is over: what Grbl does not know of is as at its start, so that a sender's lines mean what they say.
     /// Needs rest.
-    void straighten() { interpreter_.straighten(); }
-    /// What forget_modes() leaves: how a program that begins here is read.
+    void reset_after_program() { interpreter_.reset_after_program(); }
+    /// What reset_modal_state() leaves: how a program that begins here is read.
     gcode::Settings fresh_settings() const;
 
     /// Called when the machine passes an event of the program (spindle, message, tool, end), in order.
@@ -150,7 +150,7 @@ class Stream {
         /// What the overrides make of its move.
         void override_feed(Move& move, double feed, double rapid) const {
             if (is_overridable()) move.feed = step.move.feed * feed;
-            if (step.overridable) move.haste = rapid;
+            if (step.overridable) move.rapid_override = rapid;
         }
     };
     /// A move that is being cut.
@@ -167,32 +167,32 @@ class Stream {
     Result<void> fill_planner();
     bool stops_before(const Entry& entry) const;
     bool time_left();
-    Result<StreamState> hand_over(const PlannedMove& planned);
-    Result<StreamState> finish_path();
-    Result<StreamState> stand();
-    Result<StreamState> probe();
-    Result<StreamState> interrupted(const Error& error);
+    Result<ExecutionState> hand_over(const PlannedMove& planned);
+    Result<ExecutionState> finish_path();
+    Result<ExecutionState> stand();
+    Result<ExecutionState> probe();
+    Result<ExecutionState> interrupted(const Error& error);
     void keep_rest_of_path();
     void forget();
-    void take_starts();
+    void take_move_starts();
     void pop();
     void new_planner(const Point& place);
 
     // with limited jerk
-    Result<StreamState> drive_ride(bool more_may_come);
+    Result<ExecutionState> drive_ride(bool more_may_come);
     Result<void> fill_ride();
     bool ride_may_wait(bool rest_follows) const;
     void pop_before_block(std::int64_t block);
-    void pop_driven(std::int64_t first_left);
-    RideMoves new_ride(const Point& place) const;
+    void pop_driven(std::int64_t first_pending_move);
+    TrajectoryInterpolator new_ride(const Point& place) const;
 
-    PathAxes* axes_;
+    AxisGroup* axes_;
     Interrupt& host_;
-    StreamSettings settings_;
+    StreamExecutorSettings settings_;
     PathLimits limits_;
     gcode::Interpreter interpreter_;
-    Planner planner_;
-    std::optional<RideMoves> ride_;  ///< if the jerk is limited; then planner_ idles
+    LookAheadPlanner planner_;
+    std::optional<TrajectoryInterpolator> ride_;  ///< if the jerk is limited; then planner_ idles
     /// Of what the axes have had, from the one that they drive on: the numbers of its moves (ride_), or how many of
     /// entries_ it stands for.
     std::deque<std::int64_t> blocks_;
@@ -217,7 +217,7 @@ class Stream {
     ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
     Wish wish_ = Wish::none;
-    StreamState state_ = StreamState::rest;
+    ExecutionState state_ = ExecutionState::rest;
     std::atomic<bool> stop_flag_{false};
     std::function<void(const gcode::Step&)> on_event_;
     std::function<void(const Move&, const Point&)> on_move_;

@@ -36,7 +36,7 @@ void Stream::keep_rest_of_path() {
         if (!entries_[i].is_move()) continue;
         --known;
         const Geometry here = geometry_of(entries_[i].step.move, entries_[i].start);
-        const double off = nearest_on(here, place, pulses).distance;
+        const double off = nearest_point(here, place, pulses).distance;
         // A way back is as near as the way there, of which nothing may be left out.
         if (off >= (turns_back(path, here, pulses) ? least - beside_pulses : least)) continue;
         least = off;

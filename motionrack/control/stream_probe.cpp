@@ -5,18 +5,19 @@
 
 namespace motionrack::control {
 
-Result<StreamState> Stream::probe() {
+Result<ExecutionState> Stream::probe() {
     const gcode::Step step = entries_.front().step;
     line_driven_ = step.line;
     last_probe_ = {last_probe_.count, step.line, step.probe, false, {}};
-    const Result<PlannedMove> planned = plan_alone(*axes_, settings_.gcode.limits, settings_.kept_back, step.move);
+    const Result<PlannedMove> planned =
+        plan_single_move(*axes_, settings_.gcode.limits, settings_.accel_reserve, step.move);
     if (!planned) return interrupted(planned.error());
     if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
-    state_ = StreamState::driving;
+    state_ = ExecutionState::driving;
     probing_ = true;
-    const Result<ProbeOutcome> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
+    const Result<ProbeResult> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
     probing_ = false;
-    axes_->take_starts();
+    axes_->take_move_starts();
     const Point place = axes_->commanded_position();
     if (!outcome) {
         if (wish_ != Wish::stop) ++last_probe_.count;
@@ -30,7 +31,7 @@ Result<StreamState> Stream::probe() {
     interpreter_.probed(outcome->hit, outcome->at, place);
     read_to_ = place;
     new_planner(place);
-    if (!last_probe_.failed()) return state_ = has_work() ? StreamState::driving : StreamState::rest;
+    if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::driving : ExecutionState::rest;
     forget();
     return fail(
         Trouble::machine,

@@ -16,18 +16,18 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 }  // namespace
 
-RideMoves Stream::new_ride(const Point& place) const {
-    RideMovesSettings settings;
+TrajectoryInterpolator Stream::new_ride(const Point& place) const {
+    InterpolatorSettings settings;
     settings.most_seconds = max_line_seconds;
     settings.cut_dwells = true;
-    return ride_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings, place);
+    return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
 }
 
-Result<StreamState> Stream::drive_ride(bool more_may_come) {
+Result<ExecutionState> Stream::drive_ride(bool more_may_come) {
     if (wish_ != Wish::none) {
         if (!path_begun_) return stand();
         ride_->rider().hold();
-    } else if (state_ == StreamState::held || state_ == StreamState::paused) {
+    } else if (state_ == ExecutionState::held || state_ == ExecutionState::paused) {
         return state_;
     }
     pull_steps();
@@ -37,8 +37,8 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
         return tl::unexpected<Error>(filled.error());
     }
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
-    if (ride_may_wait(rest_follows)) return state_ = StreamState::waiting;
-    const bool late = ride_->rider().brakes_in() < ends_before && host_.now() > last_push_ + sender_is_silent;
+    if (ride_may_wait(rest_follows)) return state_ = ExecutionState::waiting;
+    const bool late = ride_->rider().seconds_to_braking() < ends_before && host_.now() > last_push_ + sender_is_silent;
     if (!ride_ends_ && (rest_follows || late) && ride_->has_room()) {
         ride_->flush();
         ride_ends_ = true;
@@ -47,12 +47,12 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
     const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
         // Where the ride stands: at the end of what is known, or held.
-        Result<StreamState> finished = finish_path();
+        Result<ExecutionState> finished = finish_path();
         if (!finished || !more_follows) return finished;
     } else {
-        pop_driven(ride_->rider().first_left());  // dwells of no time
+        pop_driven(ride_->rider().first_pending_move());  // dwells of no time
     }
-    return more_follows ? state_ = StreamState::waiting : stand();
+    return more_follows ? state_ = ExecutionState::waiting : stand();
 }
 
 /// A first move alone waits for the line after it: then it need not end at rest.
@@ -82,11 +82,11 @@ void Stream::pop_before_block(std::int64_t block) {
 }
 
 /// All up to the last move before this one.
-void Stream::pop_driven(std::int64_t first_left) {
+void Stream::pop_driven(std::int64_t first_pending_move) {
     std::size_t driven = 0;
     for (std::size_t i = 0; i < planned_; ++i)
         if (entries_[i].is_move()) {
-            if (entries_[i].number >= first_left) break;
+            if (entries_[i].number >= first_pending_move) break;
             driven = i + 1;
         }
     for (; driven > 0; --driven) pop();

@@ -132,7 +132,7 @@ int Session::restore(const std::string& text) {
     if (what != '$' && what != '#' && what != '*') return error_unknown;
     if (!control()) return error_locked;
     if (what != '#') own_ = OwnSettings();
-    if (what != '$' && !machine_.forget_offsets()) return error_not_idle;
+    if (what != '$' && !machine_.clear_offsets()) return error_not_idle;
     if (what == '*') {
         startup_lines_ = {};
         build_text_.clear();

@@ -185,7 +185,7 @@ void Session::watch_machine() {
     } else if (hold_seen_ && state != MachineState::stopping) {
         held_ = door_ = hold_seen_ = false;  // somebody else went on, or stopped it
     }
-    while (!n_words_.empty() && n_words_.front().first < machine_.stream().line_driven()) n_words_.pop_front();
+    while (!n_words_.empty() && n_words_.front().first < machine_.stream().current_line()) n_words_.pop_front();
     const control::ProbeReport& probe = machine_.stream().last_probe();
     const bool probed = std::exchange(probes_told_, probe.count) != probe.count;
     if (probed && probe.begun) put(probe_text());

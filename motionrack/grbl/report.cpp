@@ -78,7 +78,7 @@ void Session::report() {
     if ((shown & 2) != 0)
         put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
                         intake_.room()));
-    if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().line_driven())
+    if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().current_line())
         put(fmt::format("|Ln:{}", n_words_.front().second));
     const double feed = own_.inches != 0 ? feed_now(machine_) / mm_per_inch : feed_now(machine_);
     put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));

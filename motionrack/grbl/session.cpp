@@ -143,7 +143,7 @@ int Session::gcode(const std::string& text) {
         if (ends) say("Pgm End");
         return error_none;
     }
-    const bool probes = machine_.stream().probe_waits();
+    const bool probes = machine_.stream().probe_pending();
     if (!probes && !block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
     doing_ = Doing{Doing::What::moving};
     doing_->program_ends = ends;

@@ -118,7 +118,7 @@ Result<void> Journal::begin() {
     last_link_ = std::move(head.link);
     MOTIONRACK_CHECK(file.run(
         fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str()));
-    MOTIONRACK_CHECK(remove_old_entries(file, most_entries));
+    MOTIONRACK_CHECK(remove_old_entries(file, max_entries));
     return file.run("COMMIT");
 }
 

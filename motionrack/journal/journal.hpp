@@ -104,7 +104,7 @@ class Journal {
     std::int64_t run() const { return run_; }
 
     /// Older entries than these go when a run begins.
-    static constexpr std::int64_t most_entries = 1'000'000;
+    static constexpr std::int64_t max_entries = 1'000'000;
     /// The newest entries, whose chain is checked when a run begins: a tenth of a second. check() reads all.
     static constexpr std::int64_t checked_at_start = 20'000;
     /// More than these waiting are refused: the disk does not follow.

@@ -38,7 +38,7 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
                   .max_accel = 1e6,
                   .pulses_per_unit = 1};
     }
-    control::gcode::Reader reader(text, settings, file);
+    control::gcode::ProgramReader reader(text, settings, file);
     Drawing out;
     Spot at;
     bool down = false;

@@ -47,7 +47,7 @@ double size_of(const Box& box) {
 }
 
 /// The place of the drawing that is nearest.
-Spot nearest_on(std::span<const parts::Segment> segments, Spot p) {
+Spot nearest_point(std::span<const parts::Segment> segments, Spot p) {
     Spot best = p;
     double least = std::numeric_limits<double>::infinity();
     for (const parts::Segment& s : segments) {
@@ -194,7 +194,7 @@ Part worst_of(const Scene& scene, const Marked& marked, const char* title, const
     if (d.worst_mm <= 0 || reach > size_of(scene.box) / 8) return part;
     const PartMarked& worst = marked.parts[worst_part(marked)];
     const std::vector<parts::Segment>& segments = scene.prepared.of(worst.drawing).segments;
-    const Spot on = nearest_on(segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
+    const Spot on = nearest_point(segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
     part.height = 300;
     const Plot plot(grown({middle, middle}, reach), part.width, part.height);
     part.title = title;

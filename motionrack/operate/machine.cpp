@@ -165,8 +165,8 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
 Result<void> Machine::begin_program(std::string text, std::string name) {
     MOTIONRACK_CHECK(may_start("The program was not begun"));
     MOTIONRACK_CHECK(ready_for_lines("The program was not begun"));
-    stream_->forget_modes();
-    const control::gcode::Check check = control::gcode::check_program(text, stream_->fresh_settings(), 1, name);
+    stream_->reset_modal_state();
+    const control::gcode::ProgramCheck check = control::gcode::check_program(text, stream_->fresh_settings(), 1, name);
     if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
     program_ = std::move(text);
     program_name_ = std::move(name);
@@ -321,7 +321,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
                                                       control::axis_letters[i], limits[i].min_position,
                                                       limits[i].max_position, target[i]));
         ++moving;
-        move.haste = std::min(move.haste, speed / limits[i].max_speed);
+        move.rapid_override = std::min(move.rapid_override, speed / limits[i].max_speed);
     }
     // Axes that position one by one cannot keep a speed along a line together.
     move.kind = moving > 1 && rack_.config().point_to_point() ? control::MoveKind::traverse : control::MoveKind::feed;
@@ -364,11 +364,11 @@ void Machine::set_coolant(bool mist, bool flood) {
     status_.flood = flood;
 }
 
-Result<void> Machine::forget_offsets() {
+Result<void> Machine::clear_offsets() {
     if (stream_->has_work())
         return fail(Trouble::refused,
                     "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
-    stream_->forget_offsets();
+    stream_->clear_offsets();
     return {};
 }
 

@@ -117,7 +117,7 @@ class Machine {
     /// Switches the coolant, as M7, M8 and M9 do, but at once.
     void set_coolant(bool mist, bool flood);
     /// Work offsets, G28 and G30 become 0. Refused while something moves.
-    Result<void> forget_offsets();
+    Result<void> clear_offsets();
     /// False: there is no such alarm.
     bool acknowledge(std::int64_t alarm);
     /// What the machine does can no longer be recorded: no program, line or homing is begun, and nothing held goes on,
@@ -211,7 +211,7 @@ class Machine {
     std::string ordered_by_;                     ///< the STOP that is in force, in words; empty: nobody gave one
     // the program, or lines one by one
     std::string program_, program_name_;
-    std::optional<control::gcode::Walk> walk_;
+    std::optional<control::gcode::ProgramFlow> walk_;
     bool over_ = false;  ///< the last line was read, and what may wait for the next one still waits
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_step_ = false;

@@ -33,11 +33,11 @@ Result<void> Machine::start(const rack::RackConfig& config) {
         const Standing here = standing_of(axis.config, settings_.standing, known);
         if (here.trusted) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
     }
-    MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
-    control::StreamSettings settings;
+    MOTIONRACK_TRY(control::AxisGroup * group, rack_.path_axes_here());
+    control::StreamExecutorSettings settings;
     settings.gcode = rack::reader_settings(config);
     settings.gcode.start = group->commanded_position();
-    settings.kept_back = rack_.axes().front().card->kept_back();
+    settings.accel_reserve = rack_.axes().front().card->accel_reserve();
     settings.jerk_limited = config.jerk_limited();
     stream_ = std::make_unique<control::Stream>(*group, host_of(rack_), settings);
     stream_->on_event([this](const control::gcode::Step& step) { pass_event(step); });
@@ -53,11 +53,11 @@ Result<void> Machine::start(const rack::RackConfig& config) {
 Result<void> Machine::take_group() {
     if (group_holds_) return {};
     hands_over_ = true;
-    const Result<control::PathAxes*> group = rack_.path_axes_here();
+    const Result<control::AxisGroup*> group = rack_.path_axes_here();
     hands_over_ = false;
     if (!group) return tl::unexpected<Error>(group.error());
     rack_.set_stop_flag(stream_->stop_flag());
-    stream_->stand_here(**group);
+    stream_->resync_axes(**group);
     group_holds_ = true;
     return {};
 }
@@ -152,7 +152,7 @@ void Machine::step() {
     for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
-    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
+    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::driving) return drive();
     if (stop_wanted_) return come_to_rest();
     if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
         const rack::StopLatch& latch = rack_.stop_latch();
@@ -198,7 +198,7 @@ void Machine::come_to_rest() {
     if (asked && reset) {
         stop_taken_ = false;
         ordered_by_.clear();
-        stream_->forget_modes();
+        stream_->reset_modal_state();
         tools_off();
         for (Alarm& alarm : status_.alarms) alarm.active = alarm.stays;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
@@ -231,27 +231,28 @@ void Machine::drive() {
     feed_program();
     if (state_ == MachineState::error_stop) return;
     const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
-    const Result<control::StreamState> driven = stream_->drive(more);
+    const Result<control::ExecutionState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
-    if (*driven != control::StreamState::driving) rack_.stop_latch().settle();  // a card's stop ends a hold, too
+    if (*driven != control::ExecutionState::driving) rack_.stop_latch().settle();  // a card's stop ends a hold, too
     switch (*driven) {
-        case control::StreamState::waiting:
+        case control::ExecutionState::waiting:
             host_of(rack_).pass(milliseconds(1));
             break;
-        case control::StreamState::held:
-        case control::StreamState::paused:
+        case control::ExecutionState::held:
+        case control::ExecutionState::paused:
             if (state_ == MachineState::moving)
-                enter(MachineState::hold, *driven == control::StreamState::held ? "held; resume goes on"
-                                                                                : "the program waits; resume goes on");
+                enter(MachineState::hold, *driven == control::ExecutionState::held
+                                              ? "held; resume goes on"
+                                              : "the program waits; resume goes on");
             host_of(rack_).pass(settings_.slice);
             break;
-        case control::StreamState::rest:
+        case control::ExecutionState::rest:
             if (walk_ || over_) break;
-            if (program_runs_) stream_->straighten();
+            if (program_runs_) stream_->reset_after_program();
             program_runs_ = false;
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;
-        case control::StreamState::driving:
+        case control::ExecutionState::driving:
             break;
     }
 }
@@ -308,10 +309,10 @@ void Machine::change_positions() {
 
 /// What moves, or was to move, in a few words.
 std::string Machine::at_work() const {
-    if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->line_driven());
+    if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->current_line());
     if (service_.on()) return "the service of card " + service_.card();
     if (state_ == MachineState::moving || state_ == MachineState::hold)
-        return fmt::format("line {}", stream_->line_driven());
+        return fmt::format("line {}", stream_->current_line());
     return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
 }
 
@@ -385,7 +386,7 @@ void Machine::tell() {
         status_.axes.push_back(
             look_at(axis, trusted(axis.config), enabled_[static_cast<std::size_t>(axis.config.index())], now()));
     status_.program = program_name_;
-    status_.line = stream_->line_driven();
+    status_.line = stream_->current_line();
     status_.lines = line_count_;
     status_.program_runs = program_runs_;
     status_.single_step = single_step_;

@@ -13,17 +13,18 @@ namespace {
 /// How a program that begins at this moment is read.
 struct Reading {
     control::gcode::Settings settings;
-    double kept_back = 0;
+    double accel_reserve = 0;
 };
 Reading reading_of(Desk& desk) {
-    return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->kept_back()};
+    return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->accel_reserve()};
 }
 
 /// The plan is there a little later than the motion.
 void plan_aside(Desk& desk, const Reading& reading, std::string text, std::string name) {
     desk.plan.reset();
     desk.worker.post([&desk, number = ++desk.programs, reading, text = std::move(text), name = std::move(name)] {
-        auto plan = std::make_shared<const ProgramPlan>(plan_program(text, name, reading.settings, reading.kept_back));
+        auto plan =
+            std::make_shared<const ProgramPlan>(plan_program(text, name, reading.settings, reading.accel_reserve));
         desk.machine.post([&desk, number, plan] {
             if (number == desk.programs) desk.plan = plan;
         });
@@ -45,7 +46,7 @@ void check(Desk& desk, const json& fields, Ready ready) {
     desk.aside(
         [reading = reading_of(desk), text = fields.at("text").get<std::string>(), name = fields.value("name", ""),
          letters = desk.letters]() -> Result<json> {
-            return to_json(plan_program(text, name, reading.settings, reading.kept_back), letters);
+            return to_json(plan_program(text, name, reading.settings, reading.accel_reserve), letters);
         },
         std::move(ready));
 }

@@ -61,7 +61,7 @@ class Sums {
         }
     }
     ProgramPlan& plan_;
-    control::Planner planner_;
+    control::LookAheadPlanner planner_;
     control::PlanSummary sum_;
     Polyline line_;
 };
@@ -75,15 +75,15 @@ double ProgramPlan::after(std::int32_t line) const {
 }
 
 ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings,
-                         double kept_back) {
+                         double accel_reserve) {
     ProgramPlan plan;
     plan.name = name;
     plan.check = control::gcode::check_program(text, settings, most_problems, name);
     if (!plan.check.problems.empty()) return plan;
     control::MachineLimits limits = settings.limits;
-    for (control::AxisLimits& axis : limits) axis.max_accel *= 1 - kept_back;
+    for (control::AxisLimits& axis : limits) axis.max_accel *= 1 - accel_reserve;
     Sums sums(plan, settings, limits);
-    control::gcode::Reader reader(text, settings, name);
+    control::gcode::ProgramReader reader(text, settings, name);
     for (;;) {
         const auto step = reader.next();
         if (!step || *step == nullptr) break;

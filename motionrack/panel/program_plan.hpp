@@ -12,7 +12,7 @@ namespace motionrack::panel {
 
 struct ProgramPlan {
     std::string name;
-    control::gcode::Check check;
+    control::gcode::ProgramCheck check;
     std::vector<PathPoint> path;        ///< thinned
     std::size_t thinned = 1;            ///< of how many places one was kept
     std::vector<float> seconds_before;  ///< of each line, from the program's begin; as planned at 100 %
@@ -22,9 +22,10 @@ struct ProgramPlan {
     double after(std::int32_t line) const;
 };
 
-/// Reads a program that begins as `settings` say and plans it. `kept_back`: see control::planner_for. Any thread.
+/// Reads a program that begins as `settings` say and plans it. `accel_reserve`: see control::make_look_ahead_planner.
+/// Any thread.
 ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings,
-                         double kept_back);
+                         double accel_reserve);
 
 /// `letters`: of the machine's axes.
 nlohmann::json to_json(const ProgramPlan& plan, const std::string& letters);

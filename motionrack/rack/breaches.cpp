@@ -19,7 +19,7 @@ constexpr double count_rounding = 3;
 // The start speed is kept but for whole speed units and whole pulses: by so much where arcs are drawn with short lines.
 constexpr double start_reserve = 1.6;
 
-std::string place_text(const Breach& breach) {
+std::string position_text(const Breach& breach) {
     return fmt::format("{}at {:.6f} s and X {:.3f}, Y {:.3f}, Z {:.3f}",
                        breach.line > 0 ? fmt::format("in line {}, ", breach.line) : "", to_seconds(breach.at),
                        breach.place[0], breach.place[1], breach.place[2]);
@@ -55,15 +55,15 @@ std::string sentence_of(const Breach& breach) {
     switch (breach.kind) {
         case BreachKind::jump:
             return fmt::format("{} the speed of {} jumped by {:.1f} {}/s, more than its start speed of {:g} {}/s{}",
-                               place_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
+                               position_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
         case BreachKind::accel:
             return fmt::format("{} the acceleration of {} was {:.1f} {}/s2, above its limit of {:g} {}/s2{}",
-                               place_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
+                               position_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
         case BreachKind::deviation:
             return fmt::format(
                 "{} the machine was {:.4f} mm from the programmed path, above the tolerance of {:.4f} "
                 "mm{}",
-                place_text(breach), breach.value, breach.limit, often(breach));
+                position_text(breach), breach.value, breach.limit, often(breach));
         case BreachKind::late:
             break;
     }
@@ -71,7 +71,7 @@ std::string sentence_of(const Breach& breach) {
         "{} a piece of the path came {:.0f} us too late, and the axes stopped at its start{}; lower the "
         "feed, program longer moves or a wider tolerance (G64 P), or make the host quicker "
         "(host_latency_us, bus_access_ns)",
-        place_text(breach), breach.value * 1e6, often(breach));
+        position_text(breach), breach.value * 1e6, often(breach));
 }
 
 JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {

@@ -88,8 +88,8 @@ class Mcx314Card final : public MotionCard {
     sim::VirtualHost& host() override { return port_; }
     sim::VirtualPort* port() override { return &port_; }
 
-    Result<control::PathAxes*> path_axes(const RackConfig& config,
-                                         const std::optional<control::Point>& position) override {
+    Result<control::AxisGroup*> path_axes(const RackConfig& config,
+                                          const std::optional<control::Point>& position) override {
         const Stand stand = position ? Stand() : stand_now();
         for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), mcx314::HostTimes{access_, latency_});
@@ -138,7 +138,7 @@ class Mcx314Card final : public MotionCard {
         group_trusted_.fill(false);
         return library_over(port_, port_);
     }
-    double kept_back() const override { return mcx314::Axes::kept_back; }
+    double accel_reserve() const override { return mcx314::Axes::accel_reserve; }
     double jump_hz(const RackConfig& config) const override {
         // A ramp changes the rate by one speed unit at a time, of the long axis or of two axes stepping together.
         return 1.5 * 8e6 / mcx314::Segmenter::best_range(axis_map(config));

@@ -121,13 +121,13 @@ class MotionCard : public Card {
     virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
     /// The card's axes as a group that follows paths; `channel[i]` moves axis i of the rack. Set up at `position`,
     /// which is trusted then; without one they go on from where the counters say that they stand.
-    virtual Result<control::PathAxes*> path_axes(const RackConfig& config,
-                                                 const std::optional<control::Point>& position) = 0;
+    virtual Result<control::AxisGroup*> path_axes(const RackConfig& config,
+                                                  const std::optional<control::Point>& position) = 0;
     /// One axis of the rack that this card moves, by itself; it goes on from where the group stands, or its position is
     /// not trusted at first. Takes the card from path_axes(), and the other way round.
     virtual Result<control::Axis*> axis(const RackConfig& config, char letter) = 0;
     /// Part of each acceleration that the planner keeps back for this card.
-    virtual double kept_back() const = 0;
+    virtual double accel_reserve() const = 0;
     /// Rates that change by more than this at once (pulses a second) are jumps, not ramps.
     virtual double jump_hz(const RackConfig& config) const = 0;
     /// Commands given to the card for the present path.

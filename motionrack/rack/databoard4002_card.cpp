@@ -162,7 +162,7 @@ class Databoard4002Card final : public MotionCard {
         if (!ideal_) return {};
         return pins;
     }
-    Result<control::PathAxes*> path_axes(const RackConfig&, const std::optional<control::Point>&) override {
+    Result<control::AxisGroup*> path_axes(const RackConfig&, const std::optional<control::Point>&) override {
         return fail(
             Trouble::refused,
             fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
@@ -180,7 +180,7 @@ class Databoard4002Card final : public MotionCard {
         axis_ = std::move(made);
         return axis_.get();
     }
-    double kept_back() const override { return 0; }
+    double accel_reserve() const override { return 0; }
     double jump_hz(const RackConfig&) const override { return std::numeric_limits<double>::infinity(); }
     std::int64_t segments() const override { return 0; }
     std::int64_t pulses_made(int) override { return 0; }

@@ -89,8 +89,8 @@ void Job::planned(std::int64_t block, const control::PlannedMove& move) {
     if (planned_.size() < most_planned) planned_.push_back(move);
 }
 
-void Job::listen(const std::vector<control::BlockStart>& starts) {
-    for (const control::BlockStart& start : starts) line_ = start.line;
+void Job::listen(const std::vector<control::MoveStart>& starts) {
+    for (const control::MoveStart& start : starts) line_ = start.line;
     monitor_->started(starts);
     monitor_->drain();
     if (settings_.orders != nullptr) {
@@ -101,36 +101,36 @@ void Job::listen(const std::vector<control::BlockStart>& starts) {
     if (settings_.progress) settings_.progress({to_seconds(rack_.kernel().now() - began_), line_, lines_});
 }
 
-Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
-    control::ControllerSettings settings;
+Result<void> Job::drive(control::AxisGroup& axes, JobOutcome& out) {
+    control::ExecutorSettings settings;
     settings.gcode = settings_.reading ? *settings_.reading : reader_settings(rack_.config());
     settings.gcode.start = start_;
-    settings.kept_back = rack_.axes().front().card->kept_back();
+    settings.accel_reserve = rack_.axes().front().card->accel_reserve();
     settings.jerk_limited = rack_.config().jerk_limited();
     if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
     settings.stop = settings_.orders != nullptr ? settings_.orders->stop_flag() : settings_.stop;
     settings.halted = &rack_.stop_latch().halted();
     rack_.set_stop_flag(settings.stop);
-    rack_.on_slice(slice, [&] { listen(axes.take_starts()); });
-    control::Controller controller(axes, settings);
+    rack_.on_slice(slice, [&] { listen(axes.take_move_starts()); });
+    control::ProgramExecutor controller(axes, settings);
     controller.on_move([&](const control::Move& move, const control::Point& start) { programmed(move, start, out); });
-    controller.on_block([&](std::int64_t block, const control::PlannedMove& move) { planned(block, move); });
+    controller.on_planned_move([&](std::int64_t block, const control::PlannedMove& move) { planned(block, move); });
     monitor_->begin();
     const Result<void> ended = controller.run(settings_.program, settings_.program_name, out.run);
     out.time = rack_.kernel().now() - began_;
-    listen(axes.take_starts());
+    listen(axes.take_move_starts());
     return ended;
 }
 
-Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings,
+Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::ExecutorSettings& settings,
                                   JobOutcome& out) {
     PathWatch watch(axes, [&](std::int64_t block, const control::PlannedMove& move) {
         out.run.plan.add(move);
         planned(block, move);
     });
-    control::StreamSettings stream_settings;
+    control::StreamExecutorSettings stream_settings;
     stream_settings.gcode = settings.gcode;
-    stream_settings.kept_back = settings.kept_back;
+    stream_settings.accel_reserve = settings.accel_reserve;
     stream_settings.jerk_limited = settings.jerk_limited;
     Interrupt& host = rack_.axes().front().card->host();
     control::Stream stream(watch, host, stream_settings);
@@ -186,7 +186,7 @@ void Job::note_before() {
 JobOutcome Job::run() {
     JobOutcome out;
     restart();
-    const Result<control::PathAxes*> axes = rack_.path_axes(start_);
+    const Result<control::AxisGroup*> axes = rack_.path_axes(start_);
     if (!axes) {
         out.ended = tl::unexpected<Error>(axes.error());
         return out;
@@ -212,7 +212,7 @@ JobOutcome Job::run() {
     out.chip_segments = rack_.axes().front().card->segments();
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();
-    const std::vector<DrivenOtherwise> others = take_notes(**axes, out);
+    const std::vector<DrivenOtherwise> others = take_path_warnings(**axes, out);
     collect_conditions(out);
     collect_breaches(out);
     tell(others, out);
@@ -289,9 +289,9 @@ void Job::tell_stop(JobOutcome& out) {
 }
 
 /// Those of pieces that came too late are breaches; one of each other kind is returned, with the lines it is of.
-std::vector<Job::DrivenOtherwise> Job::take_notes(control::PathAxes& axes, JobOutcome& out) {
+std::vector<Job::DrivenOtherwise> Job::take_path_warnings(control::AxisGroup& axes, JobOutcome& out) {
     std::vector<DrivenOtherwise> others;
-    for (control::PathNote& note : axes.take_notes()) {
+    for (control::PathWarning& note : axes.take_path_warnings()) {
         if (note.late_seconds >= 0) {
             out.breaches.add(
                 {BreachKind::late, -1, note.late_seconds, 0, note.at, note.line, monitor_->place_at(note.at)});

@@ -65,7 +65,7 @@ struct JobWarning {
 
 struct JobOutcome {
     Result<void> ended;  ///< how it ended
-    control::ProgramRun run;
+    control::ProgramResult run;
     Duration time{};     ///< virtual time of the job
     double path_mm = 0;  ///< planned XYZ path
     std::vector<AxisOutcome> axes;
@@ -120,7 +120,7 @@ class Job {
   private:
     /// What moves of some lines were driven with instead, and what that costs at most.
     struct DrivenOtherwise {
-        control::PathNote first;
+        control::PathWarning first;
         int last_line = 0;
         std::int64_t lines = 0;
     };
@@ -133,13 +133,13 @@ class Job {
     void restart();
     void note_before();
     void judge_positions(TrustWatch& trust, JobOutcome& out);
-    Result<void> drive(control::PathAxes& axes, JobOutcome& out);
-    Result<void> drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out);
+    Result<void> drive(control::AxisGroup& axes, JobOutcome& out);
+    Result<void> drive_by_stream(control::AxisGroup& axes, const control::ExecutorSettings& settings, JobOutcome& out);
     void programmed(const control::Move& move, const control::Point& start, JobOutcome& out);
     void planned(std::int64_t block, const control::PlannedMove& move);
-    void listen(const std::vector<control::BlockStart>& starts);
+    void listen(const std::vector<control::MoveStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
-    std::vector<DrivenOtherwise> take_notes(control::PathAxes& axes, JobOutcome& out);
+    std::vector<DrivenOtherwise> take_path_warnings(control::AxisGroup& axes, JobOutcome& out);
     void tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const;
     void collect_breaches(JobOutcome& out);
     void collect_conditions(JobOutcome& out);

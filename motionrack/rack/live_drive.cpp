@@ -26,25 +26,25 @@ Result<void> PathWatch::follow(const control::PlannedMove& move) {
     return axes_.follow(move);
 }
 
-Result<control::ProbeOutcome> PathWatch::probe(const control::PlannedMove& move, bool release) {
+Result<control::ProbeResult> PathWatch::probe(const control::PlannedMove& move, bool release) {
     on_block_(blocks_++, move);
     return axes_.probe(move, release);
 }
 
 void PathWatch::pull() {
-    for (control::BlockStart start : axes_.take_starts()) {
+    for (control::MoveStart start : axes_.take_move_starts()) {
         starts_.push_back(start);
         if (start.block >= 0) start.block += first_;
         heard_.push_back(start);
     }
 }
 
-std::vector<control::BlockStart> PathWatch::take_starts() {
+std::vector<control::MoveStart> PathWatch::take_move_starts() {
     pull();
     return std::exchange(starts_, {});
 }
 
-std::vector<control::BlockStart> PathWatch::heard() {
+std::vector<control::MoveStart> PathWatch::heard() {
     pull();
     return std::exchange(heard_, {});
 }
@@ -55,7 +55,7 @@ namespace {
 class Feeder {
   public:
     Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file,
-           control::ProgramRun& run)
+           control::ProgramResult& run)
         : walk_(text, settings, file), run_(run) {}
 
     void feed(control::Stream& stream) {
@@ -86,50 +86,50 @@ class Feeder {
     Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
 
   private:
-    control::gcode::Walk walk_;
-    control::ProgramRun& run_;
+    control::gcode::ProgramFlow walk_;
+    control::ProgramResult& run_;
     bool more_ = true;
     std::optional<Error> problem_;
 };
 
 Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder,
-                   const std::string& file, control::ProgramRun& run) {
-    using control::StreamState;
+                   const std::string& file, control::ProgramResult& run) {
+    using control::ExecutionState;
     std::int64_t probes = stream.last_probe().count;
     while (true) {
         if (!orders.stopped()) feeder.feed(stream);
-        const Result<StreamState> driven = stream.drive(feeder.more());
+        const Result<ExecutionState> driven = stream.drive(feeder.more());
         if (const control::ProbeReport& probe = stream.last_probe(); probe.begun && probe.count != probes) {
             probes = probe.count;
             if (run.probes.size() < most_probes) run.probes.push_back({probe.line, probe.probe, probe.outcome});
         }
         if (!driven) return tl::unexpected<Error>(driven.error());
         switch (*driven) {
-            case StreamState::waiting:
+            case ExecutionState::waiting:
                 host.pass(look);
                 break;
-            case StreamState::held:
+            case ExecutionState::held:
                 if (!orders.holds())
                     stream.resume();
                 else if (!orders.pending())
                     return fail(
                         Trouble::stopped,
-                        fmt::format("The job was held in line {}, and nobody resumed it.", stream.line_driven()),
-                        {stream.line_driven(), 0}, file);
+                        fmt::format("The job was held in line {}, and nobody resumed it.", stream.current_line()),
+                        {stream.current_line(), 0}, file);
                 else
                     host.pass(look);
                 break;
-            case StreamState::paused:
+            case ExecutionState::paused:
                 stream.resume();
                 break;  // M0: nobody waits in simulated time
-            case StreamState::driving:
+            case ExecutionState::driving:
                 break;
-            case StreamState::rest:
+            case ExecutionState::rest:
                 if (orders.stopped())
                     return fail(Trouble::stopped,
                                 fmt::format("Stopped on request in line {}; the axes came to rest along the path.",
-                                            stream.line_driven()),
-                                {stream.line_driven(), 0}, file);
+                                            stream.current_line()),
+                                {stream.current_line(), 0}, file);
                 if (!feeder.more()) return feeder.outcome();
                 break;
         }
@@ -139,7 +139,7 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
 }  // namespace
 
 Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
-                        const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run,
+                        const control::gcode::Settings& settings, const std::string& file, control::ProgramResult& run,
                         const OnProgrammedMove& on_move) {
     // What is left of a move after a hold is planned again: what was programmed counts.
     double path_mm = 0;

@@ -157,7 +157,7 @@ void Monitor::planned(std::int64_t block, const control::PlannedMove& move) {
     seen_.planned.push_back({block, move});
 }
 
-void Monitor::started(const std::vector<control::BlockStart>& starts) {
+void Monitor::started(const std::vector<control::MoveStart>& starts) {
     seen_.starts.insert(seen_.starts.end(), starts.begin(), starts.end());
 }
 
@@ -177,7 +177,7 @@ void Monitor::close_block(Instant end) {
 
 void Monitor::work_off(const RawSample& raw) {
     while (!seen_.starts.empty() && seen_.starts.front().at <= raw.at) {
-        const control::BlockStart start = seen_.starts.front();
+        const control::MoveStart start = seen_.starts.front();
         seen_.starts.pop_front();
         if (seen_.block_open) close_block(start.at);
         if (start.block < 0) continue;

@@ -95,7 +95,7 @@ class Monitor final : public sim::Device {
     /// A planned move was handed to the axes.
     void planned(std::int64_t block, const control::PlannedMove& move);
     /// Planned moves that have really begun since the last call.
-    void started(const std::vector<control::BlockStart>& starts);
+    void started(const std::vector<control::MoveStart>& starts);
     /// Works off the ring; call between runs, at least every ring_size periods.
     void drain();
 
@@ -169,7 +169,7 @@ class Monitor final : public sim::Device {
         std::int64_t taken = 0;
         std::array<AxisStatistics, control::axis_count> statistics = {};
         std::deque<Planned> planned;
-        std::deque<control::BlockStart> starts;
+        std::deque<control::MoveStart> starts;
         std::int64_t current = -1;
         ProgrammedPath program;
         ProgramPart part{-1, 0, 0};            ///< where the machine may be

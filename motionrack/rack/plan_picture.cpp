@@ -47,10 +47,10 @@ class Looks {
         for (const control::Move& move : moves)
             for (std::size_t i = 0; i < 3; ++i)
                 linear_ = linear_ || move.kind == control::MoveKind::arc || move.end[i] != start[i];
-        drive(moves, start, [this](const control::Stretch& stretch) {
+        drive(moves, start, [this](const control::PathSection& stretch) {
             seconds_ += stretch.seconds - stretch.overlap + stretch.rest_seconds;
         });
-        drive(moves, start, [this](const control::Stretch& stretch) { look_at(stretch); });
+        drive(moves, start, [this](const control::PathSection& stretch) { look_at(stretch); });
         if (path.seconds.empty()) add(0, {.place = start});
     }
 
@@ -62,24 +62,24 @@ class Looks {
     bool is_linear() const { return linear_; }
     /// Goes on at rest.
     void rest_until(double time) {
-        control::RideState state;
+        control::TrajectoryPoint state;
         for (std::size_t i = 0; i < 3; ++i) state.place[i] = driven.back()[i];
         add(time, state);
     }
 
   private:
     void drive(std::span<const control::Move> moves, const control::Point& start,
-               control::Ride::OnStretch on_stretch) const {
-        control::Ride ride(limits_, start, std::move(on_stretch));
+               control::OfflineTrajectory::OnSection on_stretch) const {
+        control::OfflineTrajectory ride(limits_, start, std::move(on_stretch));
         for (const control::Move& move : moves) ride.push(move);
         ride.flush();
     }
 
-    void look_at(const control::Stretch& stretch) {
+    void look_at(const control::PathSection& stretch) {
         begin_ -= stretch.overlap;
         while (!path.seconds.empty() && path.seconds.back() > begin_) drop();
         if (!stretch.curve.empty()) {
-            control::StretchView view(stretch);
+            control::SectionSampler view(stretch);
             const auto count = static_cast<int>(std::max(least_looks, looks * stretch.seconds / seconds_));
             for (int i = 0; i <= count; ++i) {
                 const double time = stretch.seconds * i / count;
@@ -94,7 +94,7 @@ class Looks {
         }
     }
 
-    void add(double time, const control::RideState& state) {
+    void add(double time, const control::TrajectoryPoint& state) {
         const control::Point& v = state.speed;
         path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : greatest(v[3], v[4], v[5]));
         driven.push_back({state.place[0], state.place[1], state.place[2]});
@@ -124,14 +124,14 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                             const control::Point& start) {
     Track out;
     double begin = 0;
-    control::Planner planner(limits, start);
+    control::LookAheadPlanner planner(limits, start);
     control::PlannedMove planned;
     const auto pull = [&] {
         while (planner.pull(planned)) {
             if (planned.move.kind == control::MoveKind::dwell) {
                 out.add(begin, 0);
             } else if (planned.jerk > 0) {
-                const control::SCurve curve(planned.length, planned.cruise, planned.accel, planned.jerk);
+                const control::SCurveProfile curve(planned.length, planned.cruise, planned.accel, planned.jerk);
                 double from = 0;
                 for (const double end : curve.phase_ends()) {
                     for (int i = 0; i <= 5; ++i)
@@ -139,8 +139,8 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                     from = end;
                 }
             } else {
-                const control::Trapezoid trapezoid(planned.length, planned.entry, planned.exit, planned.cruise,
-                                                   planned.accel);
+                const control::TrapezoidalProfile trapezoid(planned.length, planned.entry, planned.exit, planned.cruise,
+                                                            planned.accel);
                 out.add(begin, planned.entry);
                 for (const double end : trapezoid.phase_ends()) out.add(begin + end, trapezoid.sample(end).speed);
             }

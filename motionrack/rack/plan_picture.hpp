@@ -10,7 +10,7 @@
 namespace motionrack::rack {
 
 /// An SVG of its own. Beneath the path is the programmed one; beside the speed is that of the trapezoids. Acceleration
-/// and jerk are parts of the axis' limits. The axes stand at `start`; `moves` as control::Ride takes them.
+/// and jerk are parts of the axis' limits. The axes stand at `start`; `moves` as control::OfflineTrajectory takes them.
 std::string plan_picture(const std::string& title, std::span<const control::Move> moves, const RackConfig& config,
                          const control::Point& start);
 

@@ -11,13 +11,13 @@
 namespace motionrack::rack {
 
 /// Whether the disk is among the causes: a subprogram that cannot be read.
-inline bool has_unreadable(const control::gcode::Check& check) {
+inline bool has_unreadable(const control::gcode::ProgramCheck& check) {
     return std::any_of(check.problems.begin(), check.problems.end(),
                        [](const control::gcode::Problem& problem) { return problem.trouble == Trouble::io; });
 }
 
 /// "part.ngc has 3 problems; nothing was moved."
-inline std::string problems_verdict(const control::gcode::Check& check, const std::string& name) {
+inline std::string problems_verdict(const control::gcode::ProgramCheck& check, const std::string& name) {
     return fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
                        counted(check.problems.size(), "problem"));
 }

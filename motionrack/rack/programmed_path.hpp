@@ -1,7 +1,7 @@
 // The path as the program has it, move by move: before short moves are merged, corners are cut and places are rounded
 // to pulses. What the machine does is held against it.
 //
-//   Controller, Stream --each move as it was read--> moves --where the machine is--> distance, tolerance there
+//   ProgramExecutor, Stream --each move as it was read--> moves --where the machine is--> distance, tolerance there
 //                                                      '-- before the one that is driven: dropped
 #pragma once
 

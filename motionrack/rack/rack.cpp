@@ -272,7 +272,7 @@ void Rack::copy_from(Rack& other) {
     for (std::size_t i = 0; i < scanners_.size(); ++i) scanners_[i].head->copy_points(*other.scanners_[i].head);
 }
 
-Result<control::PathAxes*> Rack::path_axes(const std::optional<control::Point>& position) {
+Result<control::AxisGroup*> Rack::path_axes(const std::optional<control::Point>& position) {
     if (axes_.empty())
         return fail(Trouble::refused,
                     "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
@@ -306,7 +306,7 @@ Result<void> check_agrees(const RunningAxis& axis, double position) {
 
 }  // namespace
 
-Result<control::PathAxes*> Rack::positioning_axes(const std::optional<control::Point>& position) {
+Result<control::AxisGroup*> Rack::positioning_axes(const std::optional<control::Point>& position) {
     std::array<control::Axis*, control::axis_count> axes = {};
     for (const RunningAxis& axis : axes_) {
         control::Axis*& one = axes[static_cast<std::size_t>(axis.config.index())];

@@ -88,9 +88,9 @@ class Rack {
     /// (see point_to_point). They are set up at `position` (one that positions by itself, and knows where it is, must
     /// agree), or go on from where their counters say that they stand. Errors: refused if the rack has both kinds, or
     /// an axis does not agree. The rack must be started.
-    Result<control::PathAxes*> path_axes(const std::optional<control::Point>& position);
-    Result<control::PathAxes*> path_axes() { return path_axes(start_position()); }
-    Result<control::PathAxes*> path_axes_here() { return path_axes(std::nullopt); }
+    Result<control::AxisGroup*> path_axes(const std::optional<control::Point>& position);
+    Result<control::AxisGroup*> path_axes() { return path_axes(start_position()); }
+    Result<control::AxisGroup*> path_axes_here() { return path_axes(std::nullopt); }
     /// For progress, draining and Ctrl-C: see VirtualPort. The stop latch is looked at after each call.
     void on_slice(Duration slice, const std::function<void()>& call);
     void set_stop_flag(const std::atomic<bool>* stop);
@@ -100,7 +100,7 @@ class Rack {
     std::string describe(const sim::Condition& condition);
 
   private:
-    Result<control::PathAxes*> positioning_axes(const std::optional<control::Point>& position);
+    Result<control::AxisGroup*> positioning_axes(const std::optional<control::Point>& position);
     void build_cards();
     void build_axes();
     void build_axis(const RackAxis& axis);
@@ -128,7 +128,7 @@ class Rack {
     StillMotion still_;  // what turns a motor whose step input is open
     std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
     std::unique_ptr<sim::Junctions> junctions_;
-    std::optional<control::Positioning> positioning_;
+    std::optional<control::PointToPointAxes> positioning_;
     std::unique_ptr<StopLatch> stop_latch_;
     bool started_ = false;
 };

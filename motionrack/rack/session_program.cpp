@@ -23,7 +23,7 @@ constexpr Duration homing_slice = milliseconds(50);
 constexpr Duration longest_drive = whole_seconds(86'400);
 
 /// A problem a line, and how many there are.
-std::string problems_text(const control::gcode::Check& check, const std::string& name) {
+std::string problems_text(const control::gcode::ProgramCheck& check, const std::string& name) {
     std::string out;
     for (const control::gcode::Problem& problem : check.problems) out += problem.text() + '\n';
     return out + problems_verdict(check, name);
@@ -81,7 +81,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     std::string name;
     MOTIONRACK_TRY(control::gcode::Settings reading, read_program(order, name));
     reading.start = start;
-    const control::gcode::Check check = control::gcode::check_program(program_, reading, max_problems, name);
+    const control::gcode::ProgramCheck check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
         report.place = check.problems.front().place;
         return fail(has_unreadable(check) ? Trouble::io : Trouble::bad_input, problems_text(check, name));

@@ -160,7 +160,7 @@ class Preparation {
                 with +=
                     fmt::format("{}{} = {}", with.empty() ? "" : ", ", parameters()[p].path[1], value_text(values[p]));
         if (!programs_.insert(with).second) return;
-        const control::gcode::Check check =
+        const control::gcode::ProgramCheck check =
             control::gcode::check_program(sweep_.program_text(values), reading_, program_problems, files_.program_name);
         for (const Error& found : check.problems) {
             Error problem = found;

@@ -106,7 +106,7 @@ Result<Row> run_point(std::string_view text, const std::atomic<bool>* stop) {
     request.subprograms = std::move(point.subprograms);
     MOTIONRACK_TRY(request.tools, control::gcode::read_tool_table(point.tools, "tools"));
     MOTIONRACK_TRY(request.faults, rack::read_faults(point.faults));
-    const control::gcode::Check check =
+    const control::gcode::ProgramCheck check =
         control::gcode::check_program(request.program, rack::reading_of(request), 1, request.program_name);
     if (!check.problems.empty()) return refused(check.problems.front());
     auto job = rack::RecordedJob::create(request, {});

@@ -235,7 +235,7 @@ std::string planned_lines(const ReportData& data, const Projection& at) {
     return out;
 }
 
-std::string place_text(const Xyz& p) {
+std::string position_text(const Xyz& p) {
     return "X " + number(p[0], 3) + "  Y " + number(p[1], 3) + "  Z " + number(p[2], 3) + " mm";
 }
 
@@ -244,8 +244,8 @@ std::string marks(const ReportData& data, const Projection& at) {
     const auto finite = [](const Xyz& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
     const std::vector<Xyz>& path = data.driven;
     if (!path.empty() && finite(path.front()))
-        out += mark(at(path.front()), "start", "Start: " + place_text(path.front()));
-    if (!path.empty() && finite(path.back())) out += mark(at(path.back()), "end", "End: " + place_text(path.back()));
+        out += mark(at(path.front()), "start", "Start: " + position_text(path.front()));
+    if (!path.empty() && finite(path.back())) out += mark(at(path.back()), "end", "End: " + position_text(path.back()));
     if (data.worst && finite(data.worst->at)) {
         out += mark(at(data.worst->at), "worst",
                     fmt::format("Worst deviation {} mm at {} s", number(data.worst->mm), number(data.worst->seconds)));

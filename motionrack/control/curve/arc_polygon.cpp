@@ -21,14 +21,14 @@ double doubled(std::int64_t count) {
 
 }  // namespace
 
-double inner_step(const Bow& arc, double tolerance) {
+double inner_step(const ArcCurve& arc, double tolerance) {
     const double rate = arc.turn_rate();
     // error: curvature * rate^2 * step^4 / 72
-    const double square = std::sqrt(72 * tolerance / arc.curvature()) / rate;
+    const double square = std::sqrt(72 * tolerance / arc.max_curvature()) / rate;
     return std::min(widest_angle / rate, std::sqrt(square));
 }
 
-ArcPolygon::ArcPolygon(const Bow& arc, double step_in, double step_out, double inner) : bow_(arc) {
+ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double step_out, double inner) : bow_(arc) {
     const double length = arc.length();
     double in = std::min(step_in, inner), out = std::min(step_out, inner);
     constexpr double beside = 1 + step_after_joint;
@@ -74,7 +74,7 @@ ArcPolygon::ArcPolygon(const Bow& arc, double step_in, double step_out, double i
     const auto more = [&](std::int64_t i, double end) {
         const double knots[3] = {knot(i - 1), knot(i), knot(i + 1)};
         const double u = (knots[0] + knots[1] + knots[2]) / 3;
-        const BowPoint from = bow_.at(end);
+        const ArcCurvePoint from = bow_.at(end);
         Point way = control(u, knots);
         for (int axis = 0; axis < axis_count; ++axis) way[axis] -= from.at[axis];
         return std::fabs(along(way, from.tangent)) - std::fabs(u - end);
@@ -83,7 +83,7 @@ ArcPolygon::ArcPolygon(const Bow& arc, double step_in, double step_out, double i
     more_out_ = out > 0 ? more(corners_ - 1, length) : 0;
 }
 
-double ArcPolygon::knot(std::int64_t i) const {
+double ArcControlPolygon::knot(std::int64_t i) const {
     if (i < 0) return -step_before_joint * step_in_;
     if (i >= corners_) return bow_.length() + step_before_joint * step_out_;
     const std::int64_t from_end = corners_ - 1 - i;
@@ -93,27 +93,27 @@ double ArcPolygon::knot(std::int64_t i) const {
 }
 
 /// The control point of a cubic B-spline that follows the arc: exact for cubics.
-Point ArcPolygon::control(double u, const double (&knots)[3]) const {
+Point ArcControlPolygon::control(double u, const double (&knots)[3]) const {
     const double a = knots[0] - u, b = knots[1] - u, c = knots[2] - u;
     const double second = -(a * a + b * b + c * c) / 12;
     const double third = a * b * c / 6;
-    const BowPoint on = bow_.at(u);
+    const ArcCurvePoint on = bow_.at(u);
     Point out;
-    for (int i = 0; i < axis_count; ++i) out[i] = on.at[i] + second * on.bend[i] + third * on.twist[i];
+    for (int i = 0; i < axis_count; ++i) out[i] = on.at[i] + second * on.curvature[i] + third * on.curvature_rate[i];
     return out;
 }
 
-ArcCorner ArcPolygon::next() {
+ArcControlPoint ArcControlPolygon::next() {
     const std::int64_t i = next_++;
     const double knots[3] = {knot(i - 1), knot(i), knot(i + 1)};
     const double u = (knots[0] + knots[1] + knots[2]) / 3;
-    ArcCorner out = {u + more_in_, knots[0] + more_in_, knots[1] + more_in_, knots[2] + more_in_,
-                     {},           i + 1 == corners_};
+    ArcControlPoint out = {u + more_in_, knots[0] + more_in_, knots[1] + more_in_, knots[2] + more_in_,
+                           {},           i + 1 == corners_};
     if (i > 0 && !out.last) {
         out.at = control(u, knots);
         return out;
     }
-    const BowPoint end = bow_.at(i == 0 ? 0 : bow_.length());
+    const ArcCurvePoint end = bow_.at(i == 0 ? 0 : bow_.length());
     const double way = i == 0 ? out.u : out.u - length();
     for (int axis = 0; axis < axis_count; ++axis) out.at[axis] = end.at[axis] + end.tangent[axis] * way;
     return out;

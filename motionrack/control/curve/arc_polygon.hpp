@@ -7,8 +7,8 @@
 //           ^ the arc begins here
 //
 // Corner i is spread over the knots i - 1 to i + 1, steepest at knot i. These hats add up to one everywhere inside, so
-// that the bend is that of the arc: the corners are the control points of a cubic B-spline. At a joint the first steps
-// are short, each twice the one before; at a rest the first hat begins with its full height.
+// that the curvature is that of the arc: the corners are the control points of a cubic B-spline. At a joint the first
+// steps are short, each twice the one before; at a rest the first hat begins with its full height.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,24 @@ inline constexpr double step_before_joint = 1 - step_after_joint;
 inline constexpr double joint_error = 0.0232;
 
 /// The longest step inside an arc whose curve is within `tolerance` (mm) of it.
-double inner_step(const Bow& arc, double tolerance);
+double inner_step(const ArcCurve& arc, double tolerance);
 
 /// A corner of an arc's polygon; u counts from the arc's start.
-struct ArcCorner {
+struct ArcControlPoint {
     double u;
     double begin, peak, end;  ///< knots; u is their mean
     Point at;
     bool last;
 };
 
-class ArcPolygon {
+class ArcControlPolygon {
   public:
-    ArcPolygon() = default;
+    ArcControlPolygon() = default;
     /// Steps at the two ends; 0: there the path rests. All other steps are `inner` at most.
-    ArcPolygon(const Bow& arc, double step_in, double step_out, double inner);
+    ArcControlPolygon(const ArcCurve& arc, double step_in, double step_out, double inner);
 
     /// The next corner; not after the last one.
-    ArcCorner next();
+    ArcControlPoint next();
 
     /// Of u: the arc's, and a little more for the way over the corners at its joints.
     double length() const { return bow_.length() + more_in_ + more_out_; }
@@ -52,7 +52,7 @@ class ArcPolygon {
     double knot(std::int64_t i) const;
     Point control(double u, const double (&knots)[3]) const;
 
-    Bow bow_;
+    ArcCurve bow_;
     double step_in_ = 0, step_out_ = 0, step_ = 0;
     int rising_ = 0, falling_ = 0;  ///< steps that double, and halve
     std::int64_t corners_ = 0, next_ = 0;

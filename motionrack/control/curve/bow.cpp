@@ -7,7 +7,7 @@
 
 namespace motionrack::control {
 
-Bow::Bow(const Geometry& arc)
+ArcCurve::ArcCurve(const Geometry& arc)
     : first_(arc.first),
       second_(arc.second),
       centre_first_(arc.centre_first),
@@ -15,7 +15,7 @@ Bow::Bow(const Geometry& arc)
       from_first_(arc.start[arc.first] - arc.centre_first),
       from_second_(arc.start[arc.second] - arc.centre_second),
       sweep_(arc.sweep),
-      growth_(arc.growth),
+      growth_(arc.radius_growth),
       start_(arc.start) {
     for (int i = 0; i < axis_count; ++i) change_[i] = arc.end[i] - arc.start[i];
     const double radius_in = arc.radius / (1 + 0.5 * growth_);
@@ -27,23 +27,23 @@ Bow::Bow(const Geometry& arc)
     rate_out_ = std::sqrt(straight + radius_out * radius_out * sweep_ * sweep_);
     const double slowest = std::min(rate_in_, rate_out_);
     turn_rate_ = std::fabs(sweep_) / slowest;
-    curvature_ = std::max(radius_in, radius_out) * turn_rate_ * turn_rate_;
+    max_curvature_ = std::max(radius_in, radius_out) * turn_rate_ * turn_rate_;
     for (int i = 3; i < axis_count; ++i) rotary_rate_ = std::max(rotary_rate_, std::fabs(change_[i]) / slowest);
 }
 
-BowPoint Bow::at(double u) const {
+ArcCurvePoint ArcCurve::at(double u) const {
     const double slope = rate_out_ - rate_in_;
     const double part =
         slope == 0 ? u / rate_in_ : 2 * u / (rate_in_ + std::sqrt(std::max(0.0, rate_in_ * rate_in_ + 2 * slope * u)));
     const double by_u = 1 / (rate_in_ + slope * part);  // derivatives of `part` by u
     const double by_u2 = -slope * by_u * by_u * by_u;
     const double by_u3 = 3 * by_u2 * by_u2 / by_u;
-    BowPoint out;
+    ArcCurvePoint out;
     for (int i = 0; i < axis_count; ++i) {
         out.at[i] = start_[i] + change_[i] * part;
         out.tangent[i] = change_[i] * by_u;
-        out.bend[i] = change_[i] * by_u2;
-        out.twist[i] = change_[i] * by_u3;
+        out.curvature[i] = change_[i] * by_u2;
+        out.curvature_rate[i] = change_[i] * by_u3;
     }
     const SinCos turned = sin_cos(sweep_ * part);
     const double x = from_first_ * turned.cos - from_second_ * turned.sin;
@@ -59,8 +59,8 @@ BowPoint Bow::at(double u) const {
         const double third = out3 * outwards + around3 * around;
         out.at[axis] = centre + size * outwards;
         out.tangent[axis] = first * by_u;
-        out.bend[axis] = second * by_u * by_u + first * by_u2;
-        out.twist[axis] = third * by_u * by_u * by_u + 3 * second * by_u * by_u2 + first * by_u3;
+        out.curvature[axis] = second * by_u * by_u + first * by_u2;
+        out.curvature_rate[axis] = third * by_u * by_u * by_u + 3 * second * by_u * by_u2 + first * by_u3;
     };
     plane(first_, centre_first_, x, -y);
     plane(second_, centre_second_, y, x);

@@ -6,21 +6,21 @@
 namespace motionrack::control {
 
 /// A place on an arc and the first three derivatives there, by u.
-struct BowPoint {
-    Point at, tangent, bend, twist;
+struct ArcCurvePoint {
+    Point at, tangent, curvature, curvature_rate;
 };
 
 /// u grows at least as fast as the length of XYZ does, and exactly so where the radius does not grow and at both ends.
-class Bow {
+class ArcCurve {
   public:
-    Bow() = default;
-    explicit Bow(const Geometry& arc);
+    ArcCurve() = default;
+    explicit ArcCurve(const Geometry& arc);
 
     double length() const { return 0.5 * (rate_in_ + rate_out_); }  ///< of u
-    BowPoint at(double u) const;
-    double curvature() const { return curvature_; }      ///< greatest |bend|
-    double turn_rate() const { return turn_rate_; }      ///< greatest angle in the arc's plane per u
-    double rotary_rate() const { return rotary_rate_; }  ///< degrees per u of the rotary axis that turns most
+    ArcCurvePoint at(double u) const;
+    double max_curvature() const { return max_curvature_; }  ///< greatest |curvature|
+    double turn_rate() const { return turn_rate_; }          ///< greatest angle in the arc's plane per u
+    double rotary_rate() const { return rotary_rate_; }      ///< degrees per u of the rotary axis that turns most
 
   private:
     std::uint8_t first_ = 0, second_ = 1;
@@ -29,7 +29,7 @@ class Bow {
     double sweep_ = 0, growth_ = 0;
     double rate_in_ = 0, rate_out_ = 0;  ///< of u by the part of the arc, at its ends; linear between
     Point start_ = {}, change_ = {};
-    double curvature_ = 0, turn_rate_ = 0, rotary_rate_ = 0;
+    double max_curvature_ = 0, turn_rate_ = 0, rotary_rate_ = 0;
 };
 
 }  // namespace motionrack::control

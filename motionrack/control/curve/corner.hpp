@@ -11,17 +11,17 @@
 
 namespace motionrack::control {
 
-/// The greatest speed on a bend takes so much of an axis' acceleration across the path and of its jerk; the rest
+/// The greatest speed on a curvature takes so much of an axis' acceleration across the path and of its jerk; the rest
 /// changes the speed.
-inline constexpr double share_of_a_bend = 0.8;
+inline constexpr double max_curvature_share = 0.8;
 
 /// A move, and what the axes can do along it; mm or degrees, and s.
-struct Leg {
+struct LegLimits {
     double length = 0;
     double speed = 0, accel = 0, jerk = 0;
 };
 
-struct Joint {
+struct Junction {
     bool can_stop = true;
     bool can_pass = false;
     double speed = 0;  ///< through its turn, by what the axes can do
@@ -32,24 +32,25 @@ struct Joint {
 };
 
 /// s from one speed to another that is `more`, without acceleration at both.
-double ramp_seconds(double more, const Leg& leg);
+double ramp_duration_s(double more, const LegLimits& leg);
 
 /// An axis without a limit of its jerk gets one with which it reaches its acceleration in this time.
-inline constexpr double jerk_seconds = 0.002;
-inline double jerk_of(const AxisLimits& axis) {
-    return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / jerk_seconds;
+inline constexpr double default_jerk_time_s = 0.002;
+inline double effective_jerk(const AxisLimits& axis) {
+    return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / default_jerk_time_s;
 }
 
 /// What the axes can do along `tangent`, or over a turn: the least of limit / |tangent|.
-double speed_along(const Point& tangent, const MachineLimits& limits);
-double accel_along(const Point& tangent, const MachineLimits& limits);
-double jerk_along(const Point& tangent, const MachineLimits& limits);
+double max_velocity_along(const Point& tangent, const MachineLimits& limits);
+double max_accel_along(const Point& tangent, const MachineLimits& limits);
+double max_jerk_along(const Point& tangent, const MachineLimits& limits);
 
 /// A turn from one tangent to another that is spread over `width`, between these legs. What a stop wins is not told.
-Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width,
-                     const MachineLimits& limits);
+Junction junction_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
+                          double width, const MachineLimits& limits);
 
 /// s; a joint that is stopped at is left with its point. Very long where the leg has no room for it.
-double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, const Joint& end, bool stops_at_end);
+double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at_begin, const Junction& end,
+                      bool stops_at_end);
 
 }  // namespace motionrack::control

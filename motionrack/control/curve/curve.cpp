@@ -25,13 +25,13 @@ double dot(const Point& a, const Point& b) {
 
 /// How fast XYZ run at most on the piece where u runs with 1, or the fastest rotary axis where only ABC move; a hardly
 /// greater number.
-double fastest_on(const CurvePiece& piece, bool rotary) {
+double fastest_on(const CubicSegment& piece, bool rotary) {
     const double x = piece.length;
     if (rotary) {
         double most = 0;
         const Point out = tangent_on(piece, x);
         for (int i = 3; i < axis_count; ++i) {
-            const double middle = piece.tangent[i] + 0.5 * x * piece.bend[i];
+            const double middle = piece.tangent[i] + 0.5 * x * piece.curvature[i];
             const double beyond = std::max(std::fabs(piece.tangent[i]), std::fabs(out[i]));
             most = std::max({most, beyond, 0.5 * (std::fabs(middle) + beyond)});
         }
@@ -39,9 +39,9 @@ double fastest_on(const CurvePiece& piece, bool rotary) {
     }
     const Point out = tangent_on(piece, x);
     // the square's second half derivative is a + b x + c x^2
-    const double a = dot(piece.bend, piece.bend) + dot(piece.tangent, piece.twist);
-    const double b = 3 * dot(piece.bend, piece.twist);
-    const double c = 1.5 * dot(piece.twist, piece.twist);
+    const double a = dot(piece.curvature, piece.curvature) + dot(piece.tangent, piece.curvature_rate);
+    const double b = 3 * dot(piece.curvature, piece.curvature_rate);
+    const double c = 1.5 * dot(piece.curvature_rate, piece.curvature_rate);
     double least = std::min(a, a + x * (b + x * c));
     if (b < 0 && -b < 2 * c * x) least = std::min(least, a - b * b / (4 * c));
     const double ends = std::max(dot(piece.tangent, piece.tangent), dot(out, out));
@@ -49,14 +49,14 @@ double fastest_on(const CurvePiece& piece, bool rotary) {
 }
 
 /// What is left of the tolerance for spreading turns on a span.
-Tolerance room_on(const Span& span, double arcs) {
+Tolerance room_on(const MergedSegment& span, double arcs) {
     const double part = 1 - arcs - 2 * left_out_share;
     return {part * span.tolerance.linear - span.merged.linear, part * span.tolerance.rotary - span.merged.rotary};
 }
 
 /// The same at the joint of two spans. Where one is an arc, both may be.
-Tolerance room_between(const Span& before, const Span& after) {
-    const bool lines = before.kind == SpanKind::line && after.kind == SpanKind::line;
+Tolerance room_between(const MergedSegment& before, const MergedSegment& after) {
+    const bool lines = before.kind == MergedSegmentKind::line && after.kind == MergedSegmentKind::line;
     const double arcs = lines ? 0 : 2 * (after.tangent ? arc_tangent_share : arc_corner_share);
     const Tolerance a = room_on(before, arcs), b = room_on(after, arcs);
     return {std::min(a.linear, b.linear), std::min(a.rotary, b.rotary)};
@@ -64,44 +64,45 @@ Tolerance room_between(const Span& before, const Span& after) {
 
 }  // namespace
 
-Point position_on(const CurvePiece& piece, double x) {
-    return cubic(piece.start, piece.tangent, piece.bend, piece.twist, x);
+Point position_on(const CubicSegment& piece, double x) {
+    return cubic(piece.start, piece.tangent, piece.curvature, piece.curvature_rate, x);
 }
 
-Point tangent_on(const CurvePiece& piece, double x) {
+Point tangent_on(const CubicSegment& piece, double x) {
     Point out;
-    for (int i = 0; i < axis_count; ++i) out[i] = piece.tangent[i] + x * (piece.bend[i] + 0.5 * x * piece.twist[i]);
+    for (int i = 0; i < axis_count; ++i)
+        out[i] = piece.tangent[i] + x * (piece.curvature[i] + 0.5 * x * piece.curvature_rate[i]);
     return out;
 }
 
-Point bend_on(const CurvePiece& piece, double x) {
+Point bend_on(const CubicSegment& piece, double x) {
     Point out;
-    for (int i = 0; i < axis_count; ++i) out[i] = piece.bend[i] + x * piece.twist[i];
+    for (int i = 0; i < axis_count; ++i) out[i] = piece.curvature[i] + x * piece.curvature_rate[i];
     return out;
 }
 
-bool is_straight(const CurvePiece& piece) {
-    return piece.bend == Point{} && piece.twist == Point{};
+bool is_straight(const CubicSegment& piece) {
+    return piece.curvature == Point{} && piece.curvature_rate == Point{};
 }
 
-CurveBuilder::CurveBuilder(const MachineLimits& limits, const Point& start) : spans_(limits, start), turns_(limits) {}
+PathBuilder::PathBuilder(const MachineLimits& limits, const Point& start) : spans_(limits, start), turns_(limits) {}
 
-void CurveBuilder::push(const Move& move) {
+void PathBuilder::push(const Move& move) {
     spans_.push(move);
 }
 
-void CurveBuilder::flush() {
+void PathBuilder::flush() {
     spans_.flush();
 }
 
-bool CurveBuilder::pull(CurveItem& item) {
+bool PathBuilder::pull(PathElement& item) {
     for (;;) {
         if (begun_) {
             item.rest = false;
             if (next_piece(item.piece)) return true;
         }
         const bool all_pieces = !begun_ || (turns_.is_complete() && cursor_ >= turns_.end());
-        if (all_pieces && spans_.size() > 0 && spans_.at(0).kind == SpanKind::rest) {
+        if (all_pieces && spans_.size() > 0 && spans_.at(0).kind == MergedSegmentKind::rest) {
             end_curve(item);
             return true;
         }
@@ -109,11 +110,11 @@ bool CurveBuilder::pull(CurveItem& item) {
     }
 }
 
-void CurveBuilder::end_curve(CurveItem& item) {
-    const Span& rest = spans_.at(0);
+void PathBuilder::end_curve(PathElement& item) {
+    const MergedSegment& rest = spans_.at(0);
     item.rest = true;
     item.seconds = rest.seconds;
-    item.room_mm = rest.room_mm;
+    item.corner_tolerance_mm = rest.corner_tolerance_mm;
     item.line = rest.line;
     item.at = rest.end;
     spans_.pop();
@@ -123,19 +124,19 @@ void CurveBuilder::end_curve(CurveItem& item) {
 // ---- turns
 
 /// Makes the next turn, or tells that none follows; false if that is not known yet, or there is no room for it.
-bool CurveBuilder::next_turn() {
+bool PathBuilder::next_turn() {
     if (begun_ && (turns_.is_complete() || !turns_.has_room())) return false;
     if (in_arc_) {
         add_arc_corner();
         return true;
     }
     if (spans_.size() == 0) return false;
-    const Span& span = spans_.at(0);
-    if (span.kind == SpanKind::rest) {
+    const MergedSegment& span = spans_.at(0);
+    if (span.kind == MergedSegmentKind::rest) {
         turns_.complete(u_end_);
         return true;
     }
-    const bool arc = span.kind == SpanKind::arc;
+    const bool arc = span.kind == MergedSegmentKind::arc;
     if (arc && spans_.size() < 2) return false;
     if (begun_)
         add_corner(span);
@@ -150,15 +151,15 @@ bool CurveBuilder::next_turn() {
     return true;
 }
 
-Turn& CurveBuilder::add_turn(double u, const Point& at, const Point& tangent) {
-    Turn& turn = turns_.add();
+CornerBlend& PathBuilder::add_turn(double u, const Point& at, const Point& tangent) {
+    CornerBlend& turn = turns_.add();
     turn.u = turn.begin = turn.peak = turn.end = u;
     turn.at = at;
     turn.tangent = tangent;
     return turn;
 }
 
-void CurveBuilder::begin_curve(const Span& span) {
+void PathBuilder::begin_curve(const MergedSegment& span) {
     begun_ = true;
     turns_.clear();
     u_end_ = cursor_ = 0;
@@ -166,14 +167,14 @@ void CurveBuilder::begin_curve(const Span& span) {
     eased_from_ = std::numeric_limits<double>::infinity();
     first_event_ = past_event_ = 0;
     placed_ = alive_ = edge_ = 0;
-    Turn& turn = add_turn(0, span.start, span.tangent_in);
+    CornerBlend& turn = add_turn(0, span.start, span.tangent_in);
     turn.fixed = true;
     turn.feed = span.feed;
     turn.line = span.line;
     turns_.added();
 }
 
-void CurveBuilder::add_line(const Span& line) {
+void PathBuilder::add_line(const MergedSegment& line) {
     if (line.ease_in.length > 0) {
         ease_in_ = line.ease_in;
         add_event(u_end_ + ease_in_.length);
@@ -185,8 +186,8 @@ void CurveBuilder::add_line(const Span& line) {
     }
 }
 
-void CurveBuilder::add_corner(const Span& span) {
-    Turn& turn = add_turn(u_end_, span.start, span.tangent_in);
+void PathBuilder::add_corner(const MergedSegment& span) {
+    CornerBlend& turn = add_turn(u_end_, span.start, span.tangent_in);
     for (int i = 0; i < axis_count; ++i) turn.change[i] = span.tangent_in[i] - last_.tangent_out[i];
     const Tolerance room = room_between(last_, span);
     turn.room = span.rotary ? room.rotary : room.linear;
@@ -197,40 +198,40 @@ void CurveBuilder::add_corner(const Span& span) {
     turns_.added();
 }
 
-/// The first step of an arc's polygon at a joint: as long as its share of the tolerance allows, so that the bend comes
-/// slowly.
-double CurveBuilder::joint_step(const Span& arc, const Span& neighbour, bool tangent) const {
-    if (neighbour.kind == SpanKind::rest) return 0;
+/// The first step of an arc's polygon at a joint: as long as its share of the tolerance allows, so that the curvature
+/// comes slowly.
+double PathBuilder::joint_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const {
+    if (neighbour.kind == MergedSegmentKind::rest) return 0;
     const double share = tangent ? arc_tangent_share : arc_corner_share;
     const double room = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
-    const auto by_room = [room](const Bow& bow) { return std::sqrt(room / (joint_error * bow.curvature())); };
+    const auto by_room = [room](const ArcCurve& bow) { return std::sqrt(room / (joint_error * bow.max_curvature())); };
     // The first hat reaches over the joint, but not over the neighbour's other end, nor over many of its corners.
     double step = std::min(by_room(arc.bow), neighbour.length / step_before_joint);
-    if (neighbour.kind == SpanKind::arc) {
+    if (neighbour.kind == MergedSegmentKind::arc) {
         const double other =
             std::min(by_room(neighbour.bow), inner_step(neighbour.bow, inner_share * neighbour.tolerance.linear));
         step = std::min(step, 2 * other);
     }
     // The way over the first corner is longer than the arc by this; the rotary axes turn with it.
     const double rotary_room = share * std::min(arc.tolerance.rotary, neighbour.tolerance.rotary);
-    const double square = arc.bow.curvature() * arc.bow.curvature();
+    const double square = arc.bow.max_curvature() * arc.bow.max_curvature();
     while (step_after_joint / 9 * step * step * step * square * arc.bow.rotary_rate() > rotary_room) step *= 0.5;
     return step;
 }
 
-void CurveBuilder::begin_arc(const Span& arc, const Span& next) {
+void PathBuilder::begin_arc(const MergedSegment& arc, const MergedSegment& next) {
     const bool at_rest = turns_.size() == 1;
     const double in = at_rest ? 0 : joint_step(arc, last_, arc.tangent);
     const double out = joint_step(arc, next, next.tangent);
-    arc_ = ArcPolygon(arc.bow, in, out, inner_step(arc.bow, inner_share * arc.tolerance.linear));
+    arc_ = ArcControlPolygon(arc.bow, in, out, inner_step(arc.bow, inner_share * arc.tolerance.linear));
     arc_begin_ = u_end_;
     u_end_ += arc_.length();
     corner_ = arc_.next();
     in_arc_ = true;
 }
 
-void CurveBuilder::add_arc_corner() {
-    const ArcCorner corner = corner_;
+void PathBuilder::add_arc_corner() {
+    const ArcControlPoint corner = corner_;
     Point tangent = last_.tangent_out;
     if (!corner.last) {
         corner_ = arc_.next();
@@ -239,7 +240,7 @@ void CurveBuilder::add_arc_corner() {
     }
     in_arc_ = !corner.last;
     const Point before = turns_[turns_.size() - 1].tangent;
-    Turn& turn = add_turn(arc_begin_ + corner.u, corner.at, tangent);
+    CornerBlend& turn = add_turn(arc_begin_ + corner.u, corner.at, tangent);
     turn.fixed = true;
     turn.begin = arc_begin_ + corner.begin;
     turn.peak = arc_begin_ + corner.peak;
@@ -255,12 +256,12 @@ void CurveBuilder::add_arc_corner() {
 
 // ---- pieces
 
-bool CurveBuilder::next_piece(CurvePiece& piece) {
+bool PathBuilder::next_piece(CubicSegment& piece) {
     place_turns();
     const std::int64_t settled = turns_.settled();
     const bool all = turns_.is_complete();
     // Turns that are not settled begin after this.
-    const double known = all ? turns_.end() : turns_[std::max<std::int64_t>(0, settled - TurnRow::reach)].u;
+    const double known = all ? turns_.end() : turns_[std::max<std::int64_t>(0, settled - CornerBlends::reach)].u;
     const double least = curve_rounding * (1 + cursor_);
     while (first_event_ < past_event_ && events_[first_event_] <= cursor_ + least) ++first_event_;
     double end = known;
@@ -272,20 +273,20 @@ bool CurveBuilder::next_piece(CurvePiece& piece) {
     fill(piece, end);
     cursor_ = end;
     while (alive_ < placed_ && turns_[alive_].end <= cursor_) ++alive_;
-    turns_.drop_before(std::max<std::int64_t>(0, std::min({alive_, edge_, settled - TurnRow::reach})));
+    turns_.drop_before(std::max<std::int64_t>(0, std::min({alive_, edge_, settled - CornerBlends::reach})));
     return true;
 }
 
-void CurveBuilder::place_turns() {
+void PathBuilder::place_turns() {
     for (; placed_ < turns_.settled(); ++placed_) {
-        const Turn& turn = turns_[placed_];
+        const CornerBlend& turn = turns_[placed_];
         add_event(turn.begin);
         if (turn.peak > turn.begin) add_event(turn.peak);
         if (turn.end > turn.peak) add_event(turn.end);
     }
 }
 
-void CurveBuilder::add_event(double u) {
+void PathBuilder::add_event(double u) {
     if (u <= cursor_) return;
     if (past_event_ == most_events) {
         std::copy(events_.begin() + static_cast<std::ptrdiff_t>(first_event_), events_.end(), events_.begin());
@@ -300,42 +301,42 @@ void CurveBuilder::add_event(double u) {
 
 /// The piece from the cursor to `end`. A hat's integral F rises from 0 to 1 over its width; before its corner it adds F
 /// to the tangent, after it, it takes 1 - F away from it.
-void CurveBuilder::fill(CurvePiece& piece, double end) {
+void PathBuilder::fill(CubicSegment& piece, double end) {
     const double from = cursor_;
     const double middle = 0.5 * (from + end);
     while (edge_ + 1 < turns_.size() && turns_[edge_ + 1].u <= middle) ++edge_;
-    const Turn& edge = turns_[edge_];
+    const CornerBlend& edge = turns_[edge_];
     piece.begin = from;
     piece.length = end - from;
     piece.line = edge.line;
     piece.jerk_share = middle < ease_in_.length ? ease_in_.share : middle > eased_from_ ? ease_out_.share : 1;
     piece.feed = edge.feed;
     piece.tangent = edge.tangent;
-    piece.bend = piece.twist = Point{};
+    piece.curvature = piece.curvature_rate = Point{};
     const double after_corner = from - edge.u;
     for (int i = 0; i < axis_count; ++i) piece.start[i] = edge.at[i] + after_corner * edge.tangent[i];
     for (std::int64_t j = alive_; j < placed_; ++j) {
-        const Turn& turn = turns_[j];
+        const CornerBlend& turn = turns_[j];
         if (turn.end <= middle || turn.begin >= middle) continue;
-        double place = 0, tangent = 0, bend = 0, twist = 0;
+        double place = 0, tangent = 0, curvature = 0, curvature_rate = 0;
         if (middle < turn.peak) {
             const double x = from - turn.begin;
             place = x * x * x * turn.rise * (1.0 / 3) - (j <= edge_ ? from - turn.u : 0);
             tangent = x * x * turn.rise - (j <= edge_ ? 1 : 0);
-            bend = 2 * x * turn.rise;
-            twist = 2 * turn.rise;
+            curvature = 2 * x * turn.rise;
+            curvature_rate = 2 * turn.rise;
         } else {
             const double x = turn.end - from;
             place = x * x * x * turn.fall * (1.0 / 3) + (j > edge_ ? from - turn.u : 0);
             tangent = (j > edge_ ? 1 : 0) - x * x * turn.fall;
-            bend = 2 * x * turn.fall;
-            twist = -2 * turn.fall;
+            curvature = 2 * x * turn.fall;
+            curvature_rate = -2 * turn.fall;
         }
         for (int i = 0; i < axis_count; ++i) {
             piece.start[i] += turn.change[i] * place;
             piece.tangent[i] += turn.change[i] * tangent;
-            piece.bend[i] += turn.change[i] * bend;
-            piece.twist[i] += turn.change[i] * twist;
+            piece.curvature[i] += turn.change[i] * curvature;
+            piece.curvature_rate[i] += turn.change[i] * curvature_rate;
         }
     }
     if (from == 0) piece.start = turns_[0].at;

@@ -4,7 +4,7 @@
 //   programmed  ──────┐       tangent  ▔▔▔▔╲
 //                     │       of X          ╲▁▁▁▁
 //                     │
-//   curve       ──────╮       bend     ▁▁▁╲  ╱▁▁▁
+//   curve       ──────╮       curvature     ▁▁▁╲  ╱▁▁▁
 //                     │       of X         ╲╱
 //
 //   p'(u) = first tangent + sum of the turns, each times how much of its spread is done
@@ -28,33 +28,33 @@
 
 namespace motionrack::control {
 
-/// A cubic piece of a curve; x = u - begin, 0 .. length: p(x) = start + tangent x + bend x^2/2 + twist x^3/6, axis by
-/// axis.
-struct CurvePiece {
+/// A cubic piece of a curve; x = u - begin, 0 .. length: p(x) = start + tangent x + curvature x^2/2 + curvature_rate
+/// x^3/6, axis by axis.
+struct CubicSegment {
     double begin = 0;   ///< u, from the beginning of its curve
     double length = 0;  ///< of u, above 0
     Point start = {};
     Point tangent = {};
-    Point bend = {};
-    Point twist = {};
+    Point curvature = {};
+    Point curvature_rate = {};
     std::int32_t line = 0;  ///< of the move on which the piece lies; of merged chords, the first one's
     double feed = 0;  ///< greatest du/dt, 1/s, at which XYZ nowhere on it exceed the programmed feed; infinity: as fast
                       ///< as the axes can
     double jerk_share = 1;  ///< of the axes' jerk, which the motion along it takes
 };
 
-Point position_on(const CurvePiece& piece, double x);
-Point tangent_on(const CurvePiece& piece, double x);
-Point bend_on(const CurvePiece& piece, double x);
-bool is_straight(const CurvePiece& piece);
+Point position_on(const CubicSegment& piece, double x);
+Point tangent_on(const CubicSegment& piece, double x);
+Point bend_on(const CubicSegment& piece, double x);
+bool is_straight(const CubicSegment& piece);
 
 /// What comes out: a piece of a curve, or the rest that ends a curve.
-struct CurveItem {
+struct PathElement {
     bool rest = false;
-    CurvePiece piece;    ///< if not rest
-    double seconds = 0;  ///< rest: the dwell; 0 for a stop
-    double room_mm = 0;  ///< rest: how far XYZ may be here from the corner's sides, if the next curve begins a little
-                         ///< before this one ends
+    CubicSegment piece;              ///< if not rest
+    double seconds = 0;              ///< rest: the dwell; 0 for a stop
+    double corner_tolerance_mm = 0;  ///< rest: how far XYZ may be here from the corner's sides, if the next curve
+                                     ///< begins a little before this one ends
     std::int32_t line = 0;  ///< rest: of the move that ends here, or of the dwell
     Point at = {};          ///< rest: where
 };
@@ -74,11 +74,11 @@ struct CurveItem {
 /// this tolerance, at least half a pulse.
 ///
 /// Rests: at exact_stop, at dwells, between moves of XYZ and of ABC alone, where exact_path does not meet its next move
-/// in the same direction (see same_direction), where the path turns by more than 120 degrees, and where a turn would
+/// in the same direction (see tangent_angle_rad), where the path turns by more than 120 degrees, and where a turn would
 /// have no width to speak of.
-class CurveBuilder {
+class PathBuilder {
   public:
-    CurveBuilder(const MachineLimits& limits, const Point& start);
+    PathBuilder(const MachineLimits& limits, const Point& start);
 
     /// False until enough is pulled: at the latest when pull() gives nothing more.
     bool has_room() const { return spans_.has_room(); }
@@ -92,34 +92,34 @@ class CurveBuilder {
     void flush();
 
     /// The next item; false if none can be told yet.
-    bool pull(CurveItem& item);
+    bool pull(PathElement& item);
 
   private:
     bool next_turn();
-    void begin_curve(const Span& span);
-    void add_corner(const Span& span);
-    void add_line(const Span& line);
-    void begin_arc(const Span& arc, const Span& next);
+    void begin_curve(const MergedSegment& span);
+    void add_corner(const MergedSegment& span);
+    void add_line(const MergedSegment& line);
+    void begin_arc(const MergedSegment& arc, const MergedSegment& next);
     void add_arc_corner();
-    Turn& add_turn(double u, const Point& at, const Point& tangent);
-    double joint_step(const Span& arc, const Span& neighbour, bool tangent) const;
+    CornerBlend& add_turn(double u, const Point& at, const Point& tangent);
+    double joint_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const;
 
-    bool next_piece(CurvePiece& piece);
+    bool next_piece(CubicSegment& piece);
     void place_turns();
     void add_event(double u);
-    void fill(CurvePiece& piece, double end);
-    void end_curve(CurveItem& item);
+    void fill(CubicSegment& piece, double end);
+    void end_curve(PathElement& item);
 
-    SpanMaker spans_;
-    TurnRow turns_;
-    bool begun_ = false;       ///< there is a curve, of which this is known:
-    Span last_;                ///< the span whose turns were made last
-    double u_end_ = 0;         ///< where it ends
-    Ease ease_in_, ease_out_;  ///< of its first and of its last line
-    double eased_from_ = 0;    ///< where this one begins
-    bool in_arc_ = false;      ///< of the last span there are more turns
-    ArcPolygon arc_;
-    ArcCorner corner_ = {};  ///< the next of arc_
+    SegmentMerger spans_;
+    CornerBlends turns_;
+    bool begun_ = false;                ///< there is a curve, of which this is known:
+    MergedSegment last_;                ///< the span whose turns were made last
+    double u_end_ = 0;                  ///< where it ends
+    JerkReduction ease_in_, ease_out_;  ///< of its first and of its last line
+    double eased_from_ = 0;             ///< where this one begins
+    bool in_arc_ = false;               ///< of the last span there are more turns
+    ArcControlPolygon arc_;
+    ArcControlPoint corner_ = {};  ///< the next of arc_
     double arc_begin_ = 0;
 
     // pieces

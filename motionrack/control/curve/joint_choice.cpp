@@ -4,13 +4,13 @@
 
 namespace motionrack::control {
 
-void JointChoice::begin() {
+void JunctionPlanner::begin() {
     last_ = {};
-    ways_ = {Way{}, Way{true, 0, 0}};
+    ways_ = {Candidate{}, Candidate{true, 0, 0}};
     known_ = decided_ = 0;
 }
 
-void JointChoice::add(const Leg& leg, const Joint& end) {
+void JunctionPlanner::add(const LegLimits& leg, const Junction& end) {
     MOTIONRACK_ASSERT(known_ - decided_ <= most && known_ < 32);
     ways_ = {quickest_to(leg, end, false), quickest_to(leg, end, true)};
     last_ = end;
@@ -18,14 +18,14 @@ void JointChoice::add(const Leg& leg, const Joint& end) {
     decide();
 }
 
-JointChoice::Way JointChoice::quickest_to(const Leg& leg, const Joint& end, bool stops) const {
-    Way out;
+JunctionPlanner::Candidate JunctionPlanner::quickest_to(const LegLimits& leg, const Junction& end, bool stops) const {
+    Candidate out;
     if (!(stops ? end.can_stop : end.can_pass)) return out;
     const bool one_way = ways_[0].open != ways_[1].open && !end.is_choice();
     for (const bool stopped : {false, true}) {
-        const Way& way = ways_[stopped];
+        const Candidate& way = ways_[stopped];
         if (!way.open) continue;
-        const double seconds = one_way ? 0 : way.seconds + leg_seconds(leg, last_, stopped, end, stops);
+        const double seconds = one_way ? 0 : way.seconds + leg_duration_s(leg, last_, stopped, end, stops);
         if (!out.open || seconds < out.seconds) out = {true, seconds, way.stops};
     }
     if (stops) out.stops |= std::uint32_t{1} << known_;
@@ -33,7 +33,7 @@ JointChoice::Way JointChoice::quickest_to(const Leg& leg, const Joint& end, bool
 }
 
 /// All joints before the first about which the two ways do not agree. Where too many wait the quicker way is taken.
-void JointChoice::decide() {
+void JunctionPlanner::decide() {
     decided_ = known_;
     if (!ways_[0].open || !ways_[1].open) return;
     decided_ = static_cast<std::size_t>(std::countr_zero(ways_[0].stops ^ ways_[1].stops));
@@ -42,10 +42,10 @@ void JointChoice::decide() {
     decided_ = known_;
 }
 
-bool JointChoice::take() {
+bool JunctionPlanner::take() {
     MOTIONRACK_ASSERT(decided_ > 0);
     const bool stop = (ways_[ways_[1].open].stops & 1) != 0;
-    for (Way& way : ways_) way.stops >>= 1;
+    for (Candidate& way : ways_) way.stops >>= 1;
     --known_;
     --decided_;
     return stop;

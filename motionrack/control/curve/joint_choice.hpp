@@ -12,7 +12,7 @@
 
 namespace motionrack::control {
 
-class JointChoice {
+class JunctionPlanner {
   public:
     /// Joints that wait for what comes after them.
     static constexpr std::size_t most = 12;
@@ -20,7 +20,7 @@ class JointChoice {
     /// The path begins at rest.
     void begin();
     /// A leg, and the joint at its end. After it no more than `most` joints are undecided.
-    void add(const Leg& leg, const Joint& end);
+    void add(const LegLimits& leg, const Junction& end);
 
     /// Joints that are decided and were not taken; the path's begin is none.
     std::size_t decided() const { return decided_; }
@@ -29,18 +29,18 @@ class JointChoice {
 
   private:
     /// The quickest way to the last joint, if it is stopped at, or passed.
-    struct Way {
+    struct Candidate {
         bool open = false;
         double seconds = 0;
         std::uint32_t stops = 0;  ///< bit i: at the i-th joint that was not taken
     };
 
-    Way quickest_to(const Leg& leg, const Joint& end, bool stops) const;
+    Candidate quickest_to(const LegLimits& leg, const Junction& end, bool stops) const;
     void decide();
 
-    Joint last_;
-    std::array<Way, 2> ways_;  ///< passed, stopped at
-    std::size_t known_ = 0;    ///< joints that were not taken
+    Junction last_;
+    std::array<Candidate, 2> ways_;  ///< passed, stopped at
+    std::size_t known_ = 0;          ///< joints that were not taken
     std::size_t decided_ = 0;
 };
 

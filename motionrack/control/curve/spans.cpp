@@ -50,10 +50,10 @@ bool same_feed(double a, double b) {
 
 }  // namespace
 
-SpanMaker::SpanMaker(const MachineLimits& limits, const Point& start)
+SegmentMerger::SegmentMerger(const MachineLimits& limits, const Point& start)
     : limits_(limits), half_pulse_{0.5 * finest_pulse(limits, 0), 0.5 * finest_pulse(limits, 3)}, position_(start) {}
 
-Tolerance SpanMaker::tolerance_of(const Move& move) const {
+Tolerance SegmentMerger::path_tolerance(const Move& move) const {
     if (move.path != PathControl::continuous) return half_pulse_;
     const double linear = std::min(move.tolerance_mm, widest_tolerance);
     return {std::max(linear, half_pulse_.linear),
@@ -62,12 +62,12 @@ Tolerance SpanMaker::tolerance_of(const Move& move) const {
 
 /// The move's shape; an arc that no one can tell from a line is a line, which has the arc's tangents if it is a shallow
 /// one.
-Geometry SpanMaker::shape_of(const Move& move) const {
+Geometry SegmentMerger::shape_of(const Move& move) const {
     const Geometry path = geometry_of(move, position_);
     if (path.shape != PathShape::arc) return path;
     const double turned = path.length / curvature_radius(path);
-    const double height = std::min(2 * path.radius, turned * path.length / 8) * (1 + std::fabs(path.growth));
-    if (height > least_merge_share * tolerance_of(move).linear) return path;
+    const double height = std::min(2 * path.radius, turned * path.length / 8) * (1 + std::fabs(path.radius_growth));
+    if (height > least_merge_share * path_tolerance(move).linear) return path;
     Move straight = move;
     straight.kind = MoveKind::feed;
     Geometry line = geometry_of(straight, position_);
@@ -78,11 +78,11 @@ Geometry SpanMaker::shape_of(const Move& move) const {
     return line;
 }
 
-Tolerance SpanMaker::room_to_merge(const Tolerance& tolerance) const {
+Tolerance SegmentMerger::room_to_merge(const Tolerance& tolerance) const {
     return {merge_room(tolerance.linear, 2 * half_pulse_.linear), merge_room(tolerance.rotary, 2 * half_pulse_.rotary)};
 }
 
-bool SpanMaker::is_left_out(const Geometry& path) const {
+bool SegmentMerger::is_left_out(const Geometry& path) const {
     if (path.shape == PathShape::nothing) return true;
     if (path.shape == PathShape::arc || path.length > half_pulse_.linear) return false;
     double linear = 0, rotary = 0;
@@ -94,7 +94,7 @@ bool SpanMaker::is_left_out(const Geometry& path) const {
 }
 
 /// Length and tangents of a line from `start` to `end`.
-void SpanMaker::make_line(Span& span) const {
+void SegmentMerger::make_line(MergedSegment& span) const {
     Point change;
     for (int i = 0; i < axis_count; ++i) change[i] = span.end[i] - span.start[i];
     span.length = span.rotary ? std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])})
@@ -102,30 +102,30 @@ void SpanMaker::make_line(Span& span) const {
     for (int i = 0; i < axis_count; ++i) span.tangent_in[i] = span.tangent_out[i] = change[i] / span.length;
 }
 
-Span SpanMaker::span_of(const Move& move, const Geometry& path) const {
-    Span span;
-    span.kind = SpanKind::line;
+MergedSegment SegmentMerger::span_of(const Move& move, const Geometry& path) const {
+    MergedSegment span;
+    span.kind = MergedSegmentKind::line;
     span.rotary = path.shape == PathShape::rotary;
     span.line = move.line;
     span.start = path.start;
     span.end = path.end;
-    span.tolerance = tolerance_of(move);
+    span.tolerance = path_tolerance(move);
     Point worst;
     if (path.shape == PathShape::arc) {
-        span.kind = SpanKind::arc;
-        span.bow = Bow(path);
+        span.kind = MergedSegmentKind::arc;
+        span.bow = ArcCurve(path);
         span.length = span.bow.length();
         span.tangent_in = span.bow.at(0).tangent;
         span.tangent_out = span.bow.at(span.length).tangent;
-        worst = worst_components(path);
+        worst = max_tangent_components(path);
     } else {
         if (move.kind == MoveKind::arc) span.merged = room_to_merge(span.tolerance);
         make_line(span);
         worst = span.tangent_in;
     }
-    const double fastest = speed_along(worst, limits_);
+    const double fastest = max_velocity_along(worst, limits_);
     if (move.kind == MoveKind::traverse)
-        span.feed = move.haste < 1 ? move.haste * fastest : std::numeric_limits<double>::infinity();
+        span.feed = move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
     else
         span.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * span.length : move.feed;
     span.speed = std::min(span.feed, fastest);
@@ -133,7 +133,7 @@ Span SpanMaker::span_of(const Move& move, const Geometry& path) const {
 }
 
 /// Does the path stand still between the last move and this one?
-bool SpanMaker::rests_between(const Geometry& path, const Span& span) const {
+bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& span) const {
     if (!open_ || stop_left_out_ || last_move_.path == PathControl::exact_stop || span.rotary != last_.rotary)
         return true;
     const Point& in = last_tangent_;
@@ -147,7 +147,7 @@ bool SpanMaker::rests_between(const Geometry& path, const Span& span) const {
 }
 
 /// Whether the turn between the last span and this one can be spread over a width to speak of.
-bool SpanMaker::has_width(const Span& span, const Point& in, const Point& out) const {
+bool SegmentMerger::has_width(const MergedSegment& span, const Point& in, const Point& out) const {
     double linear = 0, rotary = 0;
     for (int i = 0; i < axis_count; ++i) {
         double& most = i < 3 ? linear : rotary;
@@ -160,7 +160,7 @@ bool SpanMaker::has_width(const Span& span, const Point& in, const Point& out) c
 
 /// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
 /// Rotary axes go along.
-double SpanMaker::room_to_cut(const Span& before, const Span& after) const {
+double SegmentMerger::corner_tolerance(const MergedSegment& before, const MergedSegment& after) const {
     if (before.rotary || after.rotary) return 0;
     double room = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
     const double rotary =
@@ -173,7 +173,7 @@ double SpanMaker::room_to_cut(const Span& before, const Span& after) const {
 }
 
 /// Of the turn: as wide as its tolerance allows, but within its moves.
-double SpanMaker::width_between(const Span& before, const Span& after) const {
+double SegmentMerger::width_between(const MergedSegment& before, const MergedSegment& after) const {
     double linear = 0, rotary = 0;
     for (std::size_t i = 0; i < before.tangent_out.size(); ++i) {
         const double change = std::fabs(after.tangent_in[i] - before.tangent_out[i]);
@@ -191,15 +191,16 @@ double SpanMaker::width_between(const Span& before, const Span& after) const {
     return width;
 }
 
-Joint SpanMaker::joint_between(Waiting& before, const Span& after) const {
-    Joint joint;
+Junction SegmentMerger::joint_between(PendingSegment& before, const MergedSegment& after) const {
+    Junction joint;
     if (!after.tangent) {
-        const Leg leg_in = leg_of(before.span), leg_out = leg_of(after);
+        const LegLimits leg_in = leg_of(before.span), leg_out = leg_of(after);
         const Point &in = before.span.tangent_out, &out = after.tangent_in;
-        joint = choice_between(leg_in, leg_out, in, out, width_between(before.span, after), limits_);
-        if (!joint.can_stop || before.span.kind == SpanKind::arc || after.kind == SpanKind::arc) return joint;
-        before.room_mm = room_to_cut(before.span, after);
-        before.stop = stop_between(leg_in, leg_out, in, out, before.room_mm, limits_);
+        joint = junction_between(leg_in, leg_out, in, out, width_between(before.span, after), limits_);
+        if (!joint.can_stop || before.span.kind == MergedSegmentKind::arc || after.kind == MergedSegmentKind::arc)
+            return joint;
+        before.corner_tolerance_mm = corner_tolerance(before.span, after);
+        before.stop = corner_stop_between(leg_in, leg_out, in, out, before.corner_tolerance_mm, limits_);
         joint.gain = before.stop.gain;
         return joint;
     }
@@ -209,18 +210,19 @@ Joint SpanMaker::joint_between(Waiting& before, const Span& after) const {
     return joint;
 }
 
-Leg SpanMaker::leg_of(const Span& span) const {
-    Leg leg{span.length, span.speed, accel_along(span.tangent_in, limits_), jerk_along(span.tangent_in, limits_)};
-    if (span.kind != SpanKind::arc) return leg;
+LegLimits SegmentMerger::leg_of(const MergedSegment& span) const {
+    LegLimits leg{span.length, span.speed, max_accel_along(span.tangent_in, limits_),
+                  max_jerk_along(span.tangent_in, limits_)};
+    if (span.kind != MergedSegmentKind::arc) return leg;
     for (const Point& tangent : {span.tangent_out, span.bow.at(0.5 * span.length).tangent}) {
-        leg.accel = std::min(leg.accel, accel_along(tangent, limits_));
-        leg.jerk = std::min(leg.jerk, jerk_along(tangent, limits_));
+        leg.accel = std::min(leg.accel, max_accel_along(tangent, limits_));
+        leg.jerk = std::min(leg.jerk, max_jerk_along(tangent, limits_));
     }
-    leg.speed = std::min(leg.speed, std::sqrt(share_of_a_bend * leg.accel / span.bow.curvature()));
+    leg.speed = std::min(leg.speed, std::sqrt(max_curvature_share * leg.accel / span.bow.max_curvature()));
     return leg;
 }
 
-void SpanMaker::push(const Move& move) {
+void SegmentMerger::push(const Move& move) {
     MOTIONRACK_ASSERT(made_ - taken_ + most_a_push <= capacity);
     if (move.kind == MoveKind::dwell) {
         rest(move.seconds, move.line);
@@ -229,12 +231,12 @@ void SpanMaker::push(const Move& move) {
     Geometry path = shape_of(move);
     if (is_left_out(path)) {
         any_left_out_ = true;
-        left_out_ = move;
+        skipped_move_ = move;
         stop_left_out_ = stop_left_out_ || move.path == PathControl::exact_stop;
         return;
     }
-    Span span = span_of(move, path);
-    bool rests = rests_between(path, span);
+    MergedSegment span = span_of(move, path);
+    bool rests = stops_between(path, span);
     if (rests && any_left_out_) {
         add_left_out();
         path = shape_of(move);
@@ -243,9 +245,9 @@ void SpanMaker::push(const Move& move) {
     any_left_out_ = stop_left_out_ = false;
     if (rests || !merge(move, span)) {
         if (rests && open_) {
-            const double room = last_move_.path == PathControl::continuous ? room_to_cut(last_, span) : 0;
+            const double room = last_move_.path == PathControl::continuous ? corner_tolerance(last_, span) : 0;
             rest(0, last_move_.line);
-            spans_[(made_ - 1) % capacity].room_mm = room;
+            spans_[(made_ - 1) % capacity].corner_tolerance_mm = room;
         }
         close();
         span.tangent = !rests && is_same_direction(last_tangent_, path.tangent_in);
@@ -259,10 +261,11 @@ void SpanMaker::push(const Move& move) {
 }
 
 /// Makes the last span longer by a line, if all that is in it then lies along it.
-bool SpanMaker::merge(const Move& move, const Span& next) {
-    const bool alike = last_.kind == SpanKind::line && next.kind == SpanKind::line && move.kind != MoveKind::arc &&
-                       move.kind == last_move_.kind && move.path == last_move_.path && inner_count_ < most_merged &&
-                       next.tolerance.linear == last_.tolerance.linear && same_feed(next.feed, last_.feed);
+bool SegmentMerger::merge(const Move& move, const MergedSegment& next) {
+    const bool alike = last_.kind == MergedSegmentKind::line && next.kind == MergedSegmentKind::line &&
+                       move.kind != MoveKind::arc && move.kind == last_move_.kind && move.path == last_move_.path &&
+                       inner_count_ < max_merged && next.tolerance.linear == last_.tolerance.linear &&
+                       same_feed(next.feed, last_.feed);
     if (!alike || !lies_along(next.end, next)) return false;
     inner_[inner_count_++] = last_.end;
     last_.merged = room_to_merge(last_.tolerance);
@@ -273,7 +276,7 @@ bool SpanMaker::merge(const Move& move, const Span& next) {
     return true;
 }
 
-bool SpanMaker::lies_along(const Point& end, const Span& next) const {
+bool SegmentMerger::lies_along(const Point& end, const MergedSegment& next) const {
     const int first = next.rotary ? 3 : 0;
     const Tolerance room = room_to_merge(next.tolerance);
     const double near = next.rotary ? room.rotary : room.linear;
@@ -298,14 +301,15 @@ bool SpanMaker::lies_along(const Point& end, const Span& next) const {
 }
 
 /// Before a rest: what was left out becomes part of the last line, or a line of its own.
-void SpanMaker::add_left_out() {
+void SegmentMerger::add_left_out() {
     any_left_out_ = stop_left_out_ = false;
-    Move move = left_out_;
+    Move move = skipped_move_;
     if (move.kind == MoveKind::arc) move.kind = MoveKind::feed;
     const Geometry path = geometry_of(move, position_);
     if (path.shape == PathShape::nothing) return;
     const bool rotary = path.shape == PathShape::rotary;
-    if (open_ && last_.kind == SpanKind::line && last_.length > 1000 * path.length && (rotary || !last_.rotary)) {
+    if (open_ && last_.kind == MergedSegmentKind::line && last_.length > 1000 * path.length &&
+        (rotary || !last_.rotary)) {
         last_.end = position_ = move.end;
         make_line(last_);
         return;
@@ -319,52 +323,52 @@ void SpanMaker::add_left_out() {
 }
 
 /// The last span is whole: it waits until it is known whether the path rests at its end.
-void SpanMaker::close() {
+void SegmentMerger::close() {
     if (!open_) return;
     open_ = false;
     if (waiting_ == waiting_past_) {
         choice_.begin();
     } else {
-        Waiting& before = waiting(waiting_past_ - 1);
+        PendingSegment& before = waiting(waiting_past_ - 1);
         choice_.add(leg_of(before.span), joint_between(before, last_));
     }
     waiting(waiting_past_++) = {last_, last_move_.line, 0, {}};
     make_decided();
 }
 
-void SpanMaker::make_decided() {
+void SegmentMerger::make_decided() {
     while (choice_.decided() > 0) {
-        Waiting& ended = waiting(waiting_++);
+        PendingSegment& ended = waiting(waiting_++);
         const bool stops = choice_.take() && waiting_ < waiting_past_;
         if (stops) {
             ended.span.ease_out = ended.stop.before;
             waiting(waiting_).span.ease_in = ended.stop.after;
         }
         make(ended.span);
-        if (stops) make_rest(0, ended.last_line, ended.room_mm, ended.span.end);
+        if (stops) make_rest(0, ended.last_line, ended.corner_tolerance_mm, ended.span.end);
     }
 }
 
-void SpanMaker::make_rest(double seconds, std::int32_t line, double room_mm, const Point& at) {
-    Span span;
+void SegmentMerger::make_rest(double seconds, std::int32_t line, double corner_tolerance_mm, const Point& at) {
+    MergedSegment span;
     span.seconds = seconds;
     span.line = line;
-    span.room_mm = room_mm;
+    span.corner_tolerance_mm = corner_tolerance_mm;
     span.start = span.end = at;
     make(span);
 }
 
-void SpanMaker::rest(double seconds, std::int32_t line) {
+void SegmentMerger::rest(double seconds, std::int32_t line) {
     if (any_left_out_) add_left_out();
     close();
     if (waiting_ < waiting_past_) {
-        choice_.add(leg_of(waiting(waiting_past_ - 1).span), Joint{});
+        choice_.add(leg_of(waiting(waiting_past_ - 1).span), Junction{});
         make_decided();
     }
     make_rest(seconds, line, 0, position_);
 }
 
-void SpanMaker::flush() {
+void SegmentMerger::flush() {
     if (any_left_out_) add_left_out();
     if (open_) rest(0, last_move_.line);
 }

@@ -32,11 +32,11 @@ struct Tolerance {
     double rotary = 0;  ///< degrees
 };
 
-enum class SpanKind : std::uint8_t { line, arc, rest };
+enum class MergedSegmentKind : std::uint8_t { line, arc, rest };
 
 /// A straight line, an arc, or a rest.
-struct Span {
-    SpanKind kind = SpanKind::rest;
+struct MergedSegment {
+    MergedSegmentKind kind = MergedSegmentKind::rest;
     bool rotary = false;   ///< only ABC move; lengths are degrees
     bool tangent = false;  ///< meets the span before it in the same direction
     std::int32_t line = 0;
@@ -49,16 +49,16 @@ struct Span {
     Tolerance merged;     ///< of this, by merging chords
     double feed = 0;      ///< greatest du/dt by the program
     double speed = 0;     ///< the lesser of this and of what the axes can do
-    Ease ease_in, ease_out;
-    double seconds = 0;  ///< rest
-    double room_mm = 0;  ///< rest: how far the path may be from the sides of the corner here
-    Bow bow;             ///< arc
+    JerkReduction ease_in, ease_out;
+    double seconds = 0;              ///< rest
+    double corner_tolerance_mm = 0;  ///< rest: how far the path may be from the sides of the corner here
+    ArcCurve bow;                    ///< arc
 };
 
 /// Takes moves, gives spans in order.
-class SpanMaker {
+class SegmentMerger {
   public:
-    SpanMaker(const MachineLimits& limits, const Point& start);
+    SegmentMerger(const MachineLimits& limits, const Point& start);
 
     bool has_room() const {
         return made_ - taken_ + 2 * (waiting_past_ - waiting_) + most_a_push + most_a_flush <= capacity;
@@ -69,62 +69,62 @@ class SpanMaker {
     /// How many spans are complete.
     std::size_t size() const { return made_ - taken_; }
     /// Of these the i-th, from 0.
-    const Span& at(std::size_t i) const { return spans_[(taken_ + i) % capacity]; }
+    const MergedSegment& at(std::size_t i) const { return spans_[(taken_ + i) % capacity]; }
     void pop() { ++taken_; }
 
   private:
     static constexpr std::size_t capacity = 48;
     static constexpr std::size_t most_a_push = 5, most_a_flush = 3;
-    static constexpr std::size_t most_merged = 32;
+    static constexpr std::size_t max_merged = 32;
 
-    Tolerance tolerance_of(const Move& move) const;
+    Tolerance path_tolerance(const Move& move) const;
     Tolerance room_to_merge(const Tolerance& tolerance) const;
     Geometry shape_of(const Move& move) const;
     bool is_left_out(const Geometry& path) const;
-    Span span_of(const Move& move, const Geometry& path) const;
-    void make_line(Span& span) const;
-    bool rests_between(const Geometry& path, const Span& span) const;
-    bool has_width(const Span& span, const Point& in, const Point& out) const;
-    double room_to_cut(const Span& before, const Span& after) const;
-    double width_between(const Span& before, const Span& after) const;
-    Leg leg_of(const Span& span) const;
-    bool merge(const Move& move, const Span& next);
-    bool lies_along(const Point& end, const Span& next) const;
+    MergedSegment span_of(const Move& move, const Geometry& path) const;
+    void make_line(MergedSegment& span) const;
+    bool stops_between(const Geometry& path, const MergedSegment& span) const;
+    bool has_width(const MergedSegment& span, const Point& in, const Point& out) const;
+    double corner_tolerance(const MergedSegment& before, const MergedSegment& after) const;
+    double width_between(const MergedSegment& before, const MergedSegment& after) const;
+    LegLimits leg_of(const MergedSegment& span) const;
+    bool merge(const Move& move, const MergedSegment& next);
+    bool lies_along(const Point& end, const MergedSegment& next) const;
     void add_left_out();
     void close();
     void make_decided();
-    void make(const Span& span) { spans_[made_++ % capacity] = span; }
-    void make_rest(double seconds, std::int32_t line, double room_mm, const Point& at);
+    void make(const MergedSegment& span) { spans_[made_++ % capacity] = span; }
+    void make_rest(double seconds, std::int32_t line, double corner_tolerance_mm, const Point& at);
     void rest(double seconds, std::int32_t line);
 
     /// A span whose end is not decided yet.
-    struct Waiting {
-        Span span;
-        std::int32_t last_line = 0;  ///< of the last move in it
-        double room_mm = 0;          ///< at its end
-        Stop stop;                   ///< there, if it is one
+    struct PendingSegment {
+        MergedSegment span;
+        std::int32_t last_line = 0;      ///< of the last move in it
+        double corner_tolerance_mm = 0;  ///< at its end
+        CornerStop stop;                 ///< there, if it is one
     };
-    Joint joint_between(Waiting& before, const Span& after) const;
-    static constexpr std::size_t most_waiting = JointChoice::most + 2;
-    Waiting& waiting(std::size_t i) { return spans_waiting_[i % most_waiting]; }
+    Junction joint_between(PendingSegment& before, const MergedSegment& after) const;
+    static constexpr std::size_t most_waiting = JunctionPlanner::most + 2;
+    PendingSegment& waiting(std::size_t i) { return spans_waiting_[i % most_waiting]; }
 
     MachineLimits limits_;
     Tolerance half_pulse_;
-    JointChoice choice_;
-    std::array<Waiting, most_waiting> spans_waiting_;
+    JunctionPlanner choice_;
+    std::array<PendingSegment, most_waiting> spans_waiting_;
     std::size_t waiting_ = 0, waiting_past_ = 0;
-    std::array<Span, capacity> spans_;
+    std::array<MergedSegment, capacity> spans_;
     std::size_t made_ = 0;
     std::size_t taken_ = 0;
     Point position_;  ///< where the last move that was not left out ends
     bool any_left_out_ = false;
-    Move left_out_;               ///< the last move that was left out; the program is where it ends
+    Move skipped_move_;           ///< the last move that was left out; the program is where it ends
     bool stop_left_out_ = false;  ///< of the moves that were left out, one ends at rest
     bool open_ = false;           ///< there is a last span that may still grow
-    Span last_;
+    MergedSegment last_;
     Move last_move_;
-    Point last_tangent_ = {};               ///< at the end of the last move
-    std::array<Point, most_merged> inner_;  ///< ends of the moves in last_, but its own
+    Point last_tangent_ = {};              ///< at the end of the last move
+    std::array<Point, max_merged> inner_;  ///< ends of the moves in last_, but its own
     std::size_t inner_count_ = 0;
 };
 

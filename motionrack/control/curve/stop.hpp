@@ -12,18 +12,18 @@
 namespace motionrack::control {
 
 /// The end of a leg on which it takes only a part of its jerk.
-struct Ease {
+struct JerkReduction {
     double length = 0;  ///< mm or degrees
     double share = 1;
 };
 
-struct Stop {
+struct CornerStop {
     double gain = 0;  ///< s
-    Ease before, after;
+    JerkReduction before, after;
 };
 
-/// About what overlap_of() will find; `room_mm`: how far the path may be from the corner's sides.
-Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm,
-                  const MachineLimits& limits);
+/// About what max_overlap_s() will find; `corner_tolerance_mm`: how far the path may be from the corner's sides.
+CornerStop corner_stop_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
+                               double corner_tolerance_mm, const MachineLimits& limits);
 
 }  // namespace motionrack::control

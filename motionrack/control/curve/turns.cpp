@@ -36,7 +36,7 @@ struct Sum {
     double a = 0, b = 0, c = 0, e = 0;
     double per_accel = 0, per_jerk = 0;
 
-    void add(const Turn& turn, double weight, double d) {
+    void add(const CornerBlend& turn, double weight, double d) {
         a += weight;
         b += weight * 6 * d;
         c += weight * 12 * d * d;
@@ -60,32 +60,32 @@ struct Sum {
     }
 };
 
-double weight_of(const Turn& turn, const Turn& corner) {
+double weight_of(const CornerBlend& turn, const CornerBlend& corner) {
     return std::max(turn.linear, turn.rotary * corner.room_per_rotary);
 }
 
 }  // namespace
 
-TurnRow::TurnRow(const MachineLimits& limits) {
+CornerBlends::CornerBlends(const MachineLimits& limits) {
     for (int i = 0; i < axis_count; ++i) {
         per_accel_[i] = limits[i].max_accel > 0 ? 1 / limits[i].max_accel : 0;
-        per_jerk_[i] = jerk_of(limits[i]) > 0 ? 1 / jerk_of(limits[i]) : 0;
+        per_jerk_[i] = effective_jerk(limits[i]) > 0 ? 1 / effective_jerk(limits[i]) : 0;
     }
 }
 
-void TurnRow::clear() {
+void CornerBlends::clear() {
     made_ = proposed_ = checked_ = settled_ = dropped_ = 0;
     complete_ = false;
 }
 
-Turn& TurnRow::add() {
-    Turn& out = turn(made_++);
-    out = Turn{};
+CornerBlend& CornerBlends::add() {
+    CornerBlend& out = turn(made_++);
+    out = CornerBlend{};
     return out;
 }
 
-void TurnRow::added() {
-    Turn& last = turn(made_ - 1);
+void CornerBlends::added() {
+    CornerBlend& last = turn(made_ - 1);
     double square = 0;
     for (int i = 0; i < axis_count; ++i) {
         const double size = std::fabs(last.change[i]);
@@ -100,13 +100,13 @@ void TurnRow::added() {
     advance();
 }
 
-void TurnRow::complete(double u) {
+void CornerBlends::complete(double u) {
     complete_ = true;
     end_ = u;
     advance();
 }
 
-void TurnRow::advance() {
+void CornerBlends::advance() {
     const auto known = [this](std::int64_t done, std::int64_t upto) {
         return complete_ ? done < upto : done + reach < upto;
     };
@@ -116,8 +116,8 @@ void TurnRow::advance() {
     for (; known(settled_, checked_); ++settled_) settle(settled_);
 }
 
-double TurnRow::proposed_width(std::int64_t k) const {
-    const Turn& own = (*this)[k];
+double CornerBlends::proposed_width(std::int64_t k) const {
+    const CornerBlend& own = (*this)[k];
     if (own.linear < no_change && own.rotary < no_change) return 0;
     const std::int64_t first = std::max<std::int64_t>(0, k - reach);
     const std::int64_t past = std::min(made_, k + reach + 1);
@@ -139,14 +139,14 @@ double TurnRow::proposed_width(std::int64_t k) const {
         if (need <= width) return need;
         if (width >= most) return most;
         const std::int64_t next = d_before < d_after ? before-- : after++;
-        const Turn& other = (*this)[next];
+        const CornerBlend& other = (*this)[next];
         if (!other.fixed) sum.add(other, weight_of(other, own), 0.5 * width);
         from = width;
     }
 }
 
-double TurnRow::shrink_at(std::int64_t k) const {
-    const Turn& own = (*this)[k];
+double CornerBlends::shrink_at(std::int64_t k) const {
+    const CornerBlend& own = (*this)[k];
     struct Reaching {
         double weight, width, distance;
     };
@@ -154,7 +154,7 @@ double TurnRow::shrink_at(std::int64_t k) const {
     std::size_t count = 0;
     const std::int64_t past = std::min(made_, k + reach + 1);
     for (std::int64_t j = std::max<std::int64_t>(0, k - reach); j < past; ++j) {
-        const Turn& other = (*this)[j];
+        const CornerBlend& other = (*this)[j];
         const double twice = 2 * std::fabs(other.u - own.u);
         if (!other.fixed && other.width > twice) all[count++] = {weight_of(other, own), other.width, twice};
     }
@@ -182,10 +182,10 @@ double TurnRow::shrink_at(std::int64_t k) const {
 }
 
 /// Spreads a turn over a width, or over a little less so that it reaches from corner to corner, as nearly as it can:
-/// where corners are as far apart as each other, the spread turns then add up to a bend without ripples, and knots fall
-/// together.
-void TurnRow::spread(std::int64_t k, double width) {
-    Turn& own = turn(k);
+/// where corners are as far apart as each other, the spread turns then add up to a curvature without ripples, and knots
+/// fall together.
+void CornerBlends::spread(std::int64_t k, double width) {
+    CornerBlend& own = turn(k);
     own.width = width;
     std::int64_t m = 0;
     const auto both = [this, k](std::int64_t n) { return (*this)[k + n].u - (*this)[k - n].u; };
@@ -205,13 +205,13 @@ void TurnRow::spread(std::int64_t k, double width) {
     }
 }
 
-void TurnRow::settle(std::int64_t k) {
-    Turn& own = turn(k);
+void CornerBlends::settle(std::int64_t k) {
+    CornerBlend& own = turn(k);
     if (!own.fixed) {
         double shrink = 1;
         const std::int64_t past = std::min(made_, k + reach + 1);
         for (std::int64_t j = std::max<std::int64_t>(0, k - reach); j < past; ++j) {
-            const Turn& other = (*this)[j];
+            const CornerBlend& other = (*this)[j];
             if (2 * std::fabs(other.u - own.u) < own.width) shrink = std::min(shrink, other.shrink);
         }
         spread(k, own.width * shrink);

@@ -16,7 +16,7 @@ namespace motionrack::control {
 
 /// The path's direction changes by `change` at `u`; this is spread over begin .. end as a triangle whose peak is at
 /// `peak`. The mean of these three is u, so that outside of them nothing changes.
-struct Turn {
+struct CornerBlend {
     double u = 0;
     double begin = 0, peak = 0, end = 0;
     double rise = 0,
@@ -38,18 +38,18 @@ struct Turn {
     std::int32_t line = 0;  ///< after the corner
 };
 
-class TurnRow {
+class CornerBlends {
   public:
     static constexpr std::int64_t reach = 8;
     static constexpr std::int64_t capacity = 128;
 
-    explicit TurnRow(const MachineLimits& limits);
+    explicit CornerBlends(const MachineLimits& limits);
 
     /// Begins a new curve.
     void clear();
     bool has_room() const { return made_ - dropped_ < capacity; }
     /// A turn to fill; begin, peak and end too where it is fixed.
-    Turn& add();
+    CornerBlend& add();
     /// What is to be known of the last turn is: works out what follows from its change.
     void added();
     /// No turn comes after; the curve ends at u.
@@ -61,10 +61,10 @@ class TurnRow {
     std::int64_t settled() const { return settled_; }
     bool is_complete() const { return complete_; }
     double end() const { return end_; }
-    const Turn& operator[](std::int64_t i) const { return turns_[static_cast<std::size_t>(i % capacity)]; }
+    const CornerBlend& operator[](std::int64_t i) const { return turns_[static_cast<std::size_t>(i % capacity)]; }
 
   private:
-    Turn& turn(std::int64_t i) { return turns_[static_cast<std::size_t>(i % capacity)]; }
+    CornerBlend& turn(std::int64_t i) { return turns_[static_cast<std::size_t>(i % capacity)]; }
     void advance();
     double proposed_width(std::int64_t k) const;
     double shrink_at(std::int64_t k) const;
@@ -73,7 +73,7 @@ class TurnRow {
 
     std::array<double, axis_count> per_accel_;
     std::array<double, axis_count> per_jerk_;
-    std::array<Turn, capacity> turns_;
+    std::array<CornerBlend, capacity> turns_;
     std::int64_t made_ = 0, proposed_ = 0, checked_ = 0, settled_ = 0, dropped_ = 0;
     bool complete_ = false;
     double end_ = 0;

@@ -22,7 +22,7 @@ struct Rise {
 /// One end of the line, seen from its rest.
 class End {
   public:
-    End(double eased_way, double eased_jerk, const FeedSpan& limits)
+    End(double eased_way, double eased_jerk, const LimitInterval& limits)
         : way_(eased_way),
           jerk_(limits.jerk),
           most_accel_(limits.accel),
@@ -86,8 +86,8 @@ std::optional<double> greatest_speed(const End& begin, const End& end, double le
 }
 
 /// Less jerk at one or both ends, all else alike.
-bool is_eased_line(std::span<const FeedSpan> spans, const FeedSpan& full) {
-    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
+bool is_eased_line(std::span<const LimitInterval> spans, const LimitInterval& full) {
+    return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
         return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel &&
                span.jerk <= full.jerk;
     });
@@ -95,13 +95,13 @@ bool is_eased_line(std::span<const FeedSpan> spans, const FeedSpan& full) {
 
 }  // namespace
 
-bool write_eased_feed(std::span<const FeedSpan> spans, std::vector<FeedPiece>& out) {
+bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vector<ProfileSegment>& out) {
     if (spans.size() < 2 || spans.size() > 3) return false;
     const std::size_t first = spans.size() == 3 || spans[0].jerk < spans[1].jerk ? 1 : 0;
-    const FeedSpan& full = spans[first];
+    const LimitInterval& full = spans[first];
     if (!is_eased_line(spans, full)) return false;
     double length = 0;
-    for (const FeedSpan& span : spans) length += span.length;
+    for (const LimitInterval& span : spans) length += span.length;
     const auto end_of = [&](bool there, std::size_t i) {
         return there ? End(spans[i].length, spans[i].jerk, full) : End(0, full.jerk, full);
     };

@@ -15,6 +15,6 @@ namespace motionrack::control {
 
 /// From rest to rest. False, and nothing is written, where the spans are not such a line, or the ends too long for it
 /// to be the quickest.
-bool write_eased_feed(std::span<const FeedSpan> spans, std::vector<FeedPiece>& out);
+bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vector<ProfileSegment>& out);
 
 }  // namespace motionrack::control

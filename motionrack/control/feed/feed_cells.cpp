@@ -8,7 +8,7 @@ namespace motionrack::control {
 namespace {
 
 /// Cells grow away from a rest or a narrow place by this much of the way.
-constexpr double growth = 0.25;
+constexpr double radius_growth = 0.25;
 /// Beside a narrow place cells take so much of the time that the jerk needs to leave it.
 constexpr double unlike_part = 0.25;
 /// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this
@@ -24,7 +24,7 @@ constexpr double first_part = 0.1;
 /// No cell is shorter than this part of the path: places have no more digits.
 constexpr double least_part = 1e-13;
 
-FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
+LimitInterval least_of(const LimitInterval& a, const LimitInterval& b) {
     return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk),
             std::min(a.brake, b.brake)};
 }
@@ -39,15 +39,15 @@ double launch_length(double jerk, double seconds) {
 /// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike, and not so long that
 /// the speed cannot come back to what a span ahead allows: one that ends at half of that speed needs no braking, and
 /// one of a fourteenth of the way has the room.
-FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back) const {
+VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> spans, bool back) const {
     End end{length_ * most_launch, 0};
-    FeedSpan least = spans[back ? spans.size() - 1 : 0];
+    LimitInterval least = spans[back ? spans.size() - 1 : 0];
     double before = 0;
     bool within = true;
     for (std::size_t n = 0; n < spans.size() && before * most_launch < end.length; ++n) {
-        const FeedSpan& span = spans[back ? spans.size() - 1 - n : n];
+        const LimitInterval& span = spans[back ? spans.size() - 1 - n : n];
         if (within) {
-            const FeedSpan all = least_of(least, span);
+            const LimitInterval all = least_of(least, span);
             const double fits = launch_length(
                 all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
             const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
@@ -70,7 +70,7 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
 }
 
 /// How long cells should be for a span's own sake.
-double FeedPlanner::wanted(const FeedSpan& span) const {
+double VelocityPlanner::target_cell_length(const LimitInterval& span) const {
     const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk,
                                       quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
     return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / min_feed_cells);
@@ -78,43 +78,43 @@ double FeedPlanner::wanted(const FeedSpan& span) const {
 
 /// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than
 /// its speed and its acceleration last.
-double FeedPlanner::first_size(double wanted) const {
+double VelocityPlanner::first_size(double wanted) const {
     const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.square), slope = std::fabs(start_.slope);
     return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
 }
 
 /// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the
 /// narrow ones.
-void FeedPlanner::grade(std::span<const FeedSpan> spans) {
+void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> spans) {
     sizes_.assign(spans.size() + 1, 0);
-    sizes_.front() = moving() ? first_size(wanted(spans.front())) : launch_.length / 3;
+    sizes_.front() = moving() ? first_size(target_cell_length(spans.front())) : launch_.length / 3;
     sizes_.back() = landing_.length / 3;
     for (std::size_t k = 1; k < spans.size(); ++k) {
-        const FeedSpan least = least_of(spans[k - 1], spans[k]);
+        const LimitInterval least = least_of(spans[k - 1], spans[k]);
         // Between unlike speeds the jerk needs about this time to reach or leave the lesser one.
         const double unlike = 1 - least.speed / std::max(spans[k - 1].speed, spans[k].speed);
         const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
         const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
-        sizes_[k] = std::min({wanted(spans[k - 1]), wanted(spans[k]), ramp});
+        sizes_[k] = std::min({target_cell_length(spans[k - 1]), target_cell_length(spans[k]), ramp});
     }
     for (std::size_t k = 1; k < sizes_.size(); ++k)
-        sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);
+        sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + radius_growth * spans[k - 1].length);
     for (std::size_t k = sizes_.size() - 1; k-- > 0;)
-        sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + growth * spans[k].length);
+        sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + radius_growth * spans[k].length);
 }
 
-void FeedPlanner::cut(std::span<const FeedSpan> spans) {
+void VelocityPlanner::build_cells(std::span<const LimitInterval> spans) {
     launch_ = moving() ? End{} : end_of(spans, false);
     landing_ = end_of(spans, true);
-    grade(spans);
+    compute_cell_sizes(spans);
     cells_.clear();
     const double end = length_ - landing_.length;
     std::size_t at = 0;
     for (double begin = launch_.length; begin < end;) {
         while (at + 1 < spans.size() && ends_[at] <= begin) ++at;
         const double from_left = begin - (ends_[at] - spans[at].length), to_right = ends_[at] - begin;
-        double size = std::min(
-            {wanted(spans[at]), sizes_[at] + growth * from_left, sizes_[at + 1] + growth / (1 + growth) * to_right});
+        double size = std::min({target_cell_length(spans[at]), sizes_[at] + radius_growth * from_left,
+                                sizes_[at + 1] + radius_growth / (1 + radius_growth) * to_right});
         size = std::max(size, least_part * length_);
         if (begin + 1.5 * size >= end)
             size = end - begin;
@@ -127,8 +127,8 @@ void FeedPlanner::cut(std::span<const FeedSpan> spans) {
 }
 
 /// `at`: the span in which it begins.
-void FeedPlanner::add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end) {
-    FeedSpan least = spans[at];
+void VelocityPlanner::add_cell(std::span<const LimitInterval> spans, std::size_t at, double begin, double end) {
+    LimitInterval least = spans[at];
     for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = least_of(least, spans[at + 1]);
     cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
 }

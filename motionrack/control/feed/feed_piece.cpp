@@ -48,31 +48,31 @@ Series series_of(double square) {
 }
 
 /// Place on a cell after `time`.
-double moved(const FeedPiece& cell, double speed, double time) {
+double moved(const ProfileSegment& cell, double speed, double time) {
     const Series series = series_of(0.5 * cell.bend * time * time);
     return speed * time * series.sine + 0.25 * cell.slope * time * time * series.cosine;
 }
 
-double square_at(const FeedPiece& cell, double x) {
+double square_at(const ProfileSegment& cell, double x) {
     return std::max(0.0, cell.square + x * (cell.slope + 0.5 * cell.bend * x));
 }
 
 }  // namespace
 
-FeedPiece sketched_cell(double begin, double length, double square, double slope, double bend) {
-    FeedPiece cell{FeedPhase::cell, begin, length, 0, square, slope, bend, 0};
+ProfileSegment approximate_cell(double begin, double length, double square, double slope, double bend) {
+    ProfileSegment cell{ProfileSegmentKind::cell, begin, length, 0, square, slope, bend, 0};
     cell.seconds = 2 * length / (std::sqrt(square) + std::sqrt(square_at(cell, length)));
     return cell;
 }
 
-FeedPiece feed_cell(double begin, double length, double square, double slope, double bend) {
-    FeedPiece cell = sketched_cell(begin, length, square, slope, bend);
+ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend) {
+    ProfileSegment cell = approximate_cell(begin, length, square, slope, bend);
     settle(cell);
     return cell;
 }
 
-void settle(FeedPiece& cell) {
-    if (cell.phase != FeedPhase::cell) return;
+void settle(ProfileSegment& cell) {
+    if (cell.phase != ProfileSegmentKind::cell) return;
     const double length = cell.length, slope = cell.slope, bend = cell.bend;
     const double speed = std::sqrt(cell.square), end = std::sqrt(square_at(cell, length));
     // Slower than at the ends it is only where it has slowed down and speeds up again.
@@ -93,30 +93,30 @@ void settle(FeedPiece& cell) {
     cell.seconds = time;
 }
 
-FeedPiece feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk) {
-    return {FeedPhase::ramp, begin, length, seconds, speed * speed, 2 * accel, 0, jerk};
+ProfileSegment feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk) {
+    return {ProfileSegmentKind::ramp, begin, length, seconds, speed * speed, 2 * accel, 0, jerk};
 }
 
 // speed = jerk t^2/2, length = jerk t^3/6
-FeedPiece feed_launch(double begin, double length, double square) {
+ProfileSegment feed_launch(double begin, double length, double square) {
     const double speed = std::sqrt(square), seconds = 3 * length / speed;
-    return {FeedPhase::launch, begin, length, seconds, 0, 0, 0, 2 * speed / (seconds * seconds)};
+    return {ProfileSegmentKind::launch, begin, length, seconds, 0, 0, 0, 2 * speed / (seconds * seconds)};
 }
 
-FeedPiece feed_landing(double begin, double length, double square) {
-    FeedPiece out = feed_launch(begin, length, square);
-    out.phase = FeedPhase::landing;
+ProfileSegment feed_landing(double begin, double length, double square) {
+    ProfileSegment out = feed_launch(begin, length, square);
+    out.phase = ProfileSegmentKind::landing;
     return out;
 }
 
-FeedState FeedPiece::at(double time) const {
-    if (phase == FeedPhase::launch)
+PathMotion ProfileSegment::at(double time) const {
+    if (phase == ProfileSegmentKind::launch)
         return {begin + jerk * time * time * time / 6, jerk * time * time / 2, jerk * time, jerk};
-    if (phase == FeedPhase::landing) {
+    if (phase == ProfileSegmentKind::landing) {
         const double left = seconds - time;
         return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
     }
-    if (phase == FeedPhase::ramp) {
+    if (phase == ProfileSegmentKind::ramp) {
         const double speed = std::sqrt(square), accel = 0.5 * slope;
         return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
                 speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
@@ -126,8 +126,8 @@ FeedState FeedPiece::at(double time) const {
     return {begin + x, speed, 0.5 * (slope + bend * x), 0.5 * bend * speed};
 }
 
-FeedState FeedPiece::last() const {
-    if (phase != FeedPhase::cell) return at(seconds);
+PathMotion ProfileSegment::last() const {
+    if (phase != ProfileSegmentKind::cell) return at(seconds);
     const double speed = std::sqrt(square_at(*this, length));
     return {begin + length, speed, 0.5 * (slope + bend * length), 0.5 * bend * speed};
 }

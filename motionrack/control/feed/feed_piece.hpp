@@ -14,17 +14,17 @@
 namespace motionrack::control {
 
 /// The motion along the path at one instant.
-struct FeedState {
+struct PathMotion {
     double place = 0;  ///< u
     double speed = 0;
     double accel = 0;
     double jerk = 0;
 };
 
-enum class FeedPhase : std::uint8_t { launch, cell, ramp, landing };
+enum class ProfileSegmentKind : std::uint8_t { launch, cell, ramp, landing };
 
-struct FeedPiece {
-    FeedPhase phase = FeedPhase::cell;
+struct ProfileSegment {
+    ProfileSegmentKind phase = ProfileSegmentKind::cell;
     double begin = 0;  ///< u
     double length = 0;
     double seconds = 0;
@@ -34,22 +34,22 @@ struct FeedPiece {
     double jerk = 0;    ///< all but a cell
 
     /// `time` from the piece's begin, 0 .. seconds.
-    FeedState at(double time) const;
+    PathMotion at(double time) const;
     /// at(seconds), quicker.
-    FeedState last() const;
+    PathMotion last() const;
 };
 
 /// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it, but at an end beside a rest
 /// it may be rounded to 0.
-FeedPiece sketched_cell(double begin, double length, double square, double slope, double bend);
+ProfileSegment approximate_cell(double begin, double length, double square, double slope, double bend);
 /// Gives a cell its exact time.
-void settle(FeedPiece& piece);
+void settle(ProfileSegment& piece);
 /// A cell with its exact time.
-FeedPiece feed_cell(double begin, double length, double square, double slope, double bend);
+ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend);
 /// Constant jerk from a speed and an acceleration; both and the jerk may be of any sign as long as the place rises.
-FeedPiece feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk);
+ProfileSegment feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk);
 /// Rest at `begin`, and the square of the speed at the other end; or the other way round.
-FeedPiece feed_launch(double begin, double length, double square);
-FeedPiece feed_landing(double begin, double length, double square);
+ProfileSegment feed_launch(double begin, double length, double square);
+ProfileSegment feed_landing(double begin, double length, double square);
 
 }  // namespace motionrack::control

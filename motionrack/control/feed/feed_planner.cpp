@@ -15,8 +15,8 @@ constexpr double first_guess = 2, guess_falls = 0.3;
 /// Of the square that a motion goes on with.
 constexpr double least_square = 1e-6;
 
-bool all_alike(std::span<const FeedSpan> spans) {
-    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
+bool all_alike(std::span<const LimitInterval> spans) {
+    return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
         return span.speed == spans[0].speed && span.accel == spans[0].accel && span.brake == spans[0].accel &&
                span.jerk == spans[0].jerk;
     });
@@ -24,28 +24,30 @@ bool all_alike(std::span<const FeedSpan> spans) {
 
 }  // namespace
 
-std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) {
+std::span<const ProfileSegment> VelocityPlanner::plan(std::span<const LimitInterval> spans) {
     return plan_from({}, spans);
 }
 
-std::span<const FeedPiece> FeedPlanner::plan_from(const FeedStart& start, std::span<const FeedSpan> spans) {
-    sketch_from(start, spans);
-    for (FeedPiece& piece : pieces_) settle(piece);
+std::span<const ProfileSegment> VelocityPlanner::plan_from(const InitialPathState& start,
+                                                           std::span<const LimitInterval> spans) {
+    plan_approximate(start, spans);
+    for (ProfileSegment& piece : pieces_) settle(piece);
     return pieces_;
 }
 
-std::span<const FeedPiece> FeedPlanner::sketch_from(const FeedStart& start, std::span<const FeedSpan> spans) {
-    start_ = start.square > 0 ? start : FeedStart{};
+std::span<const ProfileSegment> VelocityPlanner::plan_approximate(const InitialPathState& start,
+                                                                  std::span<const LimitInterval> spans) {
+    start_ = start.square > 0 ? start : InitialPathState{};
     return sketch(spans, false);
 }
 
-std::span<const FeedPiece> FeedPlanner::sketch_again(std::span<const FeedSpan> spans) {
+std::span<const ProfileSegment> VelocityPlanner::replan_approximate(std::span<const LimitInterval> spans) {
     before_.swap(pieces_);
     return sketch(spans, !before_.empty());
 }
 
-std::span<const FeedPiece> FeedPlanner::sketch(std::span<const FeedSpan> spans, bool again) {
-    measure(spans);
+std::span<const ProfileSegment> VelocityPlanner::sketch(std::span<const LimitInterval> spans, bool again) {
+    measure_length(spans);
     if (!(length_ > 0)) return pieces_;
     if (all_alike(spans)) {
         if (moving())
@@ -54,44 +56,44 @@ std::span<const FeedPiece> FeedPlanner::sketch(std::span<const FeedSpan> spans, 
             write_s_curve(spans.front());
         return pieces_;
     }
-    if (!moving() && write_eased_feed(spans, pieces_)) return pieces_;
-    cut(spans);
+    if (!moving() && write_reduced_jerk_profile(spans, pieces_)) return pieces_;
+    build_cells(spans);
     if (again)
-        approach_again();
+        solve_from_previous();
     else
-        approach();
+        solve_from_limits();
     if (!moving() || found_) write();
     return pieces_;
 }
 
-void FeedPlanner::measure(std::span<const FeedSpan> spans) {
+void VelocityPlanner::measure_length(std::span<const LimitInterval> spans) {
     pieces_.clear();
     ends_.clear();
     length_ = 0;
-    for (const FeedSpan& span : spans) ends_.push_back(length_ += span.length);
+    for (const LimitInterval& span : spans) ends_.push_back(length_ += span.length);
 }
 
 /// The limits first, then nearer and nearer to what they allow.
-void FeedPlanner::approach() {
+void VelocityPlanner::solve_from_limits() {
     found_ = can_start_ = true;
-    bound();
-    slope_limits();
-    rise_both();
-    keep_start();
-    come_nearer();
+    compute_bounds();
+    compute_slope_limits();
+    forward_backward_pass();
+    restore_start();
+    refine();
 }
 
 /// At once near to what was found before.
-void FeedPlanner::approach_again() {
+void VelocityPlanner::solve_from_previous() {
     found_ = can_start_ = true;
-    bound();
-    slope_limits();
+    compute_bounds();
+    compute_slope_limits();
     left_.assign(cells_.size() + 2, 0);
     std::size_t k = 0, known = before_.size();  // the piece whose speeds these are
     double begin = 0, end = 0;
     const auto square_at = [&](double place) {
         while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
-        const FeedPiece& piece = before_[k];
+        const ProfileSegment& piece = before_[k];
         if (known != k) {
             begin = piece.at(0).speed;
             end = piece.last().speed;
@@ -106,23 +108,23 @@ void FeedPlanner::approach_again() {
         left_[i + 1] = std::max(at_begin, at_end);
         at_begin = at_end;
     }
-    come_nearer();
+    refine();
 }
 
 /// From a first idea in left_.
-void FeedPlanner::come_nearer() {
-    narrow(left_, first_guess);
-    seek();
+void VelocityPlanner::refine() {
+    tighten_limits(left_, first_guess);
+    solve();
     double guess = first_guess;
     for (int i = 0; i < settings_.refinements; ++i, guess = 1 + (guess - 1) * guess_falls)
         if (is_loose(guess)) {
-            narrow(square_, guess);
-            seek();
+            tighten_limits(square_, guess);
+            solve();
         }
 }
 
 /// Bounds of control points, and the ways between them.
-void FeedPlanner::bound() {
+void VelocityPlanner::compute_bounds() {
     const std::size_t n = cells_.size();
     way_.assign(n + 1, 0);
     bound_.assign(n + 2, 0);
@@ -143,7 +145,7 @@ void FeedPlanner::bound() {
 }
 
 /// Whether a tighter bound would be news: where points could bend more, or slopes change more.
-bool FeedPlanner::is_loose(double guess) const {
+bool VelocityPlanner::is_loose(double guess) const {
     for (std::size_t i = 1; i <= cells_.size(); ++i) {
         const Cell& cell = cells_[i - 1];
         const bool eased = std::min(up_[i - 1], up_[i]) < cell.up || std::min(down_[i - 1], down_[i]) < cell.down;
@@ -153,27 +155,27 @@ bool FeedPlanner::is_loose(double guess) const {
 }
 
 /// Nothing will be above `guess` times what was found. Where that is slower, the jerk lets more bend.
-void FeedPlanner::narrow(const std::vector<double>& found, double guess) {
+void VelocityPlanner::tighten_limits(const std::vector<double>& found, double guess) {
     for (std::size_t i = moving() ? 2 : 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
     for (std::size_t i = 0; i < cells_.size(); ++i)
         cells_[i].square = std::min(cells_[i].square, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
 }
 
-void FeedPlanner::seek() {
-    slope_limits();
-    ease_slopes();
+void VelocityPlanner::solve() {
+    compute_slope_limits();
+    limit_slope_rates();
     stalls_ = false;
-    rise_both();
+    forward_backward_pass();
     found_ = !moving() || (can_start_ && !stalls_ && left_[1] >= bound_[1]);
-    keep_start();
-    hull();
+    restore_start();
+    limit_deceleration_jerk();
     // What goes on bends into what follows as the jerk allows: then the second point is a corner of the hull.
     if (moving()) found_ = found_ && edges_.size() > 1 && edges_[1].from == 1;
-    keep_start();
+    restore_start();
 }
 
 /// The start's points stand, whatever follows.
-void FeedPlanner::keep_start() {
+void VelocityPlanner::restore_start() {
     if (!moving()) return;
     for (std::size_t i = 0; i < 2; ++i) {
         left_[i] = bound_[i];
@@ -181,15 +183,15 @@ void FeedPlanner::keep_start() {
     }
 }
 
-void FeedPlanner::rise_both() {
-    rise(left_, false);
-    rise(right_, true);
+void VelocityPlanner::forward_backward_pass() {
+    accelerate_pass(left_, false);
+    accelerate_pass(right_, true);
     for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = std::min(left_[i], right_[i]);
 }
 
 /// The greatest slope at each knot. At a rest the straight line from (a quarter of the launch, 0) through the launch's
 /// end is what constant jerk makes of w there, whatever jerk it is.
-void FeedPlanner::slope_limits() {
+void VelocityPlanner::compute_slope_limits() {
     const std::size_t n = cells_.size();
     up_.assign(n + 1, 0);
     down_.assign(n + 1, 0);
@@ -206,12 +208,12 @@ void FeedPlanner::slope_limits() {
 
 /// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed
 /// would reach over.
-void FeedPlanner::ease_slopes() {
-    ease(up_);
-    ease(down_);
+void VelocityPlanner::limit_slope_rates() {
+    limit_slope_rate(up_);
+    limit_slope_rate(down_);
 }
 
-void FeedPlanner::ease(std::vector<double>& slopes) const {
+void VelocityPlanner::limit_slope_rate(std::vector<double>& slopes) const {
     const std::size_t n = cells_.size();
     const auto change = [&](const Cell& cell) { return cell.bend / std::sqrt(cell.square) * cell.length; };
     for (std::size_t k = 1; k <= n; ++k) slopes[k] = std::min(slopes[k], slopes[k - 1] + change(cells_[k - 1]));
@@ -221,7 +223,7 @@ void FeedPlanner::ease(std::vector<double>& slopes) const {
 // ---- passes
 
 /// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
-void FeedPlanner::rise(std::vector<double>& out, bool back) {
+void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     const std::size_t n = cells_.size();
     const std::vector<double>& slopes = back ? down_ : up_;
     const auto point = [&](std::size_t i) { return back ? n + 1 - i : i; };
@@ -257,7 +259,7 @@ void FeedPlanner::rise(std::vector<double>& out, bool back) {
 
 /// The greatest points under left_ that bend downwards no more than the jerk allows at the speed of left_: a convex
 /// hull. All sums are of what lies between two corners, so that small speeds near a rest keep their digits.
-void FeedPlanner::hull() {
+void VelocityPlanner::limit_deceleration_jerk() {
     const std::size_t n = cells_.size();
     square_.resize(n + 2);
     fall_.assign(n + 2, 0);
@@ -278,11 +280,11 @@ void FeedPlanner::hull() {
         edges_.push_back(edge);
     }
     for (std::size_t k = 0; k < edges_.size(); ++k)
-        follow(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
+        evaluate_hull_edge(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
 }
 
 /// From its lower end, where digits count.
-void FeedPlanner::follow(const Edge& edge, std::size_t to) {
+void VelocityPlanner::evaluate_hull_edge(const Edge& edge, std::size_t to) {
     square_[edge.from] = left_[edge.from];
     square_[to] = left_[to];
     if (left_[edge.from] <= left_[to]) {

@@ -24,33 +24,34 @@
 namespace motionrack::control {
 
 /// The motion where a path begins.
-struct FeedStart {
+struct InitialPathState {
     double square = 0;  ///< of the speed; 0: rest
     double slope = 0;   ///< of the square over the path: twice the acceleration
 };
 
-struct FeedSettings {
+struct VelocityPlannerSettings {
     double cell_seconds = 0.004;  ///< a cell takes about so long at its limit
     int refinements = 3;          ///< steps from a safe to a tight idea of the speed, on which the jerk's bend depends
 };
 
 /// Allocates only when a path is longer than all before it.
-class FeedPlanner {
+class VelocityPlanner {
   public:
-    explicit FeedPlanner(FeedSettings settings = {}) : settings_(settings) {}
+    explicit VelocityPlanner(VelocityPlannerSettings settings = {}) : settings_(settings) {}
 
     /// From rest to rest over these spans, whose limits are above 0. The answer is valid until the next call; empty
     /// without spans.
-    std::span<const FeedPiece> plan(std::span<const FeedSpan> spans);
+    std::span<const ProfileSegment> plan(std::span<const LimitInterval> spans);
 
     /// The same from a motion that goes on. Empty if none was found that keeps the limits: perhaps there is none.
-    std::span<const FeedPiece> plan_from(const FeedStart& start, std::span<const FeedSpan> spans);
+    std::span<const ProfileSegment> plan_from(const InitialPathState& start, std::span<const LimitInterval> spans);
 
     /// The same, but the times of its cells are only about right until settle() is called for them.
-    std::span<const FeedPiece> sketch_from(const FeedStart& start, std::span<const FeedSpan> spans);
+    std::span<const ProfileSegment> plan_approximate(const InitialPathState& start,
+                                                     std::span<const LimitInterval> spans);
 
     /// Over the same way, where limits have changed a little: sought near what was found last.
-    std::span<const FeedPiece> sketch_again(std::span<const FeedSpan> spans);
+    std::span<const ProfileSegment> replan_approximate(std::span<const LimitInterval> spans);
 
   private:
     static constexpr double rounding = 1e-7;  ///< of a limit: so much beyond it a motion may begin
@@ -75,35 +76,35 @@ class FeedPlanner {
     };
 
     bool moving() const { return start_.square > 0; }
-    void measure(std::span<const FeedSpan> spans);
-    std::span<const FeedPiece> sketch(std::span<const FeedSpan> spans, bool again);
-    void approach();
-    void approach_again();
-    void come_nearer();
-    void cut(std::span<const FeedSpan> spans);
-    End end_of(std::span<const FeedSpan> spans, bool back) const;
-    double wanted(const FeedSpan& span) const;
+    void measure_length(std::span<const LimitInterval> spans);
+    std::span<const ProfileSegment> sketch(std::span<const LimitInterval> spans, bool again);
+    void solve_from_limits();
+    void solve_from_previous();
+    void refine();
+    void build_cells(std::span<const LimitInterval> spans);
+    End end_of(std::span<const LimitInterval> spans, bool back) const;
+    double target_cell_length(const LimitInterval& span) const;
     double first_size(double wanted) const;
-    void grade(std::span<const FeedSpan> spans);
-    void add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end);
-    void bound();
+    void compute_cell_sizes(std::span<const LimitInterval> spans);
+    void add_cell(std::span<const LimitInterval> spans, std::size_t at, double begin, double end);
+    void compute_bounds();
     bool is_loose(double guess) const;
-    void narrow(const std::vector<double>& found, double guess);
-    void seek();
-    void keep_start();
-    void rise_both();
-    void slope_limits();
-    void ease_slopes();
-    void ease(std::vector<double>& slopes) const;
-    void rise(std::vector<double>& out, bool back);
-    void hull();
-    void follow(const Edge& edge, std::size_t to);
+    void tighten_limits(const std::vector<double>& found, double guess);
+    void solve();
+    void restore_start();
+    void forward_backward_pass();
+    void compute_slope_limits();
+    void limit_slope_rates();
+    void limit_slope_rate(std::vector<double>& slopes) const;
+    void accelerate_pass(std::vector<double>& out, bool back);
+    void limit_deceleration_jerk();
+    void evaluate_hull_edge(const Edge& edge, std::size_t to);
     void write();
-    void write_s_curve(const FeedSpan& limits);
-    void write_travel(const FeedSpan& limits);
+    void write_s_curve(const LimitInterval& limits);
+    void write_travel(const LimitInterval& limits);
 
-    FeedSettings settings_;
-    FeedStart start_;
+    VelocityPlannerSettings settings_;
+    InitialPathState start_;
     bool can_start_ = true;  ///< start_ is within the limits of the first cells
     bool stalls_ = false;    ///< it slows down so hard that it comes to a stand before its end
     bool found_ = true;      ///< what was sought last goes on from start_
@@ -119,7 +120,7 @@ class FeedPlanner {
     std::vector<double> bound_, left_, right_, square_;
     std::vector<double> fall_;  ///< the most that the slope may fall there
     std::vector<Edge> edges_;
-    std::vector<FeedPiece> pieces_, before_;
+    std::vector<ProfileSegment> pieces_, before_;
 };
 
 }  // namespace motionrack::control

@@ -5,7 +5,7 @@ namespace motionrack::control {
 
 /// Per unit of path (mm, degrees) and second; all above 0 and finite. Whoever keeps these on the path keeps what the
 /// axes can do.
-struct FeedSpan {
+struct LimitInterval {
     double length = 0;
     double speed = 0;
     double accel = 0;      ///< of speeding up, at any speed up to `speed`

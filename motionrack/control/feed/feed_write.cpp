@@ -11,15 +11,15 @@ namespace motionrack::control {
 /// short one has no digits.
 ///
 ///   speed   v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
-void FeedPlanner::write_s_curve(const FeedSpan& limits) {
-    const SCurve curve(length_, limits.speed, limits.accel, limits.jerk);
+void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
+    const SCurveProfile curve(length_, limits.speed, limits.accel, limits.jerk);
     const auto ends = curve.phase_ends();
     const double jerk = limits.jerk, accel = curve.peak_accel(), peak = curve.peak();
     const double rise = ends[0], even = ends[1] - ends[0], cruise = ends[3] - ends[2];
     const double part = jerk * rise * rise * rise / 6, gain = 0.5 * jerk * rise * rise, top = peak - gain;
-    const FeedPiece launch{FeedPhase::launch, 0, part, rise, 0, 0, 0, jerk};
-    FeedPiece landing = launch;
-    landing.phase = FeedPhase::landing;
+    const ProfileSegment launch{ProfileSegmentKind::launch, 0, part, rise, 0, 0, 0, jerk};
+    ProfileSegment landing = launch;
+    landing.phase = ProfileSegmentKind::landing;
     landing.begin = length_ - part;
     double begin = part;
     const auto add = [&](double seconds, double length, double speed, double now, double more) {
@@ -37,10 +37,10 @@ void FeedPlanner::write_s_curve(const FeedSpan& limits) {
 }
 
 /// The same from a motion that goes on. Nothing is written where it is too fast, or comes back from beyond its end.
-void FeedPlanner::write_travel(const FeedSpan& limits) {
+void VelocityPlanner::write_travel(const LimitInterval& limits) {
     const double speed = std::sqrt(start_.square), accel = 0.5 * start_.slope;
     if (speed > limits.speed * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
-    const TravelState start{0, std::min(speed, limits.speed), std::clamp(accel, -limits.accel, limits.accel)};
+    const KinematicState start{0, std::min(speed, limits.speed), std::clamp(accel, -limits.accel, limits.accel)};
     const auto found = travel(start, {length_, 0, 0}, {limits.speed, limits.accel, limits.jerk});
     if (!found) return;
     const auto phases = found->phases();
@@ -66,7 +66,7 @@ void FeedPlanner::write_travel(const FeedSpan& limits) {
     }
 }
 
-void FeedPlanner::write() {
+void VelocityPlanner::write() {
     const std::size_t n = cells_.size();
     const auto slope = [&](std::size_t knot) { return (square_[knot + 1] - square_[knot]) / way_[knot]; };
     const double first = slope(0) * 0.75 * launch_.length, last = -slope(n) * 0.75 * landing_.length;
@@ -75,8 +75,8 @@ void FeedPlanner::write() {
     for (std::size_t i = 0; i < n; ++i) {
         const double after = slope(i + 1);
         const Cell& cell = cells_[i];
-        pieces_.push_back(sketched_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before,
-                                        (after - before) / cell.length));
+        pieces_.push_back(approximate_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before,
+                                           (after - before) / cell.length));
         before = after;
     }
     pieces_.push_back(feed_landing(length_ - landing_.length, landing_.length, last));

@@ -293,7 +293,7 @@ void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
 
 Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
                           const CanonPrinter::Put& put, const std::string& file) {
-    Walk walk(text, settings, file);
+    ProgramFlow walk(text, settings, file);
     Interpreter interpreter(settings);
     CanonPrinter printer(options, put);
     printer.begin(interpreter);

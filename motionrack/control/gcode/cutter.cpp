@@ -32,7 +32,7 @@ double angle_between(Planar a, Planar b) {
 double part_of_turn(Planar a, Planar b, std::int32_t turns) {
     const double whole = turns > 0 ? 2 * pi : -2 * pi;
     const double angle = angle_between(a, b);
-    if (std::fabs(angle) < smallest_sweep) return whole;
+    if (std::fabs(angle) < min_sweep_rad) return whole;
     return (angle > 0) == (turns > 0) ? angle : angle + whole;
 }
 
@@ -167,7 +167,7 @@ JointPlace joint_of(const CutterPath& before, const CutterPath& after, Planar co
 
 bool trim(CutterPath& path, Planar from, Planar to) {
     if (!path.arc) {
-        if (!(dot(to - from, path.direction_out) > smallest_length)) return false;
+        if (!(dot(to - from, path.direction_out) > min_length_mm)) return false;
         path.start = from;
         path.end = to;
         return true;
@@ -177,7 +177,7 @@ bool trim(CutterPath& path, Planar from, Planar to) {
     const double begun = angle_between(path.start - path.centre, from - path.centre);
     const double left = angle_between(to - path.centre, path.end - path.centre);
     const double sweep = sense * (path.sweep - begun - left);
-    if (!(sweep > smallest_sweep) || !(sweep * path.radius_out > smallest_length)) return false;
+    if (!(sweep > min_sweep_rad) || !(sweep * path.radius_out > min_length_mm)) return false;
     const double part = sense * part_of_turn(from - path.centre, to - path.centre, path.turns);
     const double turns = std::floor((sweep - part) / whole + 0.5) + 1;
     if (turns < 1) return false;

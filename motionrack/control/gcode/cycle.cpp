@@ -9,7 +9,7 @@ namespace {
 constexpr double thinnest_peck = 1e-9;
 }  // namespace
 
-std::span<const Cycle::Act> Cycle::acts_of(std::int16_t code) {
+std::span<const DrillCycleMoves::Act> DrillCycleMoves::acts_of(std::int16_t code) {
     static constexpr Act drills[] = {Act::rapid_clear};
     static constexpr Act waits[] = {Act::wait, Act::rapid_clear};
     static constexpr Act taps[] = {Act::stop, Act::turn_back, Act::wait, Act::feed_clear, Act::stop, Act::turn};
@@ -33,7 +33,7 @@ std::span<const Cycle::Act> Cycle::acts_of(std::int16_t code) {
     }
 }
 
-void Cycle::begin(const CyclePlan& plan) {
+void DrillCycleMoves::begin(const CyclePlan& plan) {
     plan_ = plan;
     phase_ = Phase::lift;
     at_ = plan.from;
@@ -41,7 +41,7 @@ void Cycle::begin(const CyclePlan& plan) {
     hole_ = 0;
 }
 
-void Cycle::straight(Step& step, MoveKind kind, double third) {
+void DrillCycleMoves::straight(Step& step, MoveKind kind, double third) {
     at_[plan_.third] = third;
     step.kind = StepKind::move;
     step.move = plan_.pattern;
@@ -49,13 +49,13 @@ void Cycle::straight(Step& step, MoveKind kind, double third) {
     step.move.end = at_;
 }
 
-void Cycle::spindle(Step& step, Spindle how) const {
+void DrillCycleMoves::spindle(Step& step, Spindle how) const {
     step.kind = StepKind::spindle;
     step.spindle = how;
     step.speed_rpm = plan_.speed_rpm;
 }
 
-void Cycle::act(Act what, Step& step) {
+void DrillCycleMoves::act(Act what, Step& step) {
     const Spindle back = plan_.spindle == Spindle::clockwise ? Spindle::counter_clockwise : Spindle::clockwise;
     switch (what) {
         case Act::wait:
@@ -77,7 +77,7 @@ void Cycle::act(Act what, Step& step) {
     }
 }
 
-bool Cycle::next(Step& step) {
+bool DrillCycleMoves::next(Step& step) {
     for (;;) {
         switch (phase_) {
             case Phase::lift:

@@ -48,7 +48,7 @@ struct CyclePlan {
     Point from = {};     ///< where the machine is
 };
 
-class Cycle {
+class DrillCycleMoves {
   public:
     void begin(const CyclePlan& plan);
 

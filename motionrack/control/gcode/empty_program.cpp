@@ -8,7 +8,7 @@
 namespace motionrack::control::gcode {
 
 bool is_empty_program(std::string_view text) {
-    Lines lines(text);
+    ProgramLines lines(text);
     ProgramEnd end(false);
     for (std::string_view line; lines.next(line);) {
         if (end.is_at(line)) return true;
@@ -22,7 +22,7 @@ bool is_empty_program(std::string_view text) {
 }
 
 Problem empty_program_problem(std::string_view text, const std::string& file) {
-    Lines lines(text);
+    ProgramLines lines(text);
     for (std::string_view line; lines.next(line);) continue;
     Problem problem;
     set_problem(problem, {}, 0, GrblStatus::unsupported,

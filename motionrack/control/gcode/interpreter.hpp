@@ -134,7 +134,7 @@ class Interpreter {
     /// probe did as it was meant to. #5061 .. #5070 tell of it.
     void probed(bool hit, const Point& at, const Point& stands);
     /// The machine was moved otherwise: the next line begins there, without cutter compensation.
-    void stand_at(const Point& position);
+    void resync_position(const Point& position);
     /// The operator has switched the coolant.
     void set_coolant(bool mist, bool flood) {
         modes_.mist = mist;
@@ -158,7 +158,7 @@ class Interpreter {
     /// Gives the line its moves. Errors: with nothing of them.
     Outcome<void> turn(std::vector<ContourPiece> contour);
     /// No work system is turned from now on, and overrides count.
-    void straighten();
+    void reset_after_program();
 
   private:
     enum Todo : std::uint32_t {
@@ -352,7 +352,7 @@ class Interpreter {
     Point via_ = {};
     Step event_;
     Step moving_;
-    Cycle cycle_;
+    DrillCycleMoves cycle_;
     SplineMoves spline_;
     std::optional<TurningPlan> turning_;  ///< of the last line
     std::string contour_label_;

@@ -34,11 +34,11 @@ const char* find_line_end(const char* p, const char* end) {
 
 }  // namespace
 
-Lines::Lines(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {
+ProgramLines::ProgramLines(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") at_ += 3;
 }
 
-bool Lines::next(std::string_view& line) {
+bool ProgramLines::next(std::string_view& line) {
     const auto pass_end = [this] {
         if (at_ < end_) at_ += *at_ == '\r' && at_ + 1 < end_ && at_[1] == '\n' ? 2 : 1;
     };

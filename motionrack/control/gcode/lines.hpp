@@ -8,9 +8,9 @@ namespace motionrack::control::gcode {
 
 /// Cuts a text into lines at LF, CR LF or CR, and leaves out a byte order mark at the beginning. A copy is a place in
 /// the text to which one can come back.
-class Lines {
+class ProgramLines {
   public:
-    explicit Lines(std::string_view text);
+    explicit ProgramLines(std::string_view text);
 
     /// The next line, without its end; false: there is none. Of a line longer than `longest_line` only the first
     /// longest_line + 1 characters are given, and the rest is skipped at the next call.

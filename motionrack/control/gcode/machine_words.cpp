@@ -193,7 +193,7 @@ bool Interpreter::goes_beside(const Modes& saved) const {
            !saved.inverse_time;
 }
 
-void Interpreter::straighten() {
+void Interpreter::reset_after_program() {
     modes_.feed_override = modes_.speed_override = true;
     frame_.turn = {};
     frame_.activate(modes_.system);

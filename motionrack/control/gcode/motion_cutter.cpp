@@ -316,7 +316,7 @@ void Interpreter::hold_steps() {
     if (!beside_ && !cutter_plan_.begins) held_.settle();
 }
 
-void Interpreter::stand_at(const Point& position) {
+void Interpreter::resync_position(const Point& position) {
     position_ = position;
     held_.clear();
     beside_ = astray_ = false;
@@ -331,7 +331,7 @@ Outcome<void> Interpreter::finish() {
     if (!end_waiting_path()) {
         held_.settle(axes[0], axes[1], cutter_path_);
         held_.clear();
-        stand_at(at_);
+        resync_position(at_);
         set_problem(problem_, {}, 0, problem_.status, std::move(problem_.message));
         problem_.place.line = cutter_line_;
         return tl::unexpected<Problem>(problem_);

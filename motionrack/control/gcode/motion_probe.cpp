@@ -53,7 +53,7 @@ void Interpreter::probed(bool hit, const Point& at, const Point& stands) {
     frame_.probe = at;
     frame_.probe_hit = hit;
     tell_probe(hit, at);
-    stand_at(stands);
+    resync_position(stands);
 }
 
 }  // namespace motionrack::control::gcode

@@ -7,16 +7,16 @@
 
 namespace motionrack::control::gcode {
 
-Reader::Reader(std::string_view text, const Settings& settings, std::string file)
+ProgramReader::ProgramReader(std::string_view text, const Settings& settings, std::string file)
     : walk_(text, settings, std::move(file)), interpreter_(settings), most_steps_(settings.most_steps) {}
 
 /// What other lines than those of cycles do is in the allowance of each line.
-bool Reader::within_budget() const {
+bool ProgramReader::within_budget() const {
     constexpr std::int64_t steps_of_a_line = 16;
     return further_steps_ <= most_steps_ + steps_of_a_line * lines_read_;
 }
 
-Outcome<const Step*> Reader::next_from_lines() {
+Outcome<const Step*> ProgramReader::next_from_lines() {
     std::string_view text;
     while (walk_.next(text)) {
         ++lines_read_;
@@ -64,11 +64,11 @@ bool is_known(const std::vector<Problem>& problems, const Problem& one) {
 
 }  // namespace
 
-Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
-                    const std::string& file) {
-    Check check;
+ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
+                           const std::string& file) {
+    ProgramCheck check;
     check.least = check.greatest = settings.start;
-    Reader reader(text, settings, file);
+    ProgramReader reader(text, settings, file);
     int repeated = 0;
     for (;;) {
         const auto step = reader.next();

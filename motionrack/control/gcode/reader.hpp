@@ -11,7 +11,7 @@ namespace motionrack::control::gcode {
 
 /// Pulls the steps of a program one by one:
 ///
-///     Reader reader(text, settings, "part.ngc");
+///     ProgramReader reader(text, settings, "part.ngc");
 ///     for (;;) {
 ///         auto step = reader.next();
 ///         if (!step) { report(step.error().text()); break; }
@@ -19,12 +19,12 @@ namespace motionrack::control::gcode {
 ///         if ((*step)->kind == StepKind::move) planner.push((*step)->move);
 ///     }
 ///
-/// After a problem the line has had no effect, and next() goes on with the line after it; see Walk for O words, and for
-/// where the program is over.
-class Reader {
+/// After a problem the line has had no effect, and next() goes on with the line after it; see ProgramFlow for O words,
+/// and for where the program is over.
+class ProgramReader {
   public:
-    /// `text` must stay where it is as long as the Reader and the texts of its steps are used.
-    Reader(std::string_view text, const Settings& settings, std::string file = {});
+    /// `text` must stay where it is as long as the ProgramReader and the texts of its steps are used.
+    ProgramReader(std::string_view text, const Settings& settings, std::string file = {});
 
     /// The next step, valid until the next call; null: the program is over.
     Outcome<const Step*> next() {
@@ -36,7 +36,7 @@ class Reader {
     }
 
     const Interpreter& interpreter() const { return interpreter_; }
-    const Walk& walk() const { return walk_; }
+    const ProgramFlow& walk() const { return walk_; }
     /// See Interpreter::probed(); after the step that probes, before the next one.
     void probed(bool hit, const Point& at, const Point& stands) { interpreter_.probed(hit, at, stands); }
     std::int32_t line() const { return walk_.number(); }  ///< the line that the last step or problem is from
@@ -45,7 +45,7 @@ class Reader {
     Outcome<const Step*> next_from_lines();
     bool within_budget() const;
 
-    Walk walk_;
+    ProgramFlow walk_;
     Interpreter interpreter_;
     std::int64_t most_steps_;
     std::int64_t further_steps_ = 0;  ///< than the first ones of their lines
@@ -53,7 +53,7 @@ class Reader {
 };
 
 /// What one pass over a program finds.
-struct Check {
+struct ProgramCheck {
     std::vector<Problem> problems;  ///< in the order of the lines
     bool more_problems = false;     ///< the pass ended early because there were as many as asked for
     std::int64_t lines = 0;         ///< read
@@ -66,7 +66,7 @@ struct Check {
 };
 
 /// Reads a program to its end without keeping it, and collects up to `most_problems` (>= 1).
-Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
-                    const std::string& file = {});
+ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
+                           const std::string& file = {});
 
 }  // namespace motionrack::control::gcode

@@ -68,8 +68,8 @@ bool LineReader::word(const char*& at, const char* end) {
     const char letter = upper(*at++);
     const bool is_letter = letter >= 'A' && letter <= 'Z';
     const Slot slot = slot_of(letter, tool);
-    const bool absent_axis = letter == 'U' || letter == 'V' || letter == 'W';
-    if (!slot.value && !slot.whole && !absent_axis)
+    const bool missing_axis = letter == 'U' || letter == 'V' || letter == 'W';
+    if (!slot.value && !slot.whole && !missing_axis)
         return wrong(
             begin,
             fmt::format("'{}' is no word of a tool table; they are T P X Y Z A B C D I J Q, and ';' begins a remark",
@@ -79,7 +79,7 @@ bool LineReader::word(const char*& at, const char* end) {
     const Number number = scan_number(at, end);
     if (number.fault != NumberFault::none)
         return wrong(begin, fmt::format("{} needs a number, e.g. {}1", letter, letter));
-    if (absent_axis)
+    if (missing_axis)
         return number.value == 0 || wrong(begin, fmt::format("{} must be 0: axes are X Y Z A B C", letter));
     if (slot.value) {
         *slot.value = number.value;
@@ -125,7 +125,7 @@ bool ToolTable::put(const Tool& tool) {
 
 Result<ToolTable> read_tool_table(std::string_view text, const std::string& file) {
     ToolTable table;
-    Lines lines(text);
+    ProgramLines lines(text);
     for (std::string_view line; lines.next(line);) {
         LineReader reader{line};
         const bool good = reader.read();

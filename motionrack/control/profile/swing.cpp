@@ -56,7 +56,7 @@ double crossing(double least, double most, double guess, Function at) {
 
 }  // namespace
 
-DirectChange direct_change(const Course& c) {
+DirectVelocityChange direct_velocity_change(const BoundaryConditions& c) {
     // A single phase from one acceleration to the other changes the speed by `ramp`.
     const double sum = c.start_accel + c.end_accel;
     const double ramp = 0.5 * sum * std::fabs(c.end_accel - c.start_accel);
@@ -73,7 +73,7 @@ DirectChange direct_change(const Course& c) {
     return {mirrored, peak - a, 0, peak - b};
 }
 
-Swings::Swings(const Course& c, double top)
+DoubleSSolver::DoubleSSolver(const BoundaryConditions& c, double top)
     : start_accel_(c.start_accel),
       end_accel_(c.end_accel),
       start_foot_(c.start_speed - 0.5 * squared(c.start_accel)),
@@ -99,7 +99,7 @@ Swings::Swings(const Course& c, double top)
     }
 }
 
-double Swings::reach_at(double s) const {
+double DoubleSSolver::reach_at(double s) const {
     const double low = s * s;
     const double high = high_at(s);
     const double up = high > 1 ? 0.5 * (1 + high) : std::sqrt(high);
@@ -108,14 +108,14 @@ double Swings::reach_at(double s) const {
 }
 
 /// Its sign is that of the flow.
-double Swings::flow_at(double s) const {
+double DoubleSSolver::flow_at(double s) const {
     const double high = rise_ + s * s;
     if (high > 1) return end_foot_ + s * (s + 0.5);
     return start_foot_ + high + 0.5 * s * std::sqrt(high);
 }
 
 /// The s < 0 at which the reach has its crest; 1 if it has none.
-double Swings::first_crest() const {
+double DoubleSSolver::first_crest() const {
     const double below = 0.25 - 4 * end_foot_;
     if (below > 0) {
         const double s = -0.25 - 0.5 * std::sqrt(below);
@@ -127,7 +127,7 @@ double Swings::first_crest() const {
     return 0.5 * (fall - rise_ / fall);
 }
 
-bool Swings::find(double slack, double sensitive) {
+bool DoubleSSolver::find(double slack, double sensitive) {
     double least = least_;
     const bool may_meet_gap = least < 0 && gap_ > 0;
     if (may_meet_gap) least = std::min(least, -gap_);
@@ -162,12 +162,12 @@ bool Swings::find(double slack, double sensitive) {
     return true;
 }
 
-void Swings::find_beyond_gap() {
+void DoubleSSolver::find_beyond_gap() {
     find_above(gap_);
 }
 
 /// The reach crosses what is wanted once above `least`, or the top is met before.
-void Swings::find_above(double least) {
+void DoubleSSolver::find_above(double least) {
     const double most = std::max(least, std::sqrt(std::max(0.0, top_ - end_foot_)));
     const double more = reach_ - reach_at(most);
     if (!(more < 0)) {
@@ -179,7 +179,7 @@ void Swings::find_above(double least) {
 }
 
 /// The reach crosses what is wanted once between `least` and `most`.
-void Swings::find_between(double least, double most) {
+void DoubleSSolver::find_between(double least, double most) {
     if (most > 1 && (least >= 1 || reach_at(1) < reach_)) {
         s_ = std::clamp(with_both_holds(), std::max(1.0, least), most);
         return;
@@ -202,7 +202,7 @@ void Swings::find_between(double least, double most) {
 }
 
 /// Peak at 1, valley at -1: y^2 + 2 b y + c = 0 of y = s^2.
-double Swings::with_both_holds() const {
+double DoubleSSolver::with_both_holds() const {
     const double b = end_foot_ + 0.5;
     const double c = 0.5 * both_ * (1 + rise_) + end_foot_ - reach_;
     const double root = std::sqrt(std::max(0.0, b * b - c));
@@ -211,7 +211,7 @@ double Swings::with_both_holds() const {
 }
 
 /// Peak at 1: u^4 - 2 u^3 + (1 + 2 end_foot) u^2 + c = 0 of u = 1 + s.
-double Swings::with_hold(double least, double most) const {
+double DoubleSSolver::with_hold(double least, double most) const {
     const double twice = 2 * end_foot_;
     const double c = both_ * (1 + rise_) - twice - 2 * reach_;
     const double middle = 0.5 * (least + most);
@@ -226,7 +226,7 @@ double Swings::with_hold(double least, double most) const {
 }
 
 /// d^4 + 4 both d^2 - 4 reach d - rise^2 = 0 of d = P + s, the duration of the phases with jerk -1.
-double Swings::without_hold(double least, double most) const {
+double DoubleSSolver::without_hold(double least, double most) const {
     const auto fall_at = [&](double s) {
         const double peak = std::sqrt(rise_ + s * s);
         return s < 0 ? (peak - s > 0 ? rise_ / (peak - s) : 0) : peak + s;
@@ -249,7 +249,7 @@ double Swings::without_hold(double least, double most) const {
     return d > 0 ? 0.5 * (d - rise_ / d) : 0;
 }
 
-SwingPhases Swings::phases() const {
+DoubleSPhases DoubleSSolver::phases() const {
     const double low = s_ * s_;
     const double high = high_at(s_);
     double peak = high > 1 ? 1 : std::sqrt(high);
@@ -271,9 +271,9 @@ SwingPhases Swings::phases() const {
             valley + end_accel_};
 }
 
-QuickestCourse quickest_course(const Course& given, double top, double slack) {
-    const DirectChange direct = direct_change(given);
-    const Course course = direct.mirrored ? given.mirrored() : given;
+TimeOptimalSolution solve_time_optimal(const BoundaryConditions& given, double top, double slack) {
+    const DirectVelocityChange direct = direct_velocity_change(given);
+    const BoundaryConditions course = direct.mirrored ? given.mirrored() : given;
     // the way of the direct change, phase by phase from both ends
     const double a = course.start_accel, b = course.end_accel;
     const double first = direct.rise * (course.start_speed + direct.rise * (0.5 * a + direct.rise * (1.0 / 6)));
@@ -288,10 +288,10 @@ QuickestCourse quickest_course(const Course& given, double top, double slack) {
     const double noise = slack + noise_of(parts, sensitive, most);
     if (std::fabs(more) <= noise) return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;
-    Swings swings(backwards ? course.backwards() : course, top);
+    DoubleSSolver swings(backwards ? course.backwards() : course, top);
     if (swings.find(slack, sensitive)) return {direct.mirrored, backwards, swings.phases()};
     backwards = !backwards;
-    Swings others(backwards ? course.backwards() : course, top);
+    DoubleSSolver others(backwards ? course.backwards() : course, top);
     others.find_beyond_gap();
     return {direct.mirrored, backwards, others.phases()};
 }

@@ -27,43 +27,43 @@
 namespace motionrack::control {
 
 /// Speed and acceleration at both ends and the way between them.
-struct Course {
+struct BoundaryConditions {
     double start_speed, start_accel;
     double end_speed, end_accel;
     double way;
     double change;  ///< of the speed: where two speeds are nearly equal, more exact than their difference here
 
-    Course mirrored() const { return {-start_speed, -start_accel, -end_speed, -end_accel, -way, -change}; }
-    Course backwards() const { return {-end_speed, end_accel, -start_speed, start_accel, -way, change}; }
+    BoundaryConditions mirrored() const { return {-start_speed, -start_accel, -end_speed, -end_accel, -way, -change}; }
+    BoundaryConditions backwards() const { return {-end_speed, end_accel, -start_speed, start_accel, -way, change}; }
 };
 
 /// Durations of the phases with jerk +1, 0, -1, 0, -1, 0, +1. Where there is no cruise, the first -1 lasts as both.
-struct SwingPhases {
+struct DoubleSPhases {
     double rise, hold, fall, cruise, sink, low, back;
 };
 
 /// The quickest change of speed: jerk +1, 0, -1, or mirrored -1, 0, +1.
-struct DirectChange {
+struct DirectVelocityChange {
     bool mirrored;
     double rise, hold, fall;
 };
 /// The way of the course does not matter.
-DirectChange direct_change(const Course& course);
+DirectVelocityChange direct_velocity_change(const BoundaryConditions& course);
 
 /// A motion as a swing of a course that may be mirrored, then told backwards.
-struct QuickestCourse {
+struct TimeOptimalSolution {
     bool mirrored;
     bool backwards;
-    SwingPhases phases;
+    DoubleSPhases phases;
 };
 
 /// |accelerations| <= 1, speeds within `top` for good; `slack` is how much of the way is nothing but roundings.
-QuickestCourse quickest_course(const Course& course, double top, double slack);
+TimeOptimalSolution solve_time_optimal(const BoundaryConditions& course, double top, double slack);
 
-/// Swings of a course whose direct change rises first and falls short of the way.
-class Swings {
+/// DoubleSSolver of a course whose direct change rises first and falls short of the way.
+class DoubleSSolver {
   public:
-    Swings(const Course& course, double top);
+    DoubleSSolver(const BoundaryConditions& course, double top);
 
     /// Finds the quickest among those that the direct change leads to. False: the way is less than they come to, and
     /// that of the course told backwards is to be taken beyond its gap. `slack` and what roundings make of `sensitive`
@@ -71,7 +71,7 @@ class Swings {
     bool find(double slack, double sensitive);
     /// Finds the quickest of those beyond the gap.
     void find_beyond_gap();
-    SwingPhases phases() const;
+    DoubleSPhases phases() const;
 
   private:
     /// P^2, or 1 and the hold.

@@ -14,7 +14,7 @@ constexpr double to_roundings = 1 + 1e-10;
 
 /// Of one user's unit in those where jerk and acceleration have the limit 1.
 struct Scale {
-    explicit Scale(const TravelLimits& limits)
+    explicit Scale(const KinematicLimits& limits)
         : accel(1 / limits.accel),
           seconds(limits.accel / limits.jerk),
           speed(limits.jerk * accel * accel),
@@ -36,21 +36,21 @@ bool ends_within(double speed, double accel, double top) {
     return std::fabs(accel) <= to_roundings && std::fabs(speed) + 0.5 * accel * accel <= top * to_roundings;
 }
 
-bool usable(const TravelLimits& limits) {
+bool usable(const KinematicLimits& limits) {
     const auto amount = [](double x) { return x > 0 && std::isfinite(x); };
     return amount(limits.speed) && amount(limits.accel) && amount(limits.jerk);
 }
 
-bool finite(const TravelState& s) {
+bool finite(const KinematicState& s) {
     return std::isfinite(s.position) && std::isfinite(s.speed) && std::isfinite(s.accel);
 }
 
 }  // namespace
 
 /// Phases in the user's units, from scaled ones.
-class TravelBuilder {
+class AxisProfileBuilder {
   public:
-    TravelBuilder(Travel& out, const TravelState& from, const TravelLimits& limits, const Scale& scale)
+    AxisProfileBuilder(AxisProfile& out, const KinematicState& from, const KinematicLimits& limits, const Scale& scale)
         : out_(out), at_(from), limits_(limits), scale_(scale) {
         out_.start_ = from;
         speed_ = from.speed * scale.speed;
@@ -60,7 +60,7 @@ class TravelBuilder {
     double way() const { return way_; }
 
     /// From here to a speed in user's units, the rest scaled.
-    Course course_to(double speed, double accel, double way) const {
+    BoundaryConditions course_to(double speed, double accel, double way) const {
         const double end = speed * scale_.speed;
         const double change = time_ == 0 ? (speed - at_.speed) * scale_.speed : end - speed_;
         return {speed_, accel_, end, accel, way, change};
@@ -87,8 +87,8 @@ class TravelBuilder {
     }
 
     /// Phases of one sign of the jerk each, in time's order; the first four are told from the start on.
-    void add(const QuickestCourse& course, double top) {
-        const SwingPhases& p = course.phases;
+    void add(const TimeOptimalSolution& course, double top) {
+        const DoubleSPhases& p = course.phases;
         const double side = course.mirrored ? -1 : 1;
         const double way = course.backwards ? -side : side;
         if (course.backwards) {
@@ -113,13 +113,13 @@ class TravelBuilder {
     }
 
     /// The last three phases, told back from the target.
-    void end_at(const TravelState& target) {
+    void end_at(const KinematicState& target) {
         double end[4] = {time_};
         for (int k = 0; k < 3; ++k) end[k + 1] = end[k] + tail_[k].seconds * scale_.seconds;
         int last = out_.count_;
         for (int k = 0; k < 3; ++k) last += end[k + 1] > end[k];
         out_.count_ = last;
-        TravelState at = target;
+        KinematicState at = target;
         for (int k = 2; k >= 0; --k) {
             if (!(end[k + 1] > end[k])) continue;
             const Part& part = tail_[k];
@@ -134,7 +134,7 @@ class TravelBuilder {
     }
 
     /// The direct change of speed, told from the start on.
-    void change(const DirectChange& change, double speed, double accel) {
+    void change(const DirectVelocityChange& change, double speed, double accel) {
         const double side = change.mirrored ? -1 : 1;
         forward(side, change.rise);
         hold(side, change.hold);
@@ -148,7 +148,7 @@ class TravelBuilder {
         double jerk, seconds, hold = 0;
     };
 
-    static TravelState after(const TravelState& s, double jerk, double t) {
+    static KinematicState after(const KinematicState& s, double jerk, double t) {
         return {s.position + t * (s.speed + t * (0.5 * s.accel + t * jerk * (1.0 / 6))),
                 s.speed + t * (s.accel + 0.5 * t * jerk), s.accel + t * jerk};
     }
@@ -158,7 +158,7 @@ class TravelBuilder {
         if (!(scaled > 0)) return;
         const double seconds = scaled * scale_.seconds;
         const double jerk = sign * limits_.jerk;
-        Travel::Phase* last = out_.count_ > 0 ? &out_.phases_[static_cast<std::size_t>(out_.count_ - 1)] : nullptr;
+        AxisProfile::Phase* last = out_.count_ > 0 ? &out_.phases_[static_cast<std::size_t>(out_.count_ - 1)] : nullptr;
         const double zero = time_;
         time_ += seconds;
         if (last && sign != 0 && last->jerk == jerk && goes_on_) {
@@ -204,7 +204,7 @@ class TravelBuilder {
             ramp(-side, std::max(0.0, accel - at_top));
             accel_ = side * at_top;
         } else {
-            const DirectChange change = direct_change({side * speed_, accel, top, steepest, 0, -over});
+            const DirectVelocityChange change = direct_velocity_change({side * speed_, accel, top, steepest, 0, -over});
             ramp(-side, change.rise);
             if (change.hold > 0) accel_ = -side;
             keep(change.hold);
@@ -218,9 +218,9 @@ class TravelBuilder {
         goes_on_ = false;
     }
 
-    Travel& out_;
-    TravelState at_;
-    const TravelLimits& limits_;
+    AxisProfile& out_;
+    KinematicState at_;
+    const KinematicLimits& limits_;
     const Scale& scale_;
     double time_ = 0;
     bool goes_on_ = true;             ///< at_ is the end of the last phase, to the bit
@@ -228,41 +228,42 @@ class TravelBuilder {
     std::array<Part, 3> tail_ = {};
 };
 
-bool can_end_so(double speed, double accel, const TravelLimits& limits) {
+bool is_feasible_end(double speed, double accel, const KinematicLimits& limits) {
     const Scale scale(limits);
     return usable(limits) && ends_within(speed * scale.speed, accel * scale.accel, scale.top);
 }
 
-std::optional<Travel> travel(const TravelState& from, const TravelState& to, const TravelLimits& limits) {
+std::optional<AxisProfile> travel(const KinematicState& from, const KinematicState& to, const KinematicLimits& limits) {
     const Scale scale(limits);
     const double end_speed = to.speed * scale.speed;
     const double end_accel = std::clamp(to.accel * scale.accel, -1.0, 1.0);
     if (!usable(limits) || !finite(from) || !finite(to)) return std::nullopt;
     if (!ends_within(end_speed, to.accel * scale.accel, scale.top)) return std::nullopt;
-    std::optional<Travel> out(std::in_place);
-    TravelBuilder builder(*out, from, limits, scale);
+    std::optional<AxisProfile> out(std::in_place);
+    AxisProfileBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();
     double top = builder.bring_speed_within();
     top = std::max(top, std::fabs(end_speed) + 0.5 * end_accel * end_accel);
     const double way = (to.position - from.position) * scale.position - builder.way();
     const double slack = 4.5e-16 * (std::fabs(from.position) + std::fabs(to.position)) * scale.position;
-    builder.add(quickest_course(builder.course_to(to.speed, end_accel, way), top, slack), top);
+    builder.add(solve_time_optimal(builder.course_to(to.speed, end_accel, way), top, slack), top);
     builder.end_at(to);
     return out;
 }
 
-std::optional<Travel> change_speed(const TravelState& from, double speed, double accel, const TravelLimits& limits) {
+std::optional<AxisProfile> change_speed(const KinematicState& from, double speed, double accel,
+                                        const KinematicLimits& limits) {
     const Scale scale(limits);
     const double end_speed = speed * scale.speed, end_accel = accel * scale.accel;
     if (!usable(limits) || !finite(from) || !ends_within(end_speed, end_accel, scale.top)) return std::nullopt;
-    std::optional<Travel> out(std::in_place);
-    TravelBuilder builder(*out, from, limits, scale);
+    std::optional<AxisProfile> out(std::in_place);
+    AxisProfileBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();
-    builder.change(direct_change(builder.course_to(speed, std::clamp(end_accel, -1.0, 1.0), 0)), speed, accel);
+    builder.change(direct_velocity_change(builder.course_to(speed, std::clamp(end_accel, -1.0, 1.0), 0)), speed, accel);
     return out;
 }
 
-std::optional<Travel> stop(const TravelState& from, const TravelLimits& limits) {
+std::optional<AxisProfile> stop(const KinematicState& from, const KinematicLimits& limits) {
     return change_speed(from, 0, 0, limits);
 }
 

@@ -20,21 +20,21 @@
 namespace motionrack::control {
 
 /// Where an axis is and how it moves.
-struct TravelState {
+struct KinematicState {
     double position = 0;
     double speed = 0;  ///< of either sign
     double accel = 0;  ///< of either sign
 };
 
 /// Greatest amounts, in both directions; all > 0 and finite.
-struct TravelLimits {
+struct KinematicLimits {
     double speed = 0;
     double accel = 0;
     double jerk = 0;
 };
 
 /// Positions over time, made by travel(), change_speed() and stop().
-class Travel {
+class AxisProfile {
   public:
     /// A cubic in the time since `zero`; it holds until `end`.
     struct Phase {
@@ -55,11 +55,11 @@ class Travel {
     };
     static constexpr int most_phases = 9;
 
-    Travel() {}  // which leaves the phases as they are: clearing them would take a tenth of a travel's time
+    AxisProfile() {}  // which leaves the phases as they are: clearing them would take a tenth of a travel's time
 
-    double duration() const { return duration_; }        ///< s
-    const TravelState& start() const { return start_; }  ///< as it was given
-    const TravelState& target() const {
+    double duration() const { return duration_; }           ///< s
+    const KinematicState& start() const { return start_; }  ///< as it was given
+    const KinematicState& target() const {
         return target_;
     }  ///< as it was given; after change_speed() with the place reached
 
@@ -70,36 +70,37 @@ class Travel {
     ProfileSample sample(double t) const;
 
   private:
-    friend class TravelBuilder;
+    friend class AxisProfileBuilder;
     std::array<Phase, most_phases> phases_;
     int count_ = 0;
     double duration_ = 0;
-    TravelState start_;
-    TravelState target_;
+    KinematicState start_;
+    KinematicState target_;
 };
 
 /// True if a motion can end so and go on within the limits: |accel| <= limits.accel and
 /// |speed| + accel^2 / (2 limits.jerk) <= limits.speed, to 1e-10 of the limits. False for what is not finite.
-bool can_end_so(double speed, double accel, const TravelLimits& limits);
+bool is_feasible_end(double speed, double accel, const KinematicLimits& limits);
 
 /// The quickest motion from `from` to `to`, its duration to 1e-8 of itself and of 1 s; speed and acceleration stay
 /// within 1 + 1e-9 of the limits. `from` is any state of finite numbers. An acceleration outside the limits is brought
 /// within first; then a speed that is outside, or cannot but get there, is, too, each as quickly as the jerk allows.
 /// The quickest motion begins where the speed is within for good, so that a start that is too fast comes in slowing
 /// down and may get slower than the limit. A target that the direct change of speed misses by no more than roundings of
-/// the numbers is reached by it. Nothing if the motion cannot end so (see can_end_so), a number is not finite or a
+/// the numbers is reached by it. Nothing if the motion cannot end so (see is_feasible_end), a number is not finite or a
 /// limit is not > 0.
-std::optional<Travel> travel(const TravelState& from, const TravelState& to, const TravelLimits& limits);
+std::optional<AxisProfile> travel(const KinematicState& from, const KinematicState& to, const KinematicLimits& limits);
 
 /// The quickest change to a speed and an acceleration, wherever that is. An acceleration outside the limits is brought
 /// within first; a speed outside is left on the quickest way to the target. Nothing as for travel().
-std::optional<Travel> change_speed(const TravelState& from, double speed, double accel, const TravelLimits& limits);
+std::optional<AxisProfile> change_speed(const KinematicState& from, double speed, double accel,
+                                        const KinematicLimits& limits);
 
 /// The quickest way to rest, wherever that is; as change_speed() to 0. Nothing if a number is not finite or a limit is
 /// not > 0.
-std::optional<Travel> stop(const TravelState& from, const TravelLimits& limits);
+std::optional<AxisProfile> stop(const KinematicState& from, const KinematicLimits& limits);
 
-inline ProfileSample Travel::sample(double t) const {
+inline ProfileSample AxisProfile::sample(double t) const {
     if (!(t > 0)) return {start_.position, start_.speed, start_.accel, count_ > 0 ? phases_[0].jerk : 0};
     if (t >= duration_) return {target_.position, target_.speed, target_.accel, 0};
     const Phase* p = phases_.data();

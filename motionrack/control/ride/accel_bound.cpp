@@ -20,22 +20,22 @@ constexpr double much = 0.2;
 struct Cell {
     double length = 0;
     double cap = no_cap;    ///< of w in its middle; straight: all over it
-    double accel = no_cap;  ///< along u, where no axis minds the bend
+    double accel = no_cap;  ///< along u, where no axis minds the curvature
     bool straight = false;
     Point from = {}, to = {};
 };
 
 double cap_of(const Point& tangent, const MachineLimits& limits, double feed) {
-    const double speed = std::min(feed, speed_along(tangent, limits));
+    const double speed = std::min(feed, max_velocity_along(tangent, limits));
     return speed < 1e100 ? speed * speed : no_cap;
 }
 
 /// Cells, and the greatest w at each of their ends.
 struct Grid {
-    Grid(std::span<const CurvePiece> curve, const MachineLimits& limits) {
+    Grid(std::span<const CubicSegment> curve, const MachineLimits& limits) {
         const double length = curve.back().begin + curve.back().length;
         caps.push_back(0);
-        for (const CurvePiece& piece : curve) add(piece, limits, length);
+        for (const CubicSegment& piece : curve) add(piece, limits, length);
         caps.back() = 0;
     }
 
@@ -43,7 +43,7 @@ struct Grid {
     std::vector<double> caps;
 
   private:
-    void add(const CurvePiece& piece, const MachineLimits& limits, double curve_length) {
+    void add(const CubicSegment& piece, const MachineLimits& limits, double curve_length) {
         const bool straight = is_straight(piece);
         const int count = straight
                               ? 1
@@ -52,14 +52,15 @@ struct Grid {
         const double length = piece.length / count;
         for (int k = 0; k < count; ++k) {
             const double begin = length * k;
-            const Point tangent = tangent_on(piece, begin + 0.5 * length), bend = bend_on(piece, begin + 0.5 * length);
+            const Point tangent = tangent_on(piece, begin + 0.5 * length),
+                        curvature = bend_on(piece, begin + 0.5 * length);
             Cell cell;
             cell.length = length;
             cell.straight = straight;
             cell.cap = cap_of(tangent, limits, piece.feed);
             for (std::size_t i = 0; i < tangent.size(); ++i) {
-                cell.from[i] = 0.5 * (bend[i] - tangent[i] / length);
-                cell.to[i] = 0.5 * (bend[i] + tangent[i] / length);
+                cell.from[i] = 0.5 * (curvature[i] - tangent[i] / length);
+                cell.to[i] = 0.5 * (curvature[i] + tangent[i] / length);
                 if (tangent[i] != 0) cell.accel = std::min(cell.accel, limits[i].max_accel / std::fabs(tangent[i]));
             }
             cells.push_back(cell);
@@ -147,7 +148,7 @@ double seconds_over(const Cell& cell, double from, double to) {
 
 }  // namespace
 
-double accel_bound(std::span<const CurvePiece> curve, const MachineLimits& limits) {
+double min_duration_s(std::span<const CubicSegment> curve, const MachineLimits& limits) {
     if (curve.empty()) return 0;
     const Grid grid(curve, limits);
     std::vector<double> squares = grid.caps;

@@ -16,6 +16,6 @@ namespace motionrack::control {
 /// Seconds from rest to rest along a curve, as quick as each axis' speed and acceleration and the pieces' feeds allow;
 /// jerk is not limited. No motion along this curve with a limited jerk is quicker. Of curves with bends it is found to
 /// about a thousandth; 0: no pieces.
-double accel_bound(std::span<const CurvePiece> curve, const MachineLimits& limits);
+double min_duration_s(std::span<const CubicSegment> curve, const MachineLimits& limits);
 
 }  // namespace motionrack::control

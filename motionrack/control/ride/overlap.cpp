@@ -22,16 +22,16 @@ constexpr int looks = 4;
 /// Of a limit: what a card that draws the path as lines makes up for.
 constexpr double along_reserve = 0.02;
 
-bool is_constant_jerk(const FeedPiece& piece) {
-    return piece.phase != FeedPhase::cell;
+bool is_constant_jerk(const ProfileSegment& piece) {
+    return piece.phase != ProfileSegmentKind::cell;
 }
 
-bool speeds_up(const FeedPiece& piece) {
+bool speeds_up(const ProfileSegment& piece) {
     const double begin = piece.at(0).accel, end = piece.last().accel;
     return begin >= 0 && end >= 0 && begin + end > 0;
 }
 
-bool are_one_line(const CurvePiece& a, const CurvePiece& b) {
+bool are_one_line(const CubicSegment& a, const CubicSegment& b) {
     return is_straight(a) && a.tangent == b.tangent && a.feed == b.feed;
 }
 
@@ -39,7 +39,7 @@ struct Times {
     double before = 0, after = 0;
 };
 /// On a piece, just before and just after it is at `place`.
-Times times_about(const FeedPiece& piece, double place) {
+Times times_about(const ProfileSegment& piece, double place) {
     Times out{0, piece.seconds};
     for (int i = 0; i < overlap_halvings; ++i) {
         const double middle = 0.5 * (out.before + out.after);
@@ -49,7 +49,7 @@ Times times_about(const FeedPiece& piece, double place) {
 }
 
 /// s before the end, from which on no more than `room` is to go.
-double seconds_to_go(std::span<const FeedPiece> feed, double room) {
+double seconds_to_go(std::span<const ProfileSegment> feed, double room) {
     const double place = feed.back().begin + feed.back().length - room;
     double seconds = 0;
     for (std::size_t i = feed.size(); i-- > 0; seconds += feed[i].seconds)
@@ -58,10 +58,10 @@ double seconds_to_go(std::span<const FeedPiece> feed, double room) {
 }
 
 /// s from the begin, until which no more than `room` is gone.
-double seconds_gone(std::span<const FeedPiece> feed, double room) {
+double seconds_gone(std::span<const ProfileSegment> feed, double room) {
     const double place = feed.front().begin + room;
     double seconds = 0;
-    for (const FeedPiece& piece : feed) {
+    for (const ProfileSegment& piece : feed) {
         if (piece.begin + piece.length > place) return seconds + times_about(piece, place).before;
         seconds += piece.seconds;
     }
@@ -70,33 +70,34 @@ double seconds_gone(std::span<const FeedPiece> feed, double room) {
 
 // From any instant of the overlap on, either the one before has no more than the room to go, or until then the next one
 // has gone no more than that. The path is no farther from one side than it has gone along the other.
-double longest_within(std::span<const FeedPiece> in, std::span<const FeedPiece> out, double room_mm) {
-    return seconds_to_go(in, room_mm) + seconds_gone(out, room_mm);
+double longest_within(std::span<const ProfileSegment> in, std::span<const ProfileSegment> out,
+                      double corner_tolerance_mm) {
+    return seconds_to_go(in, corner_tolerance_mm) + seconds_gone(out, corner_tolerance_mm);
 }
 
 /// A stretch end, piece by piece.
-class Walk {
+class ProgramFlow {
   public:
-    Walk(std::span<const FeedPiece> feed, double seconds) : feed_(feed), time_(seconds) {
+    ProgramFlow(std::span<const ProfileSegment> feed, double seconds) : feed_(feed), time_(seconds) {
         while (piece_ + 1 < feed_.size() && time_ >= feed_[piece_].seconds) time_ -= feed_[piece_++].seconds;
     }
-    const FeedPiece& piece() const { return feed_[piece_]; }
+    const ProfileSegment& piece() const { return feed_[piece_]; }
     double left() const { return std::max(0.0, piece().seconds - time_); }
-    FeedState at(double seconds) const { return piece().at(std::min(time_ + seconds, piece().seconds)); }
+    PathMotion at(double seconds) const { return piece().at(std::min(time_ + seconds, piece().seconds)); }
     void pass(double seconds) {
         time_ += seconds;
         if (left() <= hair * piece().seconds && piece_ + 1 < feed_.size()) time_ = 0, ++piece_;
     }
 
   private:
-    std::span<const FeedPiece> feed_;
+    std::span<const ProfileSegment> feed_;
     std::size_t piece_ = 0;
     double time_ = 0;
 };
 
 /// A time in which one stretch ends and the other begins: the motions along both at its begin and at its end.
 struct Moment {
-    std::array<FeedState, 2> in, out;
+    std::array<PathMotion, 2> in, out;
     bool is_linear = false;  ///< accelerations change evenly
 };
 
@@ -118,7 +119,8 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
                                                      std::fabs(in * in1.accel + out * out1.accel))
                                           : greatest_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
     if (accel > limits.max_accel * (1 + overlap_rounding)) return false;
-    return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= jerk_of(limits) * (1 + overlap_rounding);
+    return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <=
+           effective_jerk(limits) * (1 + overlap_rounding);
 }
 
 bool keeps_feed(const Moment& moment, double feed, double cosine) {
@@ -129,7 +131,7 @@ bool keeps_feed(const Moment& moment, double feed, double cosine) {
 
 /// A card draws the path as straight pieces, on which each axis has its share of the acceleration along the path; what
 /// the path's turn takes from that comes only at the joints. So this share alone has to be within the limits too.
-bool keeps_along(const FeedState& in, const Point& a, const FeedState& out, const Point& b,
+bool keeps_along(const PathMotion& in, const Point& a, const PathMotion& out, const Point& b,
                  const MachineLimits& limits) {
     Point speed;
     double square = 0, product = 0;
@@ -143,10 +145,10 @@ bool keeps_along(const FeedState& in, const Point& a, const FeedState& out, cons
     return true;
 }
 
-bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, const MachineLimits& limits) {
+bool is_within(const SectionRamp& in, const SectionRamp& out, double seconds, const MachineLimits& limits) {
     const Point &a = in.curve.tangent, &b = out.curve.tangent;
     const double feed = std::max(in.curve.feed, out.curve.feed), cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    Walk ending(in.feed, in.seconds() - seconds), beginning(out.feed, 0);
+    ProgramFlow ending(in.feed, in.seconds() - seconds), beginning(out.feed, 0);
     for (double left = seconds; left > 0;) {
         const double step = std::min({ending.left(), beginning.left(), left});
         if (!(step > 0)) break;
@@ -172,18 +174,18 @@ bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, cons
 
 }  // namespace
 
-bool slows(const FeedPiece& piece) {
+bool slows(const ProfileSegment& piece) {
     const double begin = piece.at(0).accel, end = piece.last().accel;
     return begin <= 0 && end <= 0 && begin + end < 0;
 }
 
-double StretchEnd::seconds() const {
+double SectionRamp::seconds() const {
     double out = 0;
-    for (const FeedPiece& piece : feed) out += piece.seconds;
+    for (const ProfileSegment& piece : feed) out += piece.seconds;
     return out;
 }
 
-StretchEnd slowing_end(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed) {
+SectionRamp final_deceleration(std::span<const CubicSegment> curve, std::span<const ProfileSegment> feed) {
     if (curve.empty() || !is_straight(curve.back())) return {};
     std::size_t piece = curve.size() - 1, first = feed.size();
     while (piece > 0 && are_one_line(curve[piece - 1], curve.back())) --piece;
@@ -191,7 +193,7 @@ StretchEnd slowing_end(std::span<const CurvePiece> curve, std::span<const FeedPi
     return {curve.back(), feed.subspan(first)};
 }
 
-StretchEnd rising_begin(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed) {
+SectionRamp initial_acceleration(std::span<const CubicSegment> curve, std::span<const ProfileSegment> feed) {
     if (curve.empty() || !is_straight(curve.front())) return {};
     std::size_t piece = 0, past = 0;
     while (piece + 1 < curve.size() && are_one_line(curve[piece + 1], curve.front())) ++piece;
@@ -200,20 +202,22 @@ StretchEnd rising_begin(std::span<const CurvePiece> curve, std::span<const FeedP
     return {curve.front(), feed.first(past)};
 }
 
-void KeptEnd::keep(const StretchEnd& end) {
+void StoredRamp::keep(const SectionRamp& end) {
     curve_ = end.curve;
     feed_.assign(end.feed.begin(), end.feed.end());
 }
 
-double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm,
-                  const MachineLimits& limits) {
-    if (!(room_mm > 0 && most_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
-    double seconds = std::min({most_seconds, in.seconds(), out.seconds(), longest_within(in.feed, out.feed, room_mm)});
+double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double most_seconds, double corner_tolerance_mm,
+                     const MachineLimits& limits) {
+    if (!(corner_tolerance_mm > 0 && most_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
+    double seconds =
+        std::min({most_seconds, in.seconds(), out.seconds(), longest_within(in.feed, out.feed, corner_tolerance_mm)});
     for (int i = 0; i < overlap_tries; ++i, seconds *= shorter_overlap)
         if (is_within(in, out, seconds, limits)) return seconds;
     // Where both go on with constant jerk an axis that turns back gets no more of both than of one.
     const auto landing = in.feed.last(1), launch = out.feed.first(1);
-    seconds = std::min({most_seconds, landing[0].seconds, launch[0].seconds, longest_within(landing, launch, room_mm)});
+    seconds = std::min(
+        {most_seconds, landing[0].seconds, launch[0].seconds, longest_within(landing, launch, corner_tolerance_mm)});
     return is_within(in, out, seconds, limits) ? seconds : 0;
 }
 

@@ -16,30 +16,30 @@ namespace motionrack::control {
 
 /// How a stretch ends or begins: the part of its feed in which it only slows down, or only speeds up, on one line; a
 /// piece of this line. Without feed where the curve is bent there.
-struct StretchEnd {
-    CurvePiece curve;
-    std::span<const FeedPiece> feed;
+struct SectionRamp {
+    CubicSegment curve;
+    std::span<const ProfileSegment> feed;
     double seconds() const;
 };
 /// All along it.
-bool slows(const FeedPiece& piece);
-StretchEnd slowing_end(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed);
-StretchEnd rising_begin(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed);
+bool slows(const ProfileSegment& piece);
+SectionRamp final_deceleration(std::span<const CubicSegment> curve, std::span<const ProfileSegment> feed);
+SectionRamp initial_acceleration(std::span<const CubicSegment> curve, std::span<const ProfileSegment> feed);
 
 /// An end that stays when its stretch is gone.
-class KeptEnd {
+class StoredRamp {
   public:
-    void keep(const StretchEnd& end);
-    StretchEnd end() const { return {curve_, feed_}; }
+    void keep(const SectionRamp& end);
+    SectionRamp end() const { return {curve_, feed_}; }
 
   private:
-    CurvePiece curve_;
-    std::vector<FeedPiece> feed_;
+    CubicSegment curve_;
+    std::vector<ProfileSegment> feed_;
 };
 
 /// Seconds by which the next one may begin earlier, 0 .. `most_seconds`; 0: none, as on curved ends, or where an axis
-/// of both would get too much. `room_mm`: how far the path may be from the corner's sides.
-double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm,
-                  const MachineLimits& limits);
+/// of both would get too much. `corner_tolerance_mm`: how far the path may be from the corner's sides.
+double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double most_seconds, double corner_tolerance_mm,
+                     const MachineLimits& limits);
 
 }  // namespace motionrack::control

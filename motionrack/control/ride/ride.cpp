@@ -5,51 +5,52 @@
 
 namespace motionrack::control {
 
-RideState StretchView::at(double seconds) {
+TrajectoryPoint SectionSampler::at(double seconds) {
     const auto& feed = stretch_.feed;
     const auto& curve = stretch_.curve;
     while (feed_ + 1 < feed.size() && seconds > feed_begin_ + feed[feed_].seconds) feed_begin_ += feed[feed_++].seconds;
-    const FeedState along = feed[feed_].at(std::clamp(seconds - feed_begin_, 0.0, feed[feed_].seconds));
+    const PathMotion along = feed[feed_].at(std::clamp(seconds - feed_begin_, 0.0, feed[feed_].seconds));
     while (piece_ + 1 < curve.size() && along.place > curve[piece_ + 1].begin) ++piece_;
-    RideState out = state_on(curve[piece_], along);
-    if (seconds < stretch_.overlap) add_landing(out, stretch_.before, stretch_.overlap - seconds);
+    TrajectoryPoint out = trajectory_point(curve[piece_], along);
+    if (seconds < stretch_.overlap) add_overlap(out, stretch_.before, stretch_.overlap - seconds);
     return out;
 }
 
-Ride::Ride(const MachineLimits& limits, const Point& start, OnStretch on_stretch)
+OfflineTrajectory::OfflineTrajectory(const MachineLimits& limits, const Point& start, OnSection on_stretch)
     : limits_(limits), on_stretch_(std::move(on_stretch)), builder_(limits, start), planner_(limits) {}
 
-void Ride::push(const Move& move) {
+void OfflineTrajectory::push(const Move& move) {
     if (!builder_.has_room()) take();
     builder_.push(move);
 }
 
-void Ride::flush() {
+void OfflineTrajectory::flush() {
     if (!builder_.has_room()) take();
     builder_.flush();
     take();
 }
 
-void Ride::take() {
-    CurveItem item;
+void OfflineTrajectory::take() {
+    PathElement item;
     while (builder_.pull(item)) {
         if (!item.rest) {
-            for_parts(item.piece, limits_, [&](const CurvePiece& part) {
+            for_each_subsegment(item.piece, limits_, [&](const CubicSegment& part) {
                 curve_.push_back(part);
                 use_.emplace_back();
             });
             continue;
         }
-        Stretch stretch{curve_, {}, 0, 0, before_.end(), item.seconds, item.line, item.at};
+        PathSection stretch{curve_, {}, 0, 0, before_.end(), item.seconds, item.line, item.at};
         if (!curve_.empty() && planner_.plan({}, curve_, use_, 0, curve_.back().begin + curve_.back().length)) {
             stretch.feed = planner_.feed();
             stretch.seconds = planner_.seconds();
-            stretch.overlap = overlap_of(stretch.before, rising_begin(curve_, stretch.feed), alone_, room_mm_, limits_);
+            stretch.overlap =
+                max_overlap_s(stretch.before, initial_acceleration(curve_, stretch.feed), alone_, room_mm_, limits_);
         }
         on_stretch_(stretch);
-        before_.keep(slowing_end(curve_, stretch.feed));
+        before_.keep(final_deceleration(curve_, stretch.feed));
         alone_ = stretch.seconds - stretch.overlap;
-        room_mm_ = curve_.empty() ? 0 : item.room_mm;
+        room_mm_ = curve_.empty() ? 0 : item.corner_tolerance_mm;
         curve_.clear();
         use_.clear();
     }

@@ -30,7 +30,7 @@ constexpr double smallest_move = 1e-6;
 /// Along the path: of XYZ, or of the fastest rotary axis where only these move.
 double size_of(const Point& way) {
     const double linear = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
-    return linear > smallest_length ? linear : std::max({std::fabs(way[3]), std::fabs(way[4]), std::fabs(way[5])});
+    return linear > min_length_mm ? linear : std::max({std::fabs(way[3]), std::fabs(way[4]), std::fabs(way[5])});
 }
 
 Point between(const Point& from, const Point& to) {
@@ -40,14 +40,15 @@ Point between(const Point& from, const Point& to) {
 }
 
 /// How far an axis' speed is from what it would be on the straight way.
-double turn_of(const RideState& state, const Point& way, double length, std::size_t axis) {
+double turn_of(const TrajectoryPoint& state, const Point& way, double length, std::size_t axis) {
     const double along = length > 0 ? size_of(state.speed) / length * way[axis] : 0;
     return std::fabs(state.speed[axis] - along);
 }
 
 }  // namespace
 
-RideMoves::RideMoves(const MachineLimits& limits, const Point& start, RideMovesSettings settings)
+TrajectoryInterpolator::TrajectoryInterpolator(const MachineLimits& limits, const Point& start,
+                                               InterpolatorSettings settings)
     : limits_(limits),
       path_limits_(limits),
       settings_(settings),
@@ -55,7 +56,7 @@ RideMoves::RideMoves(const MachineLimits& limits, const Point& start, RideMovesS
       position_(start),
       place_(start) {}
 
-Result<void> RideMoves::push(const Move& move, bool overridable) {
+Result<void> TrajectoryInterpolator::push(const Move& move, bool overridable) {
     MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, path_limits_));
     if (path.shape == PathShape::nothing && move.kind != MoveKind::dwell) return {};
     const std::uint8_t axes = axes_of(path);
@@ -71,8 +72,8 @@ Result<void> RideMoves::push(const Move& move, bool overridable) {
     return {};
 }
 
-std::uint8_t RideMoves::axes_of(const Geometry& path) const {
-    const Point worst = worst_components(path);
+std::uint8_t TrajectoryInterpolator::axes_of(const Geometry& path) const {
+    const Point worst = max_tangent_components(path);
     unsigned axes = 0;
     for (std::size_t i = 0; i < worst.size(); ++i)
         if (worst[i] * path.length * limits_[i].pulses_per_unit >= 0.5) axes |= 1u << i;
@@ -80,44 +81,44 @@ std::uint8_t RideMoves::axes_of(const Geometry& path) const {
 }
 
 /// Where the card has to stand between two moves: also before a corner is cut with more axes than it draws.
-bool RideMoves::has_to_rest(const Geometry& path, std::uint8_t axes) const {
+bool TrajectoryInterpolator::has_to_rest(const Geometry& path, std::uint8_t axes) const {
     if (!settings_.drive || path.shape == PathShape::nothing || last_.shape == PathShape::nothing) return false;
     const bool alike = axes == last_axes_ && axes == run_axes_;
-    return (!alike && steers(static_cast<std::uint8_t>(run_axes_ | axes))) ||
-           settings_.drive->joint_speed(last_, path) <= 0;
+    return (!alike && uses_auxiliary_axis(static_cast<std::uint8_t>(run_axes_ | axes))) ||
+           settings_.drive->max_junction_velocity(last_, path) <= 0;
 }
 
 /// More axes than the card draws together.
-bool RideMoves::steers(std::uint8_t axes) const {
-    return settings_.drive && std::popcount(axes) > settings_.drive->most_drawn();
+bool TrajectoryInterpolator::uses_auxiliary_axis(std::uint8_t axes) const {
+    return settings_.drive && std::popcount(axes) > settings_.drive->max_interpolated_axes();
 }
 
-bool RideMoves::pull(PlannedMove& planned, bool early) {
+bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     planned = {};
-    const RideNext next = rider_.next(early);
-    if (next == RideNext::nothing) return false;
+    const NextMotion next = rider_.next(early);
+    if (next == NextMotion::nothing) return false;
     planned.start = place_;
-    if (next == RideNext::dwell) {
+    if (next == NextMotion::dwell) {
         planned.number = rider_.move_of_rest();
         planned.move = rider_.move(planned.number).move;
         planned.move.end = place_;
         planned.move.seconds =
             settings_.cut_dwells ? std::min(settings_.most_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
-        rider_.pass_dwell(planned.move.seconds);
+        rider_.advance_dwell(planned.move.seconds);
         return true;
     }
-    const RideState begin = rider_.at(0);
+    const TrajectoryPoint begin = rider_.at(0);
     const double seconds = last_seconds_ = seconds_of_next();
-    const RideState end = rider_.at(seconds);
+    const TrajectoryPoint end = rider_.at(seconds);
     const double length = size_of(between(place_, end.place));
     if (length < smallest_move && size_of(end.speed) > 0) {  // where it turns round
         rider_.pass(seconds);
         return pull(planned, early);
     }
     planned.number = rider_.move_of(begin);
-    const RideMove& move = rider_.move(planned.number);
+    const TrajectoryMove& move = rider_.move(planned.number);
     planned.move = move.move;
-    if (steers(move.axes)) planned.axes = move.axes;
+    if (uses_auxiliary_axis(move.axes)) planned.axes = move.axes;
     if (planned.move.kind != MoveKind::traverse) planned.move.kind = MoveKind::feed;
     planned.move.end = end.place;
     const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
@@ -126,7 +127,7 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     planned.cruise = std::max(speed_in, speed_out);
     planned.exit = speed_out;
     planned.accel = std::max(
-        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, smallest_length)), least_accel);
+        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, min_length_mm)), least_accel);
     planned.even = true;
     planned.move.feed = planned.cruise;
     place_ = end.place;
@@ -136,24 +137,25 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
 
 /// The longest that is even enough. Its ends are on whole pulses, so that its speeds are wrong by half a pulse a move:
 /// no shorter than this matters.
-double RideMoves::seconds_of_next() const {
-    const RideState begin = rider_.at(0);
-    const double least =
-        steers(rider_.move(rider_.move_of(begin)).axes) ? settings_.drive->steering_seconds() : shortest;
+double TrajectoryInterpolator::seconds_of_next() const {
+    const TrajectoryPoint begin = rider_.at(0);
+    const double least = uses_auxiliary_axis(rider_.move(rider_.move_of(begin)).axes)
+                             ? settings_.drive->min_velocity_update_s()
+                             : shortest;
     double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
     for (; seconds >= 2 * shortest; seconds *= shorter) {
-        const Roughness is = roughness_of(begin, seconds);
+        const ApproximationError is = roughness_of(begin, seconds);
         if (is.turn <= jump_share && (is.off <= off_pulses || seconds < 2 * least)) break;
         if (noise_left * is.half_pulse > std::max(is.turn, least_noise)) break;
     }
     // No crumb before the end.
     const double left = rider_.left();
-    if (left - seconds >= 0.5 * seconds) return near_whole_pulses(begin, seconds);
+    if (left - seconds >= 0.5 * seconds) return snap_to_pulses(begin, seconds);
     return left < 2 * shortest || roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
 }
 
 /// A little earlier the path may pass nearer to a place on whole pulses.
-double RideMoves::near_whole_pulses(const RideState& begin, double seconds) const {
+double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, double seconds) const {
     if (roughness_of(begin, seconds).half_pulse <= least_noise) return seconds;
     double best = seconds, least_off = 1;
     for (int k = 0; k < tries && least_off > near_enough; ++k) {
@@ -168,7 +170,7 @@ double RideMoves::near_whole_pulses(const RideState& begin, double seconds) cons
 
 /// The longest axis' pulses are as far apart as its speed says. Those of the others share its time: half a pulse more
 /// or less is a jump.
-double RideMoves::off_whole_pulses(const Point& begin, const Point& end) const {
+double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point& end) const {
     std::array<double, axis_count> way = {};
     for (std::size_t i = 0; i < way.size(); ++i)
         if (limits_[i].present) way[i] = std::fabs(end[i] - begin[i]) * limits_[i].pulses_per_unit;
@@ -182,8 +184,9 @@ double RideMoves::off_whole_pulses(const Point& begin, const Point& end) const {
 }
 
 /// On a short way corners may lie on both sides of its middle.
-RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seconds) const {
-    const RideState middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
+TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
+                                                                                double seconds) const {
+    const TrajectoryPoint middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
     const Point way = between(begin.place, end.place), gone = between(begin.place, middle.place);
     double square = 0, along = 0, even = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -191,7 +194,7 @@ RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seco
         along += way[i] * gone[i];
         even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with an even change of the speed
     }
-    Roughness out;
+    ApproximationError out;
     const double length = size_of(way);
     const double per_square = square > 0 ? 1 / square : 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -209,7 +212,7 @@ RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seco
 }
 
 /// Pulses of an axis, at most, by which what is `gone` is beside the straight way.
-double RideMoves::beside(const Point& way, double per_square, const Point& gone) const {
+double TrajectoryInterpolator::beside(const Point& way, double per_square, const Point& gone) const {
     double along = 0, most = 0;
     for (std::size_t i = 0; i < way.size(); ++i) along += way[i] * gone[i];
     for (std::size_t i = 0; i < way.size(); ++i)

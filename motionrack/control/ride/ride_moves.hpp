@@ -11,17 +11,17 @@
 
 namespace motionrack::control {
 
-struct RideMovesSettings {
-    RiderSettings rider;
-    double most_seconds = 0.1;         ///< of a move, so that wishes are felt soon; above 0, at most 0.1
-    bool cut_dwells = false;           ///< dwells too
-    const DriveRule* drive = nullptr;  ///< may be null; must outlive the planner
+struct InterpolatorSettings {
+    TrajectoryGeneratorSettings rider;
+    double most_seconds = 0.1;                ///< of a move, so that wishes are felt soon; above 0, at most 0.1
+    bool cut_dwells = false;                  ///< dwells too
+    const DriveConstraints* drive = nullptr;  ///< may be null; must outlive the planner
 };
 
-class RideMoves final : public PathPlanner {
+class TrajectoryInterpolator final : public TrajectoryPlanner {
   public:
     /// `start`: where the machine stands, at rest.
-    RideMoves(const MachineLimits& limits, const Point& start, RideMovesSettings settings = {});
+    TrajectoryInterpolator(const MachineLimits& limits, const Point& start, InterpolatorSettings settings = {});
 
     Result<void> push(const Move& move) override { return push(move, true); }
     /// One that is not `overridable` goes at its own feed, whatever the overrides are.
@@ -37,12 +37,12 @@ class RideMoves final : public PathPlanner {
     bool pull(PlannedMove& planned, bool early);
 
     /// To hold, resume and override.
-    Rider& rider() { return rider_; }
-    const Rider& rider() const { return rider_; }
+    TrajectoryGenerator& rider() { return rider_; }
+    const TrajectoryGenerator& rider() const { return rider_; }
 
   private:
     /// What a move from one instant to another costs.
-    struct Roughness {
+    struct ApproximationError {
         double off = 0;         ///< pulses beside its path, or early or late on it
         double turn = 0;        ///< jump at its joint with the next, in start speeds
         double half_pulse = 0;  ///< the jump of a speed that is half a pulse wrong
@@ -50,17 +50,17 @@ class RideMoves final : public PathPlanner {
 
     bool has_to_rest(const Geometry& path, std::uint8_t axes) const;
     std::uint8_t axes_of(const Geometry& path) const;
-    bool steers(std::uint8_t axes) const;
+    bool uses_auxiliary_axis(std::uint8_t axes) const;
     double seconds_of_next() const;
-    double near_whole_pulses(const RideState& begin, double seconds) const;
+    double snap_to_pulses(const TrajectoryPoint& begin, double seconds) const;
     double off_whole_pulses(const Point& begin, const Point& end) const;
-    Roughness roughness_of(const RideState& begin, double seconds) const;
+    ApproximationError roughness_of(const TrajectoryPoint& begin, double seconds) const;
     double beside(const Point& way, double per_square, const Point& gone) const;
 
     MachineLimits limits_;
     PathLimits path_limits_;
-    RideMovesSettings settings_;
-    Rider rider_;
+    InterpolatorSettings settings_;
+    TrajectoryGenerator rider_;
     Geometry last_;                              ///< of the moves that were pushed
     std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< of the last one, and of all since the path was to rest
     Point position_;

@@ -3,27 +3,27 @@
 
 namespace motionrack::control {
 
-RideState state_on(const CurvePiece& piece, const FeedState& along) {
+TrajectoryPoint trajectory_point(const CubicSegment& piece, const PathMotion& along) {
     const double x = std::clamp(along.place - piece.begin, 0.0, piece.length);
-    RideState out;
+    TrajectoryPoint out;
     out.u = along.place;
     out.line = piece.line;
     out.place = position_on(piece, x);
-    const Point tangent = tangent_on(piece, x), bend = bend_on(piece, x);
+    const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
     const double v = along.speed, a = along.accel, j = along.jerk;
     for (std::size_t i = 0; i < out.place.size(); ++i) {
         out.speed[i] = tangent[i] * v;
-        out.accel[i] = tangent[i] * a + bend[i] * v * v;
-        out.jerk[i] = tangent[i] * j + 3 * bend[i] * v * a + piece.twist[i] * v * v * v;
+        out.accel[i] = tangent[i] * a + curvature[i] * v * v;
+        out.jerk[i] = tangent[i] * j + 3 * curvature[i] * v * a + piece.curvature_rate[i] * v * v * v;
     }
     return out;
 }
 
-void add_landing(RideState& state, const StretchEnd& end, double seconds) {
+void add_overlap(TrajectoryPoint& state, const SectionRamp& end, double seconds) {
     std::size_t i = end.feed.size() - 1;
     while (i > 0 && seconds > end.feed[i].seconds) seconds -= end.feed[i--].seconds;
-    const FeedPiece& piece = end.feed[i];
-    const FeedState along = piece.at(std::max(0.0, piece.seconds - seconds));
+    const ProfileSegment& piece = end.feed[i];
+    const PathMotion along = piece.at(std::max(0.0, piece.seconds - seconds));
     const double left = end.feed.back().begin + end.feed.back().length - along.place;
     for (std::size_t k = 0; k < state.place.size(); ++k) {
         const double tangent = end.curve.tangent[k];

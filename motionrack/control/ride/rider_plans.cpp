@@ -13,8 +13,8 @@ namespace {
 constexpr int halvings = 5, steps_out = 40;
 /// The first try is about as hard as one may brake at this part of the speed.
 constexpr double part_of_speed = 0.7;
-/// On the way of a stop a bend need hardly be driven faster than it would be without: what is not needed for its speed
-/// is left to slow down.
+/// On the way of a stop a curvature need hardly be driven faster than it would be without: what is not needed for its
+/// speed is left to slow down.
 constexpr double above_plan = 1.003;
 /// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by
 /// this much more.
@@ -22,14 +22,14 @@ constexpr double faster = 1.01, most_ease = 16, ease_grows = 1.3;
 /// A speed below this part of another is slower, and not only rounded.
 constexpr double clearly_slower = 0.99;
 
-FeedStart start_of(const FeedState& along) {
+InitialPathState start_of(const PathMotion& along) {
     return {along.speed * along.speed, 2 * along.accel};
 }
 
 /// Whether it becomes faster once it has slowed down.
-bool speeds_up_again(std::span<const FeedPiece> feed) {
+bool speeds_up_again(std::span<const ProfileSegment> feed) {
     double greatest = 0, lowest = std::numeric_limits<double>::infinity();  // lowest: since it slows down
-    for (const FeedPiece& piece : feed) {
+    for (const ProfileSegment& piece : feed) {
         const double speed = piece.last().speed;
         greatest = std::max({greatest, piece.at(0).speed, speed});
         if (speed < clearly_slower * greatest) lowest = std::min(lowest, speed);
@@ -42,11 +42,11 @@ bool speeds_up_again(std::span<const FeedPiece> feed) {
 
 /// The plan just found is driven, from a spot that is reached in `seconds`; until then the one before, which launches
 /// there.
-void Rider::take(const Spot& from, double seconds, double to) {
+void TrajectoryGenerator::take(const PlanCursor& from, double seconds, double to) {
     if (seconds > 0) {
         now_.feed.erase(now_.feed.begin(), now_.feed.begin() + static_cast<std::ptrdiff_t>(feed_));
         now_.feed.resize(from.feed - feed_ + 1);
-        FeedPiece& last = now_.feed.back();
+        ProfileSegment& last = now_.feed.back();
         last.length = from.along.place - last.begin;
         last.seconds = from.on_feed;
     } else {
@@ -56,22 +56,22 @@ void Rider::take(const Spot& from, double seconds, double to) {
     feed_ = 0;
     now_.feed.insert(now_.feed.end(), planner_.feed().begin(), planner_.feed().end());
     now_.planned_to = to;
-    part_from_next();
+    cancel_overlap();
     measure();
 }
 
 /// How long the plan lasts, and from when on it only slows down.
-void Rider::measure() {
+void TrajectoryGenerator::measure() {
     left_ = -on_feed_;
     braking_ = 0;
-    for (const FeedPiece& piece : now_.feed) {
+    for (const ProfileSegment& piece : now_.feed) {
         left_ += piece.seconds;
         braking_ = slows(piece) ? braking_ + piece.seconds : 0;
     }
 }
 
 /// From a motion on this piece to rest at the end of what is known.
-bool Rider::plan_to_end(std::size_t piece, const FeedState& along) {
+bool TrajectoryGenerator::plan_to_end(std::size_t piece, const PathMotion& along) {
     const auto first = static_cast<std::ptrdiff_t>(piece);
     return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()},
                          {now_.use.begin() + first, now_.use.end()}, along.place, now_.known());
@@ -79,8 +79,8 @@ bool Rider::plan_to_end(std::size_t piece, const FeedState& along) {
 
 /// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not
 /// known how fast they are.
-bool Rider::go_on() {
-    const Spot from = spot_at(before_left_);
+bool TrajectoryGenerator::extend_plan() {
+    const PlanCursor from = spot_at(before_left_);
     const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.place;
     for (std::size_t i = from.piece; i < now_.curve.size(); ++i)
         if (holding_ || now_.curve[i].begin + now_.curve[i].length > slows_at) set_feed(now_, i);
@@ -90,8 +90,8 @@ bool Rider::go_on() {
     return true;
 }
 
-bool Rider::slow_down() {
-    const Spot from = spot_at(before_left_);
+bool TrajectoryGenerator::slow_down() {
+    const PlanCursor from = spot_at(before_left_);
     const std::optional<double> end = find_stop(from);
     if (!end) return false;
     holding_ = true;
@@ -101,9 +101,9 @@ bool Rider::slow_down() {
 
 /// What is known of a piece, for a stop on it, that is driven as fast as is planned, or as fast as `planned`; `k`: the
 /// first part of the feed that is looked at, then the first that reaches there.
-PieceUse Rider::use_for_stop(std::size_t piece, std::size_t& k, double planned) const {
-    const CurvePiece& on = now_.curve[piece];
-    PieceUse use = now_.use[piece];
+SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& k, double planned) const {
+    const CubicSegment& on = now_.curve[piece];
+    SegmentTuning use = now_.use[piece];
     if (is_straight(on)) return use;
     while (k + 1 < now_.feed.size() && now_.feed[k + 1].begin <= on.begin) ++k;
     for (std::size_t i = k; i < now_.feed.size() && now_.feed[i].begin < on.begin + on.length; ++i)
@@ -113,11 +113,11 @@ PieceUse Rider::use_for_stop(std::size_t piece, std::size_t& k, double planned) 
 }
 
 /// The nearest place to stand at that is found: a plan to it is the planner's last.
-std::optional<double> Rider::find_stop(const Spot& from) {
-    const FeedStart start = start_of(from.along);
+std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
+    const InitialPathState start = start_of(from.along);
     const double begin = from.along.place, most = now_.planned_to - begin;
     double planned = -1;  // how far the planner's last plan goes; below 0: it found none
-    std::vector<PieceUse> use;
+    std::vector<SegmentTuning> use;
     std::size_t k = feed_;
     // Where it slows down for lower feeds, it slows down more for a stop: they need not be kept on its way.
     const double feed = now_.curve[from.piece].feed, eases_from = feed > feed_of(now_, from.piece) ? feed : 0;
@@ -137,7 +137,8 @@ std::optional<double> Rider::find_stop(const Spot& from) {
         planned = found ? distance : -1;
         return found;
     };
-    const FeedSpan span = PieceLimits(now_.curve[from.piece], limits_).up_to(part_of_speed * from.along.speed, 0);
+    const LimitInterval span =
+        SegmentLimits(now_.curve[from.piece], limits_).up_to(part_of_speed * from.along.speed, 0);
     double distance = 0.25 * from.along.speed * (from.along.speed / span.brake + span.brake / span.jerk), too_near = 0;
     for (int i = 0; i < steps_out && distance < most && !plan_to(distance); ++i) {
         too_near = distance;
@@ -155,15 +156,15 @@ std::optional<double> Rider::find_stop(const Spot& from) {
 }
 
 /// With other feeds. Where the motion is faster than they allow, it may be as fast as if it slowed down to stand.
-bool Rider::ease_into_feeds() {
-    const Spot from = spot_at(before_left_);
+bool TrajectoryGenerator::apply_overrides() {
+    const PlanCursor from = spot_at(before_left_);
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
-    std::vector<FeedPiece> stop;
+    std::vector<ProfileSegment> stop;
     if (slower) {
         if (!find_stop(from)) return false;
         stop.assign(planner_.feed().begin(), planner_.feed().end());
     }
-    Part part = with_feeds(from, stop);
+    KnownSection part = with_feeds(from, stop);
     if (!planner_.plan(start_of(from.along), part.curve, part.use, from.along.place, now_.known())) {
         ease_ = std::min(ease_grows * ease_, most_ease);
         return false;
@@ -172,7 +173,7 @@ bool Rider::ease_into_feeds() {
         column.resize(from.piece + 1);
         column.insert(column.end(), by.begin(), by.end());
     };
-    CurvePiece& passed = now_.curve[from.piece];
+    CubicSegment& passed = now_.curve[from.piece];
     passed.length = from.along.place - passed.begin;
     replace(now_.curve, part.curve);
     replace(now_.programmed, part.programmed);
@@ -185,8 +186,9 @@ bool Rider::ease_into_feeds() {
 
 /// What is known from a spot on, with the present feeds. The pieces on the way of a stop, drawn out by ease_, are cut
 /// where it changes, and each may be as fast as it is there; up to where the stop is fastest, as fast as that.
-Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop) const {
-    Part out;
+TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCursor& from,
+                                                                  std::span<const ProfileSegment> stop) const {
+    KnownSection out;
     double at = from.along.place;
     std::size_t i = from.piece;
     const auto end_of = [&] { return now_.curve[i].begin + now_.curve[i].length; };
@@ -198,7 +200,7 @@ Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop)
         if (speed > 0) out.use.back().jerk_share = now_.use[i].jerk_share;
         at = to;
     };
-    const auto slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
+    const auto slower = [](const ProfileSegment& a, const ProfileSegment& b) { return a.at(0).speed < b.at(0).speed; };
     const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
         const double speed = faster * stop[std::max(k, fastest)].at(0).speed,

@@ -1,6 +1,6 @@
 // The quickest speed along a part of a curve that ends at rest.
 //
-//   w, the square of the speed, over the path u. On a bend an axis' acceleration is shared: what keeps it on the
+//   w, the square of the speed, over the path u. On a curvature an axis' acceleration is shared: what keeps it on the
 //   curve grows with w, the rest changes the speed, p' w'/2 + p'' w. So first it is found how fast each piece can be,
 //   from both ends, with no jerk in mind,
 //
@@ -24,41 +24,41 @@ namespace motionrack::control {
 inline constexpr double no_speed_limit = 1e300;
 
 /// What plans have found out about a piece.
-struct PieceUse {
-    double speed = no_speed_limit;        ///< more would leave less for changing it than it can be changed
-    double jerk_share = share_of_a_bend;  ///< of the axes' jerk, that the bend may take
+struct SegmentTuning {
+    double speed = no_speed_limit;            ///< more would leave less for changing it than it can be changed
+    double jerk_share = max_curvature_share;  ///< of the axes' jerk, that the curvature may take
 };
 
-class StretchPlanner {
+class SectionPlanner {
   public:
-    explicit StretchPlanner(const MachineLimits& limits) : limits_(limits) {}
+    explicit SectionPlanner(const MachineLimits& limits) : limits_(limits) {}
 
     /// From `from`, a place on the first of the pieces, to rest at `to`, on the last. `use`: what is known of the
     /// pieces, and then what this plan is by. False if nothing was found that goes on from `start`; then it is as it
     /// was.
-    bool plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<PieceUse> use, double from,
-              double to);
+    bool plan(const InitialPathState& start, std::span<const CubicSegment> curve, std::span<SegmentTuning> use,
+              double from, double to);
 
     /// What was found, by places on the curve; valid until the next plan.
-    std::span<const FeedPiece> feed() const { return feed_; }
+    std::span<const ProfileSegment> feed() const { return feed_; }
     double seconds() const { return seconds_; }
 
   private:
-    void measure(std::span<const CurvePiece> curve, std::span<const PieceUse> use, double from, double to);
-    void reach(const FeedStart& start);
-    double top_of(std::size_t i, double up) const;
-    bool narrow(double slack);
-    FeedState most_found(double end, std::size_t& k) const;
+    void measure(std::span<const CubicSegment> curve, std::span<const SegmentTuning> use, double from, double to);
+    void compute_reachable_velocities(const InitialPathState& start);
+    double max_segment_velocity(std::size_t i, double up) const;
+    bool tighten_limits(double slack);
+    PathMotion most_found(double end, std::size_t& k) const;
 
     MachineLimits limits_;
-    FeedPlanner planner_;
-    std::vector<FeedPiece> feed_;  ///< the quickest found
-    double seconds_ = 0;           ///< of it
+    VelocityPlanner planner_;
+    std::vector<ProfileSegment> feed_;  ///< the quickest found
+    double seconds_ = 0;                ///< of it
     // by piece
-    std::vector<PieceLimits> pieces_;
-    std::vector<PieceUse> use_;
+    std::vector<SegmentLimits> pieces_;
+    std::vector<SegmentTuning> use_;
     std::vector<double> most_;  ///< speeds
-    std::vector<FeedSpan> spans_;
+    std::vector<LimitInterval> spans_;
     // between pieces
     std::vector<double> squares_;
 };

@@ -209,7 +209,8 @@ TEST(GcodeFlow, WithManyBranchesInALoopIsStopped) {
 }
 
 TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
-    const Check check = check_program("G0\no1 repeat [100]\nX9999\nY1\no1 endrepeat\nX1\nM2\n", testing::machine(), 20);
+    const ProgramCheck check =
+        check_program("G0\no1 repeat [100]\nX9999\nY1\no1 endrepeat\nX1\nM2\n", testing::machine(), 20);
     ASSERT_EQ(check.problems.size(), 1u);
     EXPECT_EQ(check.problems[0].place.line, 3);
     EXPECT_EQ(check.lines, 7);

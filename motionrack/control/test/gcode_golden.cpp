@@ -33,7 +33,7 @@ TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
     for (const std::string& name : names()) {
         Interpreter interpreter(settings_of(name));
         const std::string text = file_text(folder() + name + ".ngc");
-        Walk walk(text, settings_of(name), name);
+        ProgramFlow walk(text, settings_of(name), name);
         for (std::string_view line; walk.next(line);) {
             ASSERT_TRUE(interpreter.line(line, walk.number(), Language::program)) << name << ": " << line;
             ASSERT_TRUE(walk.took(interpreter));

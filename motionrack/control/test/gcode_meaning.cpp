@@ -169,7 +169,7 @@ TEST(GcodeReader, AnArcWithinToleranceOfItsRadiusIsTaken) {
 }
 
 TEST(GcodeReader, CyclesOfManyHolesNeedNoStorage) {
-    const Check check = check_program("F60 G91 G99 G83 X.01 Z-1 R-1 Q.1 L10000", machine(), 5);
+    const ProgramCheck check = check_program("F60 G91 G99 G83 X.01 Z-1 R-1 Q.1 L10000", machine(), 5);
     EXPECT_TRUE(check.problems.empty());
     EXPECT_EQ(check.moves, 1 + 10'000 * (1 + 10 + 9 * 2 + 1));  // 1: down to R before the first hole
 }

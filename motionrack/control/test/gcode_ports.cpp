@@ -130,7 +130,7 @@ TEST(GcodeOverrides, AreTheSendersAgainWhenAProgramIsOver) {
     Interpreter interpreter(testing::machine());
     ASSERT_TRUE(interpreter.line("M49", 1, Language::program));
     EXPECT_FALSE(interpreter.modes().feed_override);
-    interpreter.straighten();
+    interpreter.reset_after_program();
     EXPECT_TRUE(interpreter.modes().feed_override && interpreter.modes().speed_override);
 }
 

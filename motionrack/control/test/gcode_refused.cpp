@@ -260,7 +260,7 @@ TEST(GcodeReader, AfterAProblemNothingOfTheLineHasTakenEffect) {
 
 TEST(GcodeCheck, CollectsProblemsUpToANumber) {
     const std::string text = "G0 X1\nX\nX2\nM77\nY900\nX3\n";
-    const Check all = check_program(text, testing::machine(), 10, "a.ngc");
+    const ProgramCheck all = check_program(text, testing::machine(), 10, "a.ngc");
     ASSERT_EQ(all.problems.size(), 3u);
     EXPECT_EQ(all.problems[0].place, (Place{2, 1}));
     EXPECT_EQ(all.problems[1].place, (Place{4, 1}));
@@ -269,7 +269,7 @@ TEST(GcodeCheck, CollectsProblemsUpToANumber) {
     EXPECT_EQ(all.lines, 6);
     EXPECT_EQ(all.greatest[0], 3);
     EXPECT_FALSE(all.more_problems);
-    const Check two = check_program(text, testing::machine(), 2);
+    const ProgramCheck two = check_program(text, testing::machine(), 2);
     EXPECT_EQ(two.problems.size(), 2u);
     EXPECT_TRUE(two.more_problems);
 }
@@ -277,13 +277,13 @@ TEST(GcodeCheck, CollectsProblemsUpToANumber) {
 TEST(GcodeCheck, RefusesAProgramWithoutAnyWord) {
     for (const char* text :
          {"", "\n\n", "; done\n", "(MSG,hello)", "(a part)\n\n%\n", "\xEF\xBB\xBF", "%\n%\nG1 X1 F100\n"}) {
-        const Check check = check_program(text, testing::machine(), 10, "a.ngc");
+        const ProgramCheck check = check_program(text, testing::machine(), 10, "a.ngc");
         ASSERT_EQ(check.problems.size(), 1u) << text;
         EXPECT_THAT(check.problems[0].text(), HasSubstr("a.ngc:1:1: the program is empty")) << text;
     }
     EXPECT_THAT(check_program("\n;\n", testing::machine(), 10).problems[0].message, HasSubstr("its 2 lines"));
     for (const char* text : {"M2", "G21", "#1=2", "/G0 X1", "%\nM2\n%\n", "G0 X0", "o1 if [0]\no1 endif\n"}) {
-        const Check check = check_program(text, testing::machine(), 10, "a.ngc");
+        const ProgramCheck check = check_program(text, testing::machine(), 10, "a.ngc");
         EXPECT_TRUE(check.problems.empty()) << text;
     }
     EXPECT_THAT(check_program("(never closed", testing::machine(), 10).problems[0].message, HasSubstr("this comment"));

@@ -41,7 +41,7 @@ struct Program {
 /// Reads all of `text`; going on after problems. The steps' texts point into `text`.
 inline Program read(std::string_view text, const Settings& settings = machine()) {
     Program program;
-    Reader reader(text, settings, "part.ngc");
+    ProgramReader reader(text, settings, "part.ngc");
     for (;;) {
         auto step = reader.next();
         if (!step) {

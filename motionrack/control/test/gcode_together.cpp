@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 /// Ends of a program's moves where every probing move finds its edge at `edge` of Z, if that is on its way; the machine
 /// stands 0.1 behind it.
 std::vector<Point> probing_at(std::string_view text, double edge) {
-    Reader reader(text, testing::machine());
+    ProgramReader reader(text, testing::machine());
     std::vector<Point> ends;
     for (;;) {
         const auto step = reader.next();

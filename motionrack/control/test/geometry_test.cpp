@@ -180,7 +180,7 @@ RC_GTEST_PROP(GeometryLaws, PositionsOnAnArcKeepItsRadiusAndMoveByTheTangent, ()
 RC_GTEST_PROP(GeometryLaws, TheWorstComponentIsTheGreatestOfManyTangents, ()) {
     const RandomArc made = random_arc(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::arbitrary<bool>());
     const Geometry path = geometry_of(made.move, made.start);
-    const Point worst = worst_components(path);
+    const Point worst = max_tangent_components(path);
     Point seen{};
     for (int k = 0; k <= 2000; ++k) {
         const Point tangent = tangent_at(path, path.length * k / 2000);

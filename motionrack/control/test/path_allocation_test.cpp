@@ -14,10 +14,10 @@ namespace {
 
 using sim::allocations;
 
-TEST(Planner, TakesNoMemoryForAMove) {
+TEST(LookAheadPlanner, TakesNoMemoryForAMove) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
-    Planner planner(limits, Point{});
+    LookAheadPlanner planner(limits, Point{});
     PlannedMove planned;
     Move move;
     move.kind = MoveKind::feed;
@@ -42,8 +42,8 @@ TEST(Planner, TakesNoMemoryForAMove) {
 TEST(Curve, TakesNoMemoryForAMove) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
-    CurveBuilder builder(limits, Point{});
-    CurveItem item;
+    PathBuilder builder(limits, Point{});
+    PathElement item;
     Move move;
     move.feed = 50;
     move.path = PathControl::continuous;
@@ -70,12 +70,12 @@ TEST(Curve, TakesNoMemoryForAMove) {
     EXPECT_GT(length, 500);
 }
 
-TEST(Travel, TakesNoMemory) {
-    const TravelLimits limits = {100, 1000, 20'000};
+TEST(AxisProfile, TakesNoMemory) {
+    const KinematicLimits limits = {100, 1000, 20'000};
     double seconds = 0;
     const std::uint64_t before = allocations();
     for (int i = 0; i < 5000; ++i) {
-        const TravelState from = {0, 30.0 - i % 61, 0.1 * (i % 997)};
+        const KinematicState from = {0, 30.0 - i % 61, 0.1 * (i % 997)};
         if (const auto out = travel(from, {0.01 * (i - 2500), 0.02 * (i % 1000), 0}, limits))
             seconds += out->duration();
         if (const auto out = stop(from, limits)) seconds += out->sample(0.01).position;

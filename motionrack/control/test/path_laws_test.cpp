@@ -99,7 +99,7 @@ class Maker {
 };
 
 std::vector<PlannedMove> plan(const MachineLimits& limits, const std::vector<Move>& moves, int window) {
-    Planner planner(limits, Point{}, {window});
+    LookAheadPlanner planner(limits, Point{}, {window});
     std::vector<PlannedMove> out;
     PlannedMove planned;
     for (const Move& move : moves) {
@@ -150,7 +150,7 @@ void keeps_the_limits_between(const MachineLimits& limits, const PlannedMove& be
     double size = 1;
     for (int i = 3; i < axis_count; ++i) size += std::fabs(in[i]) + std::fabs(out[i]);
     for (int i = 0; i < axis_count; ++i) {
-        const double unseen = same_direction * (i < 3 ? 1 : size) * before.exit;
+        const double unseen = tangent_angle_rad * (i < 3 ? 1 : size) * before.exit;
         const double allowed = before.move.path == PathControl::continuous ? limits[i].start_speed : 0;
         RC_ASSERT(std::fabs(in[i] - out[i]) * before.exit <= std::max(allowed, unseen) * law_slack);
     }
@@ -176,11 +176,12 @@ std::vector<double> entries_by_full_passes(const MachineLimits& machine, const s
     for (std::size_t i = 0; i < count; ++i) {
         const Geometry path = geometry_of(moves[i].move, moves[i].start);
         if (path.shape != PathShape::nothing) {
-            const AlongPath along = limits.along(path, moves[i].move);
+            const AlongPathLimits along = limits.along(path, moves[i].move);
             reach[i] = 2 * along.accel * path.length;
             if (last.shape != PathShape::nothing) {
                 const Move& before = moves[i - 1].move;
-                most[i] = limits.joint_squared(last, last_speed, path, along.speed, before.path, before.tolerance_mm);
+                most[i] = limits.max_junction_velocity2(last, last_speed, path, along.speed, before.path,
+                                                        before.tolerance_mm);
             }
             last_speed = along.speed;
         }
@@ -284,7 +285,7 @@ TEST(PlannerLaws, BitsAreTheSameOnEveryCompilerAndCpu) {
         mix(seconds_of(planned));
         for (const double value : position_at(geometry_of(planned.move, planned.start), planned.length * 0.3))
             mix(value);
-        mix(SCurve(planned.length, planned.cruise, planned.accel, 1e4).sample(0.01).position);
+        mix(SCurveProfile(planned.length, planned.cruise, planned.accel, 1e4).sample(0.01).position);
     }
     EXPECT_EQ(fold, 9284701413993860843u);
 }

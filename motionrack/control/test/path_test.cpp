@@ -36,7 +36,7 @@ Move path_line_to(double x, double y, double z = 0, double feed = 50, PathContro
 }
 
 std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vector<Move>& moves, int window = 1024) {
-    Planner planner(limits, Point{}, {window});
+    LookAheadPlanner planner(limits, Point{}, {window});
     std::vector<PlannedMove> out;
     PlannedMove planned;
     for (const Move& move : moves) {
@@ -49,7 +49,7 @@ std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vecto
     return out;
 }
 
-TEST(Planner, ASingleLongLineRisesToTheFeedAndRests) {
+TEST(LookAheadPlanner, ASingleLongLineRisesToTheFeedAndRests) {
     const auto out = plan_path(path_machine(), {path_line_to(100, 0)});
     ASSERT_EQ(out.size(), 1u);
     EXPECT_EQ(out[0].entry, 0);
@@ -60,13 +60,13 @@ TEST(Planner, ASingleLongLineRisesToTheFeedAndRests) {
     EXPECT_NEAR(seconds_of(out[0]), 100.0 / 50 + 50.0 / 1000, 1e-12);
 }
 
-TEST(Planner, AShortLineReachesOnlyTheTopOfItsTriangle) {
+TEST(LookAheadPlanner, AShortLineReachesOnlyTheTopOfItsTriangle) {
     const auto out = plan_path(path_machine(), {path_line_to(0.9, 0)});
     EXPECT_DOUBLE_EQ(out[0].cruise, 30);
     EXPECT_NEAR(seconds_of(out[0]), 2 * 30.0 / 1000, 1e-12);
 }
 
-TEST(Planner, TheSlowestAxisLimitsADiagonal) {
+TEST(LookAheadPlanner, TheSlowestAxisLimitsADiagonal) {
     Move move = path_line_to(30, 40);
     move.kind = MoveKind::traverse;
     const auto out = plan_path(path_machine(), {move});
@@ -74,14 +74,14 @@ TEST(Planner, TheSlowestAxisLimitsADiagonal) {
     EXPECT_DOUBLE_EQ(out[0].accel, 750);   // 600 / 0.8 in Y, 1000 / 0.6 in X
 }
 
-TEST(Planner, InverseTimeTakesTheTimeItSays) {
+TEST(LookAheadPlanner, InverseTimeTakesTheTimeItSays) {
     Move move = path_line_to(10, 0);
     move.feed_mode = FeedMode::inverse_time;
     move.feed = 2;
     EXPECT_DOUBLE_EQ(plan_path(path_machine(), {move})[0].cruise, 20);
 }
 
-TEST(Planner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
+TEST(LookAheadPlanner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
     Move move = path_line_to(0, 0, 0, 500);
     move.end = {0, 0, 0, 360, 90, 0};
     const auto out = plan_path(path_machine(), {move});
@@ -90,7 +90,7 @@ TEST(Planner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
     EXPECT_DOUBLE_EQ(out[0].accel, 4000);  // B: 1000 / 0.25
 }
 
-TEST(Planner, ExactPathStopsAtACornerAndPassesATangentJoint) {
+TEST(LookAheadPlanner, ExactPathStopsAtACornerAndPassesATangentJoint) {
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 0, 0, 30), path_line_to(40, 20)});
     ASSERT_EQ(out.size(), 3u);
     EXPECT_DOUBLE_EQ(out[0].exit, 30);
@@ -99,14 +99,14 @@ TEST(Planner, ExactPathStopsAtACornerAndPassesATangentJoint) {
     EXPECT_EQ(out[2].entry, 0);
 }
 
-TEST(Planner, ExactPathSeesAHundredthOfADegree) {
+TEST(LookAheadPlanner, ExactPathSeesAHundredthOfADegree) {
     const double beyond = 0.02 * 0.017453292519943295;
     const double within = 0.005 * 0.017453292519943295;
     EXPECT_EQ(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * beyond)})[0].exit, 0);
     EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * within)})[0].exit, 50, 1e-9);
 }
 
-TEST(Planner, ExactStopStandsStillAtEveryJoint) {
+TEST(LookAheadPlanner, ExactStopStandsStillAtEveryJoint) {
     std::vector<Move> moves;
     for (int i = 1; i <= 5; ++i) moves.push_back(path_line_to(10 * i, 0, 0, 50, PathControl::exact_stop));
     for (const PlannedMove& planned : plan_path(path_machine(), moves)) {
@@ -115,14 +115,14 @@ TEST(Planner, ExactStopStandsStillAtEveryJoint) {
     }
 }
 
-TEST(Planner, ContinuousCornersObeyTheJumpOfTheAxes) {
+TEST(LookAheadPlanner, ContinuousCornersObeyTheJumpOfTheAxes) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     const auto out = plan_path(path_machine(), {first, path_line_to(20, 20)});
     EXPECT_DOUBLE_EQ(out[0].exit, 2);  // X jumps by the whole speed
 }
 
-TEST(Planner, ContinuousCornersObeyTheTolerance) {
+TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
         axis.start_speed = 1000;
@@ -136,13 +136,13 @@ TEST(Planner, ContinuousCornersObeyTheTolerance) {
     EXPECT_NEAR(out[0].exit, std::sqrt(1000 * std::sqrt(2.0) * 0.01 * s / (1 - s)), 1e-9);
 }
 
-TEST(Planner, GoingBackOnItselfStops) {
+TEST(LookAheadPlanner, GoingBackOnItselfStops) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 1;
     EXPECT_EQ(plan_path(path_machine(), {first, path_line_to(0, 0)})[0].exit, 0);
 }
 
-TEST(Planner, XyzAndRotaryMovesMeetAtRest) {
+TEST(LookAheadPlanner, XyzAndRotaryMovesMeetAtRest) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     Move second = first;
@@ -150,7 +150,7 @@ TEST(Planner, XyzAndRotaryMovesMeetAtRest) {
     EXPECT_EQ(plan_path(path_machine(), {first, second})[0].exit, 0);
 }
 
-TEST(Planner, ALineIntoATangentArcKeepsThePullOfTheArc) {
+TEST(LookAheadPlanner, ALineIntoATangentArcKeepsThePullOfTheArc) {
     Move arc = path_line_to(30, 10);
     arc.kind = MoveKind::arc;
     arc.turns = 1;
@@ -165,7 +165,7 @@ TEST(Planner, ALineIntoATangentArcKeepsThePullOfTheArc) {
     EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), arc})[0].exit, std::sqrt(0.8 * 600 * 0.5), 1e-9);
 }
 
-TEST(Planner, ASteepHelixIsPulledLessThanItsCircle) {
+TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
     Move helix = path_line_to(0.1, 0, 0.2 * 3.14159265358979323846);
     helix.kind = MoveKind::arc;
     helix.turns = 1;
@@ -173,12 +173,12 @@ TEST(Planner, ASteepHelixIsPulledLessThanItsCircle) {
     limits[2] = limits[0];
     // as high as it is round: half of v^2 / r points to the axis; the way along the arc is sqrt 1/2 of the path
     const Geometry path = geometry_of(helix, {0.1, 0, 0, 0, 0, 0});
-    const AlongPath along = PathLimits(limits).along(path, helix);
+    const AlongPathLimits along = PathLimits(limits).along(path, helix);
     EXPECT_NEAR(along.speed, std::sqrt(0.8 * 600 * 0.1 / 0.5), 1e-9);
     EXPECT_NEAR(along.accel, 0.4 * 600 / std::sqrt(0.5), 1e-9);
 }
 
-TEST(Planner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
+TEST(LookAheadPlanner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
         axis.start_speed = 1000;
@@ -190,11 +190,12 @@ TEST(Planner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
     const Move second = path_line_to(0.1 + 0.08, 0.06);
     const Geometry after = geometry_of(second, first.end);
     // Y gains 0.6 of the speed within 0.1 mm: v * 0.6 v / 0.1 <= 1000
-    const double squared = PathLimits(limits).joint_squared(before, 50, after, 50, PathControl::continuous, 100);
+    const double squared =
+        PathLimits(limits).max_junction_velocity2(before, 50, after, 50, PathControl::continuous, 100);
     EXPECT_NEAR(squared, 1000 * 0.1 / 0.6, 1e-9);
 }
 
-TEST(Planner, TwoThousandShortCollinearLinesReachTheFullFeed) {
+TEST(LookAheadPlanner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     std::vector<Move> moves;
     for (int i = 1; i <= 2000; ++i) moves.push_back(path_line_to(0.01 * i, 0, 0, 100));
     const auto out = plan_path(path_machine(), moves);
@@ -209,7 +210,7 @@ TEST(Planner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     EXPECT_NEAR(seconds, 20.0 / 100 + 100.0 / 1000, 1e-9);
 }
 
-TEST(Planner, ADwellEndsTheWindowAtRest) {
+TEST(LookAheadPlanner, ADwellEndsTheWindowAtRest) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;
@@ -230,13 +231,13 @@ TEST(Planner, ADwellEndsTheWindowAtRest) {
     EXPECT_DOUBLE_EQ(summary.top_speed, 50);
 }
 
-TEST(Planner, MovesOfNoLengthAreLeftOut) {
+TEST(LookAheadPlanner, MovesOfNoLengthAreLeftOut) {
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(20, 0), path_line_to(40, 0)});
     ASSERT_EQ(out.size(), 2u);
     EXPECT_DOUBLE_EQ(out[0].exit, 50);
 }
 
-TEST(Planner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
+TEST(LookAheadPlanner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) axis.max_jerk = 50'000;
     const auto out = plan_path(limits, {path_line_to(30, 40), path_line_to(60, 80), path_line_to(60, 100)});
@@ -248,10 +249,10 @@ TEST(Planner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
     EXPECT_EQ(plan_path(limits, {path_line_to(30, 40)})[0].jerk, 0);
 }
 
-TEST(Planner, RefusesWhatTheMachineCannotDoAndGoesOn) {
+TEST(LookAheadPlanner, RefusesWhatTheMachineCannotDoAndGoesOn) {
     MachineLimits limits = path_machine();
     limits[4].present = false;
-    Planner planner(limits, Point{});
+    LookAheadPlanner planner(limits, Point{});
     Move absent = path_line_to(1, 0);
     absent.end[4] = 5;
     absent.line = 12;
@@ -277,15 +278,15 @@ TEST(Planner, RefusesWhatTheMachineCannotDoAndGoesOn) {
 }
 
 /// Its changes of speed take whole moves of a pulse or two.
-class SpendsAll : public DriveRule {
+class SpendsAll : public DriveConstraints {
   public:
-    double joint_speed(const Geometry&, const Geometry&) const override { return 1e9; }
-    double spent_length(const Geometry& path) const override { return path.length; }
+    double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }
+    double constant_velocity_length(const Geometry& path) const override { return path.length; }
 };
 
-TEST(Planner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
+TEST(LookAheadPlanner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
     const SpendsAll rule;
-    Planner planner(path_machine(), Point{}, {16, &rule});
+    LookAheadPlanner planner(path_machine(), Point{}, {16, &rule});
     ASSERT_TRUE(planner.push(path_line_to(0.0025, 0)));
     planner.flush();
     PlannedMove planned;
@@ -295,8 +296,8 @@ TEST(Planner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
     EXPECT_LT(seconds_of(planned), 0.1);
 }
 
-TEST(Planner, HandsMovesOutBeforeTheEndOfTheProgram) {
-    Planner planner(path_machine(), Point{}, {16});
+TEST(LookAheadPlanner, HandsMovesOutBeforeTheEndOfTheProgram) {
+    LookAheadPlanner planner(path_machine(), Point{}, {16});
     PlannedMove planned;
     int pulled = 0;
     for (int i = 1; i <= 100; ++i) {

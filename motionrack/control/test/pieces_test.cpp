@@ -65,7 +65,7 @@ TEST(TheRestOfAMove, GoesOnFromAPlaceBesideThePath) {
         for (double part = 0; part < 0.999; part += 0.1) {
             Point place = position_at(path, part * path.length);
             place[0] += 0.001;
-            EXPECT_NEAR(nearest_on(path, place).length, part * path.length, 0.002);
+            EXPECT_NEAR(nearest_point(path, place).length, part * path.length, 0.002);
             const Geometry rest = geometry_of(rest_of(whole, path, place), place);
             EXPECT_EQ(rest.shape, PathShape::arc);
             EXPECT_NEAR(rest.length, (1 - part) * path.length, 0.002);
@@ -86,18 +86,18 @@ TEST(ThePlaceOnAPath, OfRotaryAxesAloneIsFoundToo) {
     Move whole = line_to(10, 0, 90);
     const Geometry path = geometry_of(whole, at_ten);
     EXPECT_EQ(path.shape, PathShape::rotary);
-    EXPECT_NEAR(nearest_on(path, {10, 0, 0, 30, 0, 0}).length, 30, 1e-9);
-    EXPECT_NEAR(nearest_on(path, {10, 0, 0, 100, 0, 0}).distance, 10, 1e-9);
-    EXPECT_NEAR(nearest_on(path, {9.5, 0, 0, 30, 0, 0}).distance, 0.5, 1e-9);
+    EXPECT_NEAR(nearest_point(path, {10, 0, 0, 30, 0, 0}).length, 30, 1e-9);
+    EXPECT_NEAR(nearest_point(path, {10, 0, 0, 100, 0, 0}).distance, 10, 1e-9);
+    EXPECT_NEAR(nearest_point(path, {9.5, 0, 0, 30, 0, 0}).distance, 0.5, 1e-9);
 }
 
 TEST(ThePlaceOnAPath, CountsEachAxisInItsPulses) {
     const Geometry path = geometry_of(line_to(20, 0, 90), at_ten);
     const PulsesPerUnit pulses = {640, 640, 640, 10, 0, 0};
     const Point half_way = {15, 0, 0, 45, 0, 0}, turned_wrong = {15, 0, 0, 47, 0, 0}, beside = {15, 0, 0.5, 45, 7, 0};
-    EXPECT_NEAR(nearest_on(path, half_way, pulses).distance, 0, 1e-9);
-    EXPECT_NEAR(nearest_on(path, turned_wrong, pulses).distance, 20, 1);
-    EXPECT_NEAR(nearest_on(path, beside, pulses).distance, 320, 1e-9);
+    EXPECT_NEAR(nearest_point(path, half_way, pulses).distance, 0, 1e-9);
+    EXPECT_NEAR(nearest_point(path, turned_wrong, pulses).distance, 20, 1);
+    EXPECT_NEAR(nearest_point(path, beside, pulses).distance, 320, 1e-9);
 }
 
 }  // namespace

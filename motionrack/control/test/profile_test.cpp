@@ -41,8 +41,8 @@ void near_speed(double got, double expected, double speed, double accel, double 
     near(got, expected, speed + 1e-4 * accel * duration);
 }
 
-TEST(Trapezoid, ALongWayHasAllThreePhases) {
-    const Trapezoid p(100, 20, 50);
+TEST(TrapezoidalProfile, ALongWayHasAllThreePhases) {
+    const TrapezoidalProfile p(100, 20, 50);
     EXPECT_DOUBLE_EQ(p.peak(), 20);
     EXPECT_DOUBLE_EQ(p.duration(), 100.0 / 20 + 20.0 / 50);
     EXPECT_DOUBLE_EQ(p.phase_ends()[0], 0.4);
@@ -56,23 +56,23 @@ TEST(Trapezoid, ALongWayHasAllThreePhases) {
     EXPECT_DOUBLE_EQ(p.sample(5.2).accel, -50);
 }
 
-TEST(Trapezoid, AShortWayIsATriangle) {
-    const Trapezoid p(2, 20, 50);
+TEST(TrapezoidalProfile, AShortWayIsATriangle) {
+    const TrapezoidalProfile p(2, 20, 50);
     EXPECT_DOUBLE_EQ(p.peak(), 10);
     EXPECT_DOUBLE_EQ(p.duration(), 0.4);
     EXPECT_DOUBLE_EQ(p.sample(0.2).position, 1);
 }
 
-TEST(Trapezoid, NoWayTakesNoTime) {
-    const Trapezoid p(0, 20, 50);
+TEST(TrapezoidalProfile, NoWayTakesNoTime) {
+    const TrapezoidalProfile p(0, 20, 50);
     EXPECT_EQ(p.duration(), 0);
     EXPECT_EQ(p.sample(0).position, 0);
-    EXPECT_EQ(SCurve(0, 1, 1, 1).duration(), 0);
-    EXPECT_EQ(SCurve(0, 1, 1, 1).sample(1).position, 0);
+    EXPECT_EQ(SCurveProfile(0, 1, 1, 1).duration(), 0);
+    EXPECT_EQ(SCurveProfile(0, 1, 1, 1).sample(1).position, 0);
 }
 
-TEST(Trapezoid, BetweenSpeedsItJoinsThem) {
-    const Trapezoid p(10, 5, 15, 20, 50);
+TEST(TrapezoidalProfile, BetweenSpeedsItJoinsThem) {
+    const TrapezoidalProfile p(10, 5, 15, 20, 50);
     EXPECT_EQ(p.entry(), 5);
     EXPECT_EQ(p.exit(), 15);
     EXPECT_DOUBLE_EQ(p.peak(), 20);
@@ -82,12 +82,12 @@ TEST(Trapezoid, BetweenSpeedsItJoinsThem) {
     EXPECT_DOUBLE_EQ(p.sample(p.duration()).speed, 15);
 }
 
-TEST(Trapezoid, ReachesTheNearestSpeedWhereTheWayIsTooShort) {
-    const Trapezoid up(1, 3, 100, 100, 8);
+TEST(TrapezoidalProfile, ReachesTheNearestSpeedWhereTheWayIsTooShort) {
+    const TrapezoidalProfile up(1, 3, 100, 100, 8);
     EXPECT_DOUBLE_EQ(up.exit(), 5);
     EXPECT_DOUBLE_EQ(up.duration(), 0.25);
     EXPECT_DOUBLE_EQ(up.sample(0.125).position, 0.4375);
-    const Trapezoid down(1, 5, 0, 100, 8);
+    const TrapezoidalProfile down(1, 5, 0, 100, 8);
     EXPECT_DOUBLE_EQ(down.exit(), 3);
     EXPECT_DOUBLE_EQ(down.duration(), 0.25);
     EXPECT_DOUBLE_EQ(down.sample(0.125).position, 0.5625);
@@ -95,7 +95,7 @@ TEST(Trapezoid, ReachesTheNearestSpeedWhereTheWayIsTooShort) {
 
 RC_GTEST_PROP(TrapezoidLaws, PhasesAddUpToTheDistanceAndTheExitSpeed, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const Trapezoid p(l.distance, l.entry, l.exit, l.speed, l.accel);
+    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.speed, l.accel);
     double t = 0;
     double position = 0;
     double speed = p.entry();
@@ -115,7 +115,7 @@ RC_GTEST_PROP(TrapezoidLaws, PhasesAddUpToTheDistanceAndTheExitSpeed, ()) {
 
 RC_GTEST_PROP(TrapezoidLaws, NeverPassesALimitNorGoesBack, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const Trapezoid p(l.distance, l.entry, l.exit, l.speed, l.accel);
+    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.speed, l.accel);
     double last = 0;
     for (int k = 0; k <= 300; ++k) {
         const ProfileSample s = p.sample(p.duration() * k / 300);
@@ -130,7 +130,7 @@ RC_GTEST_PROP(TrapezoidLaws, NeverPassesALimitNorGoesBack, ()) {
 
 RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakSpeedIsQuicker, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const Trapezoid p(l.distance, l.entry, l.exit, l.speed, l.accel);
+    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.speed, l.accel);
     const double v0 = p.entry();
     const double v1 = p.exit();
     const double low = std::max(v0, v1);
@@ -145,8 +145,8 @@ RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakSpeedIsQuicker, ()) {
     RC_ASSERT(p.duration() <= quickest * (1 + 1e-9) + 1e-15 * l.speed / l.accel);
 }
 
-TEST(SCurve, ALongWayHasAllSevenPhases) {
-    const SCurve p(100, 20, 50, 500);
+TEST(SCurveProfile, ALongWayHasAllSevenPhases) {
+    const SCurveProfile p(100, 20, 50, 500);
     EXPECT_DOUBLE_EQ(p.peak(), 20);
     EXPECT_DOUBLE_EQ(p.peak_accel(), 50);
     EXPECT_DOUBLE_EQ(p.duration(), 100.0 / 20 + 20.0 / 50 + 50.0 / 500);
@@ -165,24 +165,24 @@ TEST(SCurve, ALongWayHasAllSevenPhases) {
     EXPECT_DOUBLE_EQ(p.sample(5.45).jerk, 500);
 }
 
-TEST(SCurve, TheShortCasesAreThoseOfTheBooks) {
+TEST(SCurveProfile, TheShortCasesAreThoseOfTheBooks) {
     // full acceleration, not full speed: v^2 / a + v a / j = d with a 50, j 500 and v 10 gives d 3
-    const SCurve no_cruise(3, 20, 50, 500);
+    const SCurveProfile no_cruise(3, 20, 50, 500);
     EXPECT_DOUBLE_EQ(no_cruise.peak(), 10);
     EXPECT_DOUBLE_EQ(no_cruise.duration(), 0.6);
     // neither: d = 2 j t^3 with t 0.05
-    const SCurve jerk_only(0.125, 20, 50, 500);
+    const SCurveProfile jerk_only(0.125, 20, 50, 500);
     EXPECT_NEAR(jerk_only.peak_accel(), 25, 1e-13);
     EXPECT_NEAR(jerk_only.duration(), 0.2, 1e-15);
     // full speed without full acceleration: t = sqrt(v / j) = 0.1
-    const SCurve slow(10, 5, 1000, 500);
+    const SCurveProfile slow(10, 5, 1000, 500);
     EXPECT_DOUBLE_EQ(slow.peak_accel(), 50);
     EXPECT_DOUBLE_EQ(slow.duration(), 2 + 0.2);
 }
 
 RC_GTEST_PROP(SCurveLaws, PhasesAddUpToTheDistanceAtRest, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const SCurve p(l.distance, l.speed, l.accel, l.jerk);
+    const SCurveProfile p(l.distance, l.speed, l.accel, l.jerk);
     const auto ends = p.phase_ends();
     const double rise = ends[0];
     const double level = std::max(0.0, ends[2] - 2 * rise);
@@ -211,7 +211,7 @@ RC_GTEST_PROP(SCurveLaws, PhasesAddUpToTheDistanceAtRest, ()) {
 
 RC_GTEST_PROP(SCurveLaws, NeverPassesALimitNorGoesBackAndIsSymmetric, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const SCurve p(l.distance, l.speed, l.accel, l.jerk);
+    const SCurveProfile p(l.distance, l.speed, l.accel, l.jerk);
     double last = 0;
     for (int k = 0; k <= 300; ++k) {
         const double t = p.duration() * k / 300;
@@ -238,7 +238,7 @@ double seconds_with(double distance, double v, double accel, double jerk) {
 
 RC_GTEST_PROP(SCurveLaws, NoOtherPeaksAreQuicker, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const SCurve p(l.distance, l.speed, l.accel, l.jerk);
+    const SCurveProfile p(l.distance, l.speed, l.accel, l.jerk);
     double quickest = 1e300;
     for (int k = 1; k <= 4000; ++k) {
         quickest = std::min(quickest, seconds_with(l.distance, l.speed * k / 4000, l.accel, l.jerk));

@@ -45,7 +45,7 @@ struct Planned {
 
 Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,
                       bool stopping) {
-    control::Planner planner(limits, start);
+    control::LookAheadPlanner planner(limits, start);
     control::PlanSummary sum;
     control::PlannedMove planned;
     const auto pull = [&] {
@@ -67,16 +67,16 @@ constexpr double look_every_s = 0.001;
 Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,
                      bool quiet) {
     Planned out;
-    control::Ride ride(limits, start, [&](const control::Stretch& stretch) {
+    control::OfflineTrajectory ride(limits, start, [&](const control::PathSection& stretch) {
         out.seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds;
         out.bound += stretch.rest_seconds;
         if (stretch.curve.empty()) return;
         ++out.stops;
-        out.bound += control::accel_bound(stretch.curve, limits);
-        control::StretchView view(stretch);
+        out.bound += control::min_duration_s(stretch.curve, limits);
+        control::SectionSampler view(stretch);
         const auto looks = static_cast<std::int64_t>(stretch.seconds / look_every_s) + 20;
         for (std::int64_t i = 0; i <= looks; ++i) {
-            const control::RideState state =
+            const control::TrajectoryPoint state =
                 view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(looks));
             for (std::size_t k = 0; k < out.axes.size(); ++k) {
                 AxisPeaks& axis = out.axes[k];
@@ -174,7 +174,7 @@ int plan(const PlanOptions& options) {
         return bad;
     if (!may_write(inputs, {options.picture})) return exit_refused;
     std::vector<Move> moves;
-    control::gcode::Reader reader(program->text, settings, program->name);
+    control::gcode::ProgramReader reader(program->text, settings, program->name);
     for (auto step = reader.next(); step && *step != nullptr; step = reader.next())
         if ((*step)->kind == control::gcode::StepKind::move) moves.push_back((*step)->move);
     stop_on_signals();

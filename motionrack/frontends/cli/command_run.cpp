@@ -110,7 +110,7 @@ int run(const RunOptions& options) {
     if (const Result<void> good = control::gcode::check_settings(*settings); !good) return report(good.error());
     const std::string& name = request.program_name;
     // Without a check first it is read all the same: for the subprograms that it calls.
-    const control::gcode::Check check = control::gcode::check_program(
+    const control::gcode::ProgramCheck check = control::gcode::check_program(
         request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
     if (!options.stream || control::gcode::is_empty_program(request.program))
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;

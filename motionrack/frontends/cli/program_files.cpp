@@ -91,7 +91,7 @@ bool may_write(const std::vector<std::string>& inputs, const std::vector<std::st
     return may.has_value();
 }
 
-int print_problems(const control::gcode::Check& check, const std::string& name) {
+int print_problems(const control::gcode::ProgramCheck& check, const std::string& name) {
     if (check.problems.empty()) return exit_done;
     for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());
     print_error(rack::problems_verdict(check, name));

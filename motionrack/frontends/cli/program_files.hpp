@@ -62,6 +62,6 @@ bool may_write(const std::vector<std::string>& inputs, const std::vector<std::st
 /// How many problems a check for people collects; of a program that is to run the first ones are enough.
 inline constexpr std::size_t most_problems = 100, most_problems_of_run = 20;
 /// Prints the problems that were found with their lines, and how many there are; the exit code (0 if there are none).
-int print_problems(const control::gcode::Check& check, const std::string& name);
+int print_problems(const control::gcode::ProgramCheck& check, const std::string& name);
 
 }  // namespace motionrack::cli

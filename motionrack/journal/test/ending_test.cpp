@@ -67,7 +67,7 @@ TEST_F(AJournal, RemovesEntriesBeyondTheNewestMillionAtItsStart) {
         "SELECT i, 1, 0, 0, 'state', '', '', '' FROM n");
     open()->close();
     const std::map<std::int64_t, std::string> left = all_entries();
-    EXPECT_EQ(left.size(), static_cast<std::size_t>(Journal::most_entries));
+    EXPECT_EQ(left.size(), static_cast<std::size_t>(Journal::max_entries));
     EXPECT_EQ(left.begin()->first, 6);
 }
 

@@ -146,7 +146,7 @@ TEST(RackHomes, AProgramRunsAfterwardsOnTheSameCard) {
     Rack rack(config_of(two_axes));
     rack.start();
     ASSERT_TRUE(home_axes(rack, {}).all_homed());
-    const Result<control::PathAxes*> path = rack.path_axes();
+    const Result<control::AxisGroup*> path = rack.path_axes();
     EXPECT_TRUE(path);
     HomingSettings again;
     again.axes = "Y";
@@ -212,7 +212,7 @@ TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
     ASSERT_TRUE(y->move_by(12.5, 20));
     ASSERT_TRUE(y->wait(whole_seconds(10)));
     const std::int64_t counts = rack.axes()[1].card->encoder_counter(rack.axes()[1].channel);
-    control::PathAxes* path = *rack.path_axes_here();
+    control::AxisGroup* path = *rack.path_axes_here();
     EXPECT_NEAR(path->commanded_position()[1], 13.5, 0.5 / 640);
     EXPECT_EQ(rack.axes()[1].card->encoder_counter(rack.axes()[1].channel), counts);
     y = *rack.axes()[1].card->axis(rack.config(), 'Y');

@@ -200,14 +200,14 @@ TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
 struct Fed {
     Rack rack;
     std::unique_ptr<control::Stream> stream;
-    Result<control::StreamState> state;
+    Result<control::ExecutionState> state;
 
     explicit Fed(const RackConfig& config) : rack(config) {
         rack.start();
-        control::StreamSettings settings;
+        control::StreamExecutorSettings settings;
         settings.gcode = reader_settings(config);
         settings.jerk_limited = config.jerk_limited();
-        settings.kept_back = rack.axes().front().card->kept_back();
+        settings.accel_reserve = rack.axes().front().card->accel_reserve();
         stream = std::make_unique<control::Stream>(**rack.path_axes(), rack.cards().front()->host(), settings);
         rack.set_stop_flag(stream->stop_flag());
         rack.on_slice(milliseconds(1), [this] {
@@ -223,9 +223,9 @@ struct Fed {
                 ++next;
             }
             state = stream->drive(next < lines.size());
-            if (state && *state == control::StreamState::waiting) rack.cards().front()->host().pass(milliseconds(1));
-            if (state && *state == control::StreamState::held) stream->resume();
-        } while (state && (*state != control::StreamState::rest || next < lines.size()));
+            if (state && *state == control::ExecutionState::waiting) rack.cards().front()->host().pass(milliseconds(1));
+            if (state && *state == control::ExecutionState::held) stream->resume();
+        } while (state && (*state != control::ExecutionState::rest || next < lines.size()));
     }
     double x() { return rack.axes()[0].machine->position(rack.kernel().now()); }
     std::function<void()> on_slice;

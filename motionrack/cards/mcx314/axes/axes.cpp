@@ -57,7 +57,7 @@ Result<void> Axes::set_up(const control::Point& position) {
 
 Result<void> Axes::begin() {
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
-    notes_ = take_notes();
+    notes_ = take_path_warnings();
     segmenter_.emplace(map_, range_, expected_, host_);
     starts_.clear();
     last_block_ = -2;
@@ -308,7 +308,7 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
     return fail(Trouble::machine,
                 fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
                             "clear the cause, move back and start again.",
-                            current_line_, why, control::place_text(commanded_position(), map_.limits)),
+                            current_line_, why, control::position_text(commanded_position(), map_.limits)),
                 {current_line_, 1});
 }
 
@@ -329,10 +329,10 @@ control::Point Axes::commanded_position() {
     return out;
 }
 
-std::vector<control::PathNote> Axes::take_notes() {
-    std::vector<control::PathNote> out = std::exchange(notes_, {});
+std::vector<control::PathWarning> Axes::take_path_warnings() {
+    std::vector<control::PathWarning> out = std::exchange(notes_, {});
     if (segmenter_)
-        for (control::PathNote& note : segmenter_->take_notes()) out.push_back(std::move(note));
+        for (control::PathWarning& note : segmenter_->take_path_warnings()) out.push_back(std::move(note));
     return out;
 }
 

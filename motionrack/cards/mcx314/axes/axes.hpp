@@ -20,11 +20,11 @@
 
 namespace motionrack::mcx314 {
 
-class Axes final : public control::PathAxes {
+class Axes final : public control::AxisGroup {
   public:
     /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are
     /// whole numbers.
-    static constexpr double kept_back = 0.03;
+    static constexpr double accel_reserve = 0.03;
 
     /// The driver must outlive this.
     Axes(Driver& driver, const AxisMap& map, const HostTimes& host);
@@ -36,15 +36,15 @@ class Axes final : public control::PathAxes {
     Result<void> begin() override;
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
-    const control::DriveRule* drive_rule() const override { return &rule_; }
+    const control::DriveConstraints* drive_constraints() const override { return &rule_; }
     /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is
     /// none.
     void set_probe(unsigned channels) { probe_channels_ = channels; }
-    Result<control::ProbeOutcome> probe(const control::PlannedMove& move, bool release) override;
+    Result<control::ProbeResult> probe(const control::PlannedMove& move, bool release) override;
     void stop(bool immediate) override;
     control::Point commanded_position() override;
-    std::vector<control::PathNote> take_notes() override;
-    std::vector<control::BlockStart> take_starts() override { return std::exchange(starts_, {}); }
+    std::vector<control::PathWarning> take_path_warnings() override;
+    std::vector<control::MoveStart> take_move_starts() override { return std::exchange(starts_, {}); }
 
     /// Speed of one V unit in pulses a second: rates that change by more than this at once are joints, not ramps.
     double speed_step_hz() const { return rules::clock_hz / range_; }
@@ -90,8 +90,8 @@ class Axes final : public control::PathAxes {
     PathRule rule_;
     std::int32_t range_;
     std::optional<Segmenter> segmenter_;
-    std::vector<control::BlockStart> starts_;
-    std::vector<control::PathNote> notes_;
+    std::vector<control::MoveStart> starts_;
+    std::vector<control::PathWarning> notes_;
     Pulses4 expected_ = {};  ///< where the counters are when everything given so far is done
     std::int32_t last_block_ = -2;
     std::int32_t current_line_ = 0;

@@ -29,7 +29,7 @@ bool has_part(const AxisMap& map, const control::Geometry& path, const control::
 }  // namespace
 
 Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes) {
-    const control::Point worst = control::worst_components(path);
+    const control::Point worst = control::max_tangent_components(path);
     Drawing out;
     int moving = 0, last = -1;
     bool rotary = false, beside_plane = false;

@@ -10,7 +10,7 @@ namespace motionrack::mcx314 {
 /// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of
 /// every axis jumps by the difference, which its start speed must allow. The first chord of an arc points a little
 /// beside the arc.
-double PathRule::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
+double PathRule::max_junction_velocity(const control::Geometry& before, const control::Geometry& after) const {
     // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one
     // drive only.
     const int steered = drawing_of(map_, before).companion;
@@ -40,7 +40,7 @@ double PathRule::speed_ratio(const control::Geometry& before, const control::Geo
 /// The speed changes at whole pulses, and the host writes it a little after the joint; of an arc that is drawn with
 /// chords, at each of them. Along such an arc a basic pulse is another length of path from chord to chord, so that part
 /// of the chip's acceleration goes into keeping the path's speed.
-double PathRule::spent_length(const control::Geometry& path) const {
+double PathRule::constant_velocity_length(const control::Geometry& path) const {
     constexpr double pulses = 2, of_chords = 0.06;
     const Drawing drawing = drawing_of(map_, path);
     const double in = basic_pulses_along(map_, drawing, path.tangent_in),

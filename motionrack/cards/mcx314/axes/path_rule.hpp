@@ -6,14 +6,14 @@
 
 namespace motionrack::mcx314 {
 
-class PathRule final : public control::DriveRule {
+class PathRule final : public control::DriveConstraints {
   public:
     PathRule(const AxisMap& map, const HostTimes& host) : map_(map), host_(host) {}
 
-    double joint_speed(const control::Geometry& before, const control::Geometry& after) const override;
-    double spent_length(const control::Geometry& path) const override;
-    int most_drawn() const override { return 3; }
-    double steering_seconds() const override { return 0.008; }
+    double max_junction_velocity(const control::Geometry& before, const control::Geometry& after) const override;
+    double constant_velocity_length(const control::Geometry& path) const override;
+    int max_interpolated_axes() const override { return 3; }
+    double min_velocity_update_s() const override { return 0.008; }
     double speed_ratio(const control::Geometry& before, const control::Geometry& after) const override;
     double least_seconds() const override;
     double late_seconds() const override { return to_seconds(host_.latency); }

@@ -18,14 +18,14 @@ constexpr int probe_input = 3;
 
 }  // namespace
 
-Result<control::ProbeOutcome> Axes::probe(const control::PlannedMove& move, bool release) {
+Result<control::ProbeResult> Axes::probe(const control::PlannedMove& move, bool release) {
     MOTIONRACK_CHECK(check_probe(release));
     MOTIONRACK_CHECK(arm_probe(release));
     probing_ = true;
     Result<void> driven = follow(move);
     if (driven) driven = finish();
     probing_ = false;
-    control::ProbeOutcome outcome;
+    control::ProbeResult outcome;
     outcome.hit = probe_hit();
     // A move that was cut short is no fault if the probe did it.
     if (!driven && (!outcome.hit || driven.error().trouble != Trouble::machine || stopped_by_other())) {
@@ -44,7 +44,7 @@ Result<control::ProbeOutcome> Axes::probe(const control::PlannedMove& move, bool
 void Axes::go_on_from_here() {
     starts_.push_back({-1, current_line_, driver_.interrupt().now()});
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
-    notes_ = take_notes();
+    notes_ = take_path_warnings();
     const std::int32_t block = segmenter_->next_block();
     segmenter_.emplace(map_, range_, expected_, host_);
     segmenter_->count_from(block);

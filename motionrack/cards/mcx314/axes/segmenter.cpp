@@ -14,8 +14,8 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// The planner keeps a little of each axis' acceleration back (Axes::kept_back); this much of it is given to the chip,
-// so that its whole-number steps are never slower than the plan.
+// The planner keeps a little of each axis' acceleration back (Axes::accel_reserve); this much of it is given to the
+// chip, so that its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_write_speed = 8;

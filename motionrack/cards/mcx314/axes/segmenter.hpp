@@ -47,7 +47,7 @@ class Segmenter {
     void count_from(std::int32_t block) { next_block_ = block; }
 
     /// Notes since the last call, oldest first.
-    std::vector<control::PathNote> take_notes() { return std::exchange(notes_, {}); }
+    std::vector<control::PathWarning> take_path_warnings() { return std::exchange(notes_, {}); }
 
     /// R with which the fastest axis' top pulse rate, along a diagonal of two such axes, takes all 8,000 speed units.
     static std::int32_t best_range(const AxisMap& map);
@@ -125,7 +125,7 @@ class Segmenter {
     Pulses4 at_;
     std::optional<Work> waiting_;
     std::deque<Segment> ready_;
-    std::vector<control::PathNote> notes_;
+    std::vector<control::PathWarning> notes_;
     bool chain_open_ = false;
     double reached_ = 1;  ///< V with which the last piece of a ride ends
     int generator_ = 0;

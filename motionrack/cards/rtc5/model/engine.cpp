@@ -51,7 +51,7 @@ void Engine::begin_tick() {
     state_.sampled = state_.tick;
     filled_ = state_.tick;
     sample_inputs();
-    take_starts();
+    take_move_starts();
 }
 
 /// At least a tick, at most to `end`.

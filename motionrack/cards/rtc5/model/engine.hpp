@@ -293,7 +293,7 @@ class Engine {
     void advance_words(std::int64_t n);
 
     // starts.cpp
-    void take_starts();
+    void take_move_starts();
     void enqueue(std::int32_t delay, int encoder);
     void begin_start();
     void tell_start(StartFate fate);

@@ -4,7 +4,7 @@
 
 namespace motionrack::rtc5 {
 
-void Engine::take_starts() {
+void Engine::take_move_starts() {
     Starts& s = state_.starts;
     const auto asked = s.asked_count;
     s.asked_count = 0;

@@ -16,7 +16,7 @@ Move any_move(ProgramMaker& maker, const Point& at) {
     move.kind = static_cast<MoveKind>(maker.one_of(10) == 0 ? 3 : maker.one_of(3));
     move.feed_mode = static_cast<FeedMode>(maker.one_of(4) == 0);
     move.feed = maker.size_between(1e-6, 1e6);
-    move.haste = maker.between(0.01, 1);
+    move.rapid_override = maker.between(0.01, 1);
     move.first = static_cast<std::uint8_t>(maker.one_of(3));
     move.second = static_cast<std::uint8_t>((move.first + 1) % 3);
     const double size = maker.size_between(1e-12, 1e5);
@@ -65,17 +65,18 @@ TEST(CurveOfAnything, IsFiniteGoesOnAndEndsWhereTheProgramDoes) {
         ASSERT_LT(items.size(), 200'000u);
         Point stands = {};
         double u = 0;
-        for (const CurveItem& item : items) {
+        for (const PathElement& item : items) {
             if (item.rest) {
                 stands = item.at;
                 u = 0;
                 continue;
             }
-            const CurvePiece& piece = item.piece;
+            const CubicSegment& piece = item.piece;
             ASSERT_NEAR(piece.begin, u, 1e-15 * (1 + u) * 16);
             ASSERT_GT(piece.length, 0);
             ASSERT_GT(piece.feed, 0);
-            ASSERT_TRUE(finite(piece.start) && finite(piece.tangent) && finite(piece.bend) && finite(piece.twist))
+            ASSERT_TRUE(finite(piece.start) && finite(piece.tangent) && finite(piece.curvature) &&
+                        finite(piece.curvature_rate))
                 << piece.line;
             u = piece.begin + piece.length;
         }

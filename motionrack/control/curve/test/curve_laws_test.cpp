@@ -28,11 +28,11 @@ double difference(const Point& a, const Point& b) {
 struct Case {
     std::uint64_t seed;
     std::vector<Move> moves;
-    std::vector<CurveItem> items;
+    std::vector<PathElement> items;
 };
 
-template <class Check>
-void for_programs(std::uint64_t everyday, Check check) {
+template <class ProgramCheck>
+void for_programs(std::uint64_t everyday, ProgramCheck check) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
@@ -44,25 +44,25 @@ void for_programs(std::uint64_t everyday, Check check) {
     }
 }
 
-template <class Check>
-void for_random_programs(Check check) {
+template <class ProgramCheck>
+void for_random_programs(ProgramCheck check) {
     for_programs(1000, check);
 }
 
 TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
     for_random_programs([](const Case& one) {
-        const CurvePiece* last = nullptr;
-        for (const CurveItem& item : one.items) {
+        const CubicSegment* last = nullptr;
+        for (const PathElement& item : one.items) {
             if (!item.rest && last) {
-                const CurvePiece& piece = item.piece;
+                const CubicSegment& piece = item.piece;
                 const double x = last->length;
                 const double bends =
-                    greatest(bend_on(piece, piece.length)) + greatest(piece.bend) + greatest(last->bend);
+                    greatest(bend_on(piece, piece.length)) + greatest(piece.curvature) + greatest(last->curvature);
                 ASSERT_DOUBLE_EQ(last->begin + x, piece.begin) << "line " << piece.line;
                 ASSERT_LE(difference(position_on(*last, x), piece.start), 1e-9) << "line " << piece.line;
                 ASSERT_LE(difference(tangent_on(*last, x), piece.tangent), 1e-9 * (1 + greatest(piece.tangent)))
                     << "line " << piece.line << " u " << piece.begin << " length " << x << " after " << last->line;
-                ASSERT_LE(difference(bend_on(*last, x), piece.bend), 1e-9 * (1 + bends))
+                ASSERT_LE(difference(bend_on(*last, x), piece.curvature), 1e-9 * (1 + bends))
                     << "line " << piece.line << " u " << piece.begin << " lengths " << x << " " << piece.length;
             }
             last = item.rest ? nullptr : &item.piece;
@@ -70,19 +70,19 @@ TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
     });
 }
 
-bool same(const CurveItem& a, const CurveItem& b) {
+bool same(const PathElement& a, const PathElement& b) {
     if (a.rest || b.rest) return a.rest == b.rest && a.seconds == b.seconds && a.line == b.line && a.at == b.at;
-    const CurvePiece &p = a.piece, &q = b.piece;
+    const CubicSegment &p = a.piece, &q = b.piece;
     return p.begin == q.begin && p.length == q.length && p.start == q.start && p.tangent == q.tangent &&
-           p.bend == q.bend && p.twist == q.twist && p.line == q.line && p.feed == q.feed;
+           p.curvature == q.curvature && p.curvature_rate == q.curvature_rate && p.line == q.line && p.feed == q.feed;
 }
 
 TEST(CurveLaws, PiecesAreTheSameWheneverTheyArePulled) {
     for_random_programs([](const Case& one) {
         ProgramMaker chance(one.seed);
-        CurveBuilder builder(machine(), Point{});
+        PathBuilder builder(machine(), Point{});
         std::size_t count = 0;
-        CurveItem item;
+        PathElement item;
         const auto pull = [&] {
             if (!builder.pull(item)) return false;
             EXPECT_LT(count, one.items.size());
@@ -107,7 +107,7 @@ TEST(CurveLaws, PiecesAreTheSameWheneverTheyArePulled) {
 TEST(CurveLaws, AMoveMakesFewPieces) {
     for_random_programs([](const Case& one) {
         std::vector<int> count(one.moves.size() + 1);
-        for (const CurvePiece& piece : pieces_of(one.items)) ++count[static_cast<std::size_t>(piece.line)];
+        for (const CubicSegment& piece : pieces_of(one.items)) ++count[static_cast<std::size_t>(piece.line)];
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (std::size_t i = 0; i < paths.size(); ++i) {
             // three knots a turn; up to 8 turns on either side reach over a move
@@ -120,8 +120,8 @@ TEST(CurveLaws, AMoveMakesFewPieces) {
 TEST(CurveLaws, CurvesBeginAndEndWhereTheProgramDoes) {
     for_random_programs([](const Case& one) {
         Point at = {};
-        const CurvePiece* last = nullptr;
-        for (const CurveItem& item : one.items) {
+        const CubicSegment* last = nullptr;
+        for (const PathElement& item : one.items) {
             if (item.rest) {
                 if (last) {
                     ASSERT_LE(difference(position_on(*last, last->length), item.at), 1e-9) << item.line;
@@ -150,12 +150,12 @@ double programmed(const Move& move, const Geometry& path) {
 TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
     for_random_programs([](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
-        for (const CurvePiece& piece : pieces_of(one.items)) {
+        for (const CubicSegment& piece : pieces_of(one.items)) {
             const std::size_t i = static_cast<std::size_t>(piece.line - 1);
             const double feed = programmed(one.moves[i], paths[i]);
             // lines of moves that were left out have no direction of their own
             if (feed == std::numeric_limits<double>::infinity() || piece.length < 2e-6) continue;
-            const double grown = paths[i].growth * (1 + paths[i].radius / paths[i].length);
+            const double grown = paths[i].radius_growth * (1 + paths[i].radius / paths[i].length);
             const double spiral = grown * grown;  // lengths of spirals are nominal
             const bool rotary = paths[i].shape == PathShape::rotary;
             for (int k = 0; k <= 8; ++k) {
@@ -173,7 +173,7 @@ TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
     double worst = 0;
     for_random_programs([&worst](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
-        for (const CurvePiece& piece : pieces_of(one.items)) {
+        for (const CubicSegment& piece : pieces_of(one.items)) {
             for (int k = 0; k < 4; ++k) {
                 const Point p = position_on(piece, piece.length * k / 4);
                 double best = std::numeric_limits<double>::infinity();
@@ -221,7 +221,7 @@ TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
     double worst = 0;
     for_programs(300, [&worst](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
-        for (const CurvePiece& piece : pieces_of(one.items)) {
+        for (const CubicSegment& piece : pieces_of(one.items)) {
             double best = std::numeric_limits<double>::infinity();
             const int first = std::max(0, piece.line - 12),
                       past = std::min(static_cast<int>(paths.size()), piece.line + 45);

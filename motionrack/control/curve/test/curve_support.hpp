@@ -58,10 +58,10 @@ inline std::vector<Move> numbered(std::vector<Move> moves) {
     return moves;
 }
 
-inline std::vector<CurveItem> curve_of(const std::vector<Move>& moves, const MachineLimits& limits = machine()) {
-    CurveBuilder builder(limits, Point{});
-    std::vector<CurveItem> out;
-    CurveItem item;
+inline std::vector<PathElement> curve_of(const std::vector<Move>& moves, const MachineLimits& limits = machine()) {
+    PathBuilder builder(limits, Point{});
+    std::vector<PathElement> out;
+    PathElement item;
     for (const Move& move : moves) {
         while (!builder.has_room() && builder.pull(item)) out.push_back(item);
         builder.push(move);
@@ -81,15 +81,16 @@ inline std::vector<Geometry> paths_of(const std::vector<Move>& moves, Point at =
     return paths;
 }
 
-inline std::vector<CurvePiece> pieces_of(const std::vector<CurveItem>& items) {
-    std::vector<CurvePiece> out;
-    for (const CurveItem& item : items)
+inline std::vector<CubicSegment> pieces_of(const std::vector<PathElement>& items) {
+    std::vector<CubicSegment> out;
+    for (const PathElement& item : items)
         if (!item.rest) out.push_back(item.piece);
     return out;
 }
 
-inline int rests_in(const std::vector<CurveItem>& items) {
-    return static_cast<int>(std::count_if(items.begin(), items.end(), [](const CurveItem& item) { return item.rest; }));
+inline int rests_in(const std::vector<PathElement>& items) {
+    return static_cast<int>(
+        std::count_if(items.begin(), items.end(), [](const PathElement& item) { return item.rest; }));
 }
 
 inline double xyz_size(const Point& p) {
@@ -114,7 +115,7 @@ class ProgramMaker {
             mode_.path = static_cast<PathControl>(one_of(8) == 0 ? 1 : one_of(3) == 0 ? 0 : 2);
             mode_.feed = size_between(1, 1000);
             if (one_of(6) == 0) mode_.feed_mode = FeedMode::inverse_time;
-            if (one_of(6) == 0) mode_.kind = MoveKind::traverse, mode_.haste = one_of(2) == 0 ? 1 : 0.5;
+            if (one_of(6) == 0) mode_.kind = MoveKind::traverse, mode_.rapid_override = one_of(2) == 0 ? 1 : 0.5;
             section(moves);
         }
         return numbered(moves);
@@ -145,8 +146,8 @@ class ProgramMaker {
         turn_ = one_of(4) == 0 ? between(-3, 3) : 0;
         const int kind = one_of(9);
         if (kind == 0) {  // chords on a curve
-            const double bend = between(-0.3, 0.3);
-            for (int i = 0; i < count; ++i) heading_ += bend * step * 0.1, go(moves, step * 0.1);
+            const double curvature = between(-0.3, 0.3);
+            for (int i = 0; i < count; ++i) heading_ += curvature * step * 0.1, go(moves, step * 0.1);
         } else if (kind == 1) {  // zigzag
             const double angle = between(0, 2.8);
             for (int i = 0; i < count; ++i) heading_ += i % 2 == 0 ? angle : -angle, go(moves, step);

@@ -25,24 +25,24 @@ int rests(const std::vector<Move>& moves) {
     return rests_in(curve_of(numbered(moves)));
 }
 
-/// Greatest bend and twist of XYZ on the curve.
+/// Greatest curvature and curvature_rate of XYZ on the curve.
 struct CurvePeaks {
-    double bend = 0, twist = 0;
+    double curvature = 0, curvature_rate = 0;
 };
 
-CurvePeaks peaks_of(const std::vector<CurvePiece>& pieces) {
+CurvePeaks peaks_of(const std::vector<CubicSegment>& pieces) {
     CurvePeaks out;
-    for (const CurvePiece& piece : pieces) {
-        out.bend = std::max({out.bend, xyz_size(piece.bend), xyz_size(bend_on(piece, piece.length))});
-        out.twist = std::max(out.twist, xyz_size(piece.twist));
+    for (const CubicSegment& piece : pieces) {
+        out.curvature = std::max({out.curvature, xyz_size(piece.curvature), xyz_size(bend_on(piece, piece.length))});
+        out.curvature_rate = std::max(out.curvature_rate, xyz_size(piece.curvature_rate));
     }
     return out;
 }
 
 /// Greatest distance from one path.
-double greatest_distance(const std::vector<CurvePiece>& pieces, const std::vector<Geometry>& paths) {
+double greatest_distance(const std::vector<CubicSegment>& pieces, const std::vector<Geometry>& paths) {
     double most = 0;
-    for (const CurvePiece& piece : pieces)
+    for (const CubicSegment& piece : pieces)
         for (int k = 0; k <= 8; ++k) {
             const Point at = position_on(piece, piece.length * k / 8);
             double least = std::numeric_limits<double>::infinity();
@@ -55,13 +55,13 @@ double greatest_distance(const std::vector<CurvePiece>& pieces, const std::vecto
 TEST(Curve, OfALineIsOnePieceAndARest) {
     const auto items = curve_of(numbered({line_to({3, 4, 0, 10, 0, 0})}));
     ASSERT_EQ(items.size(), 2u);
-    const CurvePiece& piece = items[0].piece;
+    const CubicSegment& piece = items[0].piece;
     EXPECT_DOUBLE_EQ(piece.length, 5);
     EXPECT_EQ(piece.feed, 100);
     EXPECT_EQ(piece.line, 1);
     EXPECT_EQ(piece.tangent, (Point{3.0 / 5, 4.0 / 5, 0, 2, 0, 0}));
-    EXPECT_EQ(piece.bend, Point{});
-    EXPECT_EQ(piece.twist, Point{});
+    EXPECT_EQ(piece.curvature, Point{});
+    EXPECT_EQ(piece.curvature_rate, Point{});
     EXPECT_TRUE(items[1].rest);
     EXPECT_EQ(items[1].at, (Point{3, 4, 0, 10, 0, 0}));
     EXPECT_EQ(items[1].seconds, 0);
@@ -80,8 +80,8 @@ TEST(Curve, RoundsACornerByItsTolerance) {
     EXPECT_EQ(rests_in(items), 1);
     const auto pieces = pieces_of(items);
     ASSERT_EQ(pieces.size(), 4u);
-    EXPECT_EQ(pieces[0].bend, Point{});
-    EXPECT_EQ(pieces[3].twist, Point{});
+    EXPECT_EQ(pieces[0].curvature, Point{});
+    EXPECT_EQ(pieces[3].curvature_rate, Point{});
     const double width = pieces[1].length + pieces[2].length;
     EXPECT_NEAR(width, 12 * 0.996 * tolerance / std::sqrt(2.0), 1e-6);
     EXPECT_NEAR(greatest_distance(pieces, paths_of(moves)), 0.996 * tolerance / std::sqrt(2.0), 1e-6);
@@ -152,12 +152,12 @@ TEST(Curve, OfDenseChordsIsAlmostTheArcTheyAreOn) {
         EXPECT_EQ(rests_in(items), 1);
         const auto pieces = pieces_of(items);
         EXPECT_LT(pieces.size(), 4 * moves.size());
-        std::vector<CurvePiece> inside;
-        for (const CurvePiece& piece : pieces)
+        std::vector<CubicSegment> inside;
+        for (const CubicSegment& piece : pieces)
             if (piece.begin > 4 && piece.begin < 20) inside.push_back(piece);
         const CurvePeaks peaks = peaks_of(inside);
-        EXPECT_LT(peaks.bend * radius, 1.03) << step;
-        EXPECT_LT(peaks.twist, 0.1) << step;
+        EXPECT_LT(peaks.curvature * radius, 1.03) << step;
+        EXPECT_LT(peaks.curvature_rate, 0.1) << step;
     }
 }
 
@@ -178,7 +178,7 @@ TEST(Curve, KeepsRotaryAxesInProportionToTheWay) {
     std::vector<Move> moves;
     for (int i = 1; i <= 100; ++i) moves.push_back(line_to({0.1 * i, 0, 0, i < 50 ? 0 : 0.2 * (i - 49), 0, 0}));
     const auto pieces = pieces_of(curve_of(numbered(moves)));
-    for (const CurvePiece& piece : pieces) {
+    for (const CubicSegment& piece : pieces) {
         const Point at = position_on(piece, 0.5 * piece.length);
         const double wanted = at[0] < 4.9 ? 0 : 2 * (at[0] - 4.9);
         EXPECT_NEAR(at[3], wanted, 0.01 / 100 * 180 / pi * (1 + 1e-6)) << at[0];
@@ -198,7 +198,7 @@ TEST(Curve, OfAnArcHasItsBendAndNoMoreThanAThirteenthMoreAtItsJoints) {
                 const auto items = curve_of(numbered(moves));
                 EXPECT_EQ(rests_in(items), 1);
                 const auto pieces = pieces_of(items);
-                EXPECT_LT(peaks_of(pieces).bend * radius, 1.08) << radius << " " << sweep;
+                EXPECT_LT(peaks_of(pieces).curvature * radius, 1.08) << radius << " " << sweep;
                 EXPECT_LT(greatest_distance(pieces, paths_of(moves)), 0.5 * tolerance) << radius << " " << sweep;
             }
 }
@@ -207,8 +207,8 @@ TEST(Curve, BeginsAnArcFromRestWithItsFullBend) {
     const std::vector<Move> moves = numbered({arc_from({}, 0.3, 10, 2 * pi)});
     const auto pieces = pieces_of(curve_of(moves));
     ASSERT_FALSE(pieces.empty());
-    EXPECT_NEAR(xyz_size(pieces.front().bend) * 10, 1, 0.01);
-    EXPECT_LT(peaks_of(pieces).bend * 10, 1.01);
+    EXPECT_NEAR(xyz_size(pieces.front().curvature) * 10, 1, 0.01);
+    EXPECT_LT(peaks_of(pieces).curvature * 10, 1.01);
     EXPECT_LT(pieces.size(), 40u);
     EXPECT_LT(greatest_distance(pieces, paths_of(moves)), 0.1 * 0.01 * 1.2);
 }
@@ -220,7 +220,7 @@ TEST(Curve, OfAHelixOfManyTurnsStaysOnIt) {
     const std::vector<Move> moves = numbered({move});
     const auto pieces = pieces_of(curve_of(moves));
     EXPECT_LT(greatest_distance(pieces, paths_of(moves)), 0.0012);
-    for (const CurvePiece& piece : pieces) EXPECT_NEAR(piece.start[5], piece.start[2] * 36, 1e-6);
+    for (const CubicSegment& piece : pieces) EXPECT_NEAR(piece.start[5], piece.start[2] * 36, 1e-6);
 }
 
 TEST(Curve, TakesAnArcTooSmallOrTooShallowToBeSeenForALine) {
@@ -256,7 +256,7 @@ TEST(Curve, FeedsAreThoseOfTheProgram) {
     const double feeds[] = {100, 20, std::numeric_limits<double>::infinity(), 2 * std::sqrt(101.0), 3};
     double begin = 0;
     std::size_t of = 0;
-    for (const CurvePiece& piece : pieces_of(curve_of(numbered(moves)))) {
+    for (const CubicSegment& piece : pieces_of(curve_of(numbered(moves)))) {
         if (piece.begin >= begin + lengths[of] - 1e-9) begin += lengths[of++];
         ASSERT_EQ(piece.line, static_cast<int>(of) + 1) << piece.begin;
         EXPECT_LE(piece.feed, feeds[of]) << piece.line;
@@ -266,8 +266,8 @@ TEST(Curve, FeedsAreThoseOfTheProgram) {
 }
 
 TEST(Curve, EndsAtRestWheneverItIsFlushed) {
-    CurveBuilder builder(machine(), Point{});
-    CurveItem item;
+    PathBuilder builder(machine(), Point{});
+    PathElement item;
     Point at = {};
     for (int i = 0; i < 20; ++i) {
         at[i % 3] += 1;
@@ -305,9 +305,9 @@ TEST(Curve, BitsAreTheSameOnEveryCompilerAndCpu) {
     const auto mix = [&fold](const Point& values) {
         for (const double value : values) fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
     };
-    for (const CurvePiece& piece : pieces_of(curve_of(numbered(moves)))) {
+    for (const CubicSegment& piece : pieces_of(curve_of(numbered(moves)))) {
         mix({piece.begin, piece.length, piece.feed, 0, 0, 0});
-        for (const Point& values : {piece.start, piece.tangent, piece.bend, piece.twist}) mix(values);
+        for (const Point& values : {piece.start, piece.tangent, piece.curvature, piece.curvature_rate}) mix(values);
     }
     EXPECT_EQ(fold, 898072449474637829u);
 }

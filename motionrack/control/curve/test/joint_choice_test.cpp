@@ -11,8 +11,8 @@ namespace motionrack::control {
 namespace {
 
 struct ChoiceRow {
-    std::vector<Leg> legs;
-    std::vector<Joint> joints;  ///< one more: the row's begin first
+    std::vector<LegLimits> legs;
+    std::vector<Junction> joints;  ///< one more: the row's begin first
 };
 
 ChoiceRow random_row(unsigned seed, std::size_t legs) {
@@ -22,7 +22,7 @@ ChoiceRow random_row(unsigned seed, std::size_t legs) {
     out.joints.push_back({});
     for (std::size_t i = 0; i < legs; ++i) {
         out.legs.push_back({between(0.01, 3), between(5, 100), between(500, 3000), between(1e4, 1e5)});
-        Joint joint;
+        Junction joint;
         joint.can_pass = i + 1 < legs;
         joint.can_stop = !joint.can_pass || random() % 4 > 0;
         joint.speed = between(0.1, 30);
@@ -40,19 +40,19 @@ double seconds_of_row(const ChoiceRow& row, unsigned stops) {
         const bool begin = i == 0 || (stops >> (i - 1) & 1) != 0, end = (stops >> i & 1) != 0;
         if (!(end ? row.joints[i + 1].can_stop : row.joints[i + 1].can_pass))
             return std::numeric_limits<double>::infinity();
-        seconds += leg_seconds(row.legs[i], row.joints[i], begin, row.joints[i + 1], end);
+        seconds += leg_duration_s(row.legs[i], row.joints[i], begin, row.joints[i + 1], end);
     }
     return seconds;
 }
 
 unsigned chosen(const ChoiceRow& row) {
-    JointChoice choice;
+    JunctionPlanner choice;
     choice.begin();
     unsigned stops = 0, taken = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {
         choice.add(row.legs[i], row.joints[i + 1]);
         while (choice.decided() > 0) stops |= static_cast<unsigned>(choice.take()) << taken++;
-        EXPECT_LE(i + 1 - taken, JointChoice::most);
+        EXPECT_LE(i + 1 - taken, JunctionPlanner::most);
     }
     EXPECT_EQ(taken, row.legs.size());
     return stops;
@@ -73,12 +73,12 @@ TEST(AChoiceOfJoints, OfALongRowIsMadeWithoutItsEnd) {
 }
 
 TEST(ALeg, WithoutRoomForItsTurnsIsNoWay) {
-    const Leg leg{0.1, 100, 1000, 20'000};
-    Joint turn;
+    const LegLimits leg{0.1, 100, 1000, 20'000};
+    Junction turn;
     turn.speed = 10;
     turn.half = 0.1;
-    EXPECT_GT(leg_seconds(leg, turn, false, Joint{}, true), 1e9);
-    EXPECT_LT(leg_seconds(leg, Joint{}, true, Joint{}, true), 0.1);
+    EXPECT_GT(leg_duration_s(leg, turn, false, Junction{}, true), 1e9);
+    EXPECT_LT(leg_duration_s(leg, Junction{}, true, Junction{}, true), 0.1);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class Indexer {
   public:
     explicit Indexer(FlowIndex& index) : index_(index) {}
 
-    void line(std::string_view text, std::size_t column, const Lines& before, const Lines& after);
+    void line(std::string_view text, std::size_t column, const ProgramLines& before, const ProgramLines& after);
     void finish();
 
   private:
@@ -57,7 +57,7 @@ void Indexer::fail(const FlowPlace& place, std::string message) {
     index_.problems.push_back(std::move(problem));
 }
 
-void Indexer::line(std::string_view text, std::size_t column, const Lines& before, const Lines& after) {
+void Indexer::line(std::string_view text, std::size_t column, const ProgramLines& before, const ProgramLines& after) {
     FlowLine words;
     Problem problem;
     if (!read_flow(text, column, words, problem)) {
@@ -236,8 +236,8 @@ std::int32_t FlowIndex::at_line(std::int32_t line) const {
 FlowIndex index_flow(std::string_view text, bool block_delete) {
     FlowIndex index;
     Indexer indexer(index);
-    Lines lines(text);
-    Lines before = lines;
+    ProgramLines lines(text);
+    ProgramLines before = lines;
     ProgramEnd end(block_delete);
     for (std::string_view line; lines.next(line); before = lines) {
         if (end.is_at(line)) break;

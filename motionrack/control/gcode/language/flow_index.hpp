@@ -29,10 +29,10 @@ struct FlowPlace {
     std::int32_t branch = no_place;
     std::int32_t end = no_place;
     std::string_view text;  ///< the line
-    Lines before;           ///< from where the line is next
-    Lines after;            ///< from where what follows it is next
+    ProgramLines before;    ///< from where the line is next
+    ProgramLines after;     ///< from where what follows it is next
 
-    FlowPlace(const Lines& from, const Lines& to) : before(from), after(to) {}
+    FlowPlace(const ProgramLines& from, const ProgramLines& to) : before(from), after(to) {}
 };
 
 struct FlowIndex {

@@ -14,7 +14,7 @@ constexpr double max_loop_repeats = 1e9;
 
 }  // namespace
 
-Walk::Walk(std::string_view text, const Settings& settings, std::string file)
+ProgramFlow::ProgramFlow(std::string_view text, const Settings& settings, std::string file)
     : lines_(text),
       block_delete_(settings.block_delete),
       end_(settings.block_delete),
@@ -26,34 +26,34 @@ Walk::Walk(std::string_view text, const Settings& settings, std::string file)
     source_->file = std::move(file);
 }
 
-void Walk::see_end(std::string_view line) {
+void ProgramFlow::see_end(std::string_view line) {
     if (source_ == sources_.front().get() && end_.is_at(line)) over_ = true;
 }
 
-void Walk::place(Problem& problem) const {
+void ProgramFlow::place(Problem& problem) const {
     problem.place.line = lines_.number();
     problem.file = source_->file;
 }
 
-void Walk::refused(std::string_view text, Problem& problem) {
+void ProgramFlow::refused(std::string_view text, Problem& problem) {
     place(problem);
     see_end(text);
 }
 
-Problem Walk::take_fault() {
+Problem ProgramFlow::take_fault() {
     Problem first = std::move(faults_.front());
     faults_.erase(faults_.begin());
     return first;
 }
 
-bool Walk::fail(const FlowPlace& place, std::size_t column, std::string message) {
+bool ProgramFlow::fail(const FlowPlace& place, std::size_t column, std::string message) {
     set_problem(problem_, place.text, column, GrblStatus::unsupported, std::move(message));
     problem_.place.line = place.line;
     problem_.file = source_->file;
     return false;
 }
 
-bool Walk::make_index(Source& source) {
+bool ProgramFlow::make_index(Source& source) {
     source.index = index_flow(source.text, block_delete_);
     for (Problem& problem : source.index->problems) {
         problem.file = source.file;
@@ -63,7 +63,7 @@ bool Walk::make_index(Source& source) {
     return faults_.empty();
 }
 
-Outcome<void> Walk::follow(Interpreter& interpreter) {
+Outcome<void> ProgramFlow::follow(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const std::int32_t at = source_->index->at_line(lines_.number());
     if (at == no_place) {
@@ -79,7 +79,7 @@ Outcome<void> Walk::follow(Interpreter& interpreter) {
 }
 
 /// Loops and calls go through a program more often than it has lines.
-bool Walk::within_budget(const FlowPlace& place) {
+bool ProgramFlow::within_budget(const FlowPlace& place) {
     furthest_ = furthest();
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
@@ -92,12 +92,12 @@ bool Walk::within_budget(const FlowPlace& place) {
                             walked_));
 }
 
-void Walk::jump(const FlowPlace& place) {
+void ProgramFlow::jump(const FlowPlace& place) {
     lines_ = place.after;
     counted_from_ = place.line;
 }
 
-bool Walk::execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
+bool ProgramFlow::execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
     switch (place.word) {
         case FlowWord::sub:
             jump(place_at(place.end));
@@ -147,7 +147,7 @@ bool Walk::execute(const FlowPlace& place, std::int32_t at, Interpreter& interpr
 }
 
 /// Goes behind the first branch whose condition holds, or behind the endif.
-bool Walk::choose(std::int32_t at, Interpreter& interpreter) {
+bool ProgramFlow::choose(std::int32_t at, Interpreter& interpreter) {
     for (;;) {
         const FlowPlace& place = place_at(at);
         if (place.word == FlowWord::else_branch || place.word == FlowWord::endif) {
@@ -168,7 +168,7 @@ bool Walk::choose(std::int32_t at, Interpreter& interpreter) {
     }
 }
 
-bool Walk::begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
+bool ProgramFlow::begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
     double times = 0;
     const bool good = evaluate(place, interpreter, times);
     times = std::floor(std::min(times, max_loop_repeats) + 0.5);
@@ -180,7 +180,7 @@ bool Walk::begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& in
     return true;
 }
 
-void Walk::end_repeat(const FlowPlace& place) {
+void ProgramFlow::end_repeat(const FlowPlace& place) {
     if (repeats_.empty() || repeats_.back().place != place.begin) return;
     if (--repeats_.back().left > 0)
         jump(place_at(place.begin));
@@ -189,19 +189,19 @@ void Walk::end_repeat(const FlowPlace& place) {
 }
 
 /// Repeats of this call between two places are over.
-void Walk::forget_repeats(std::int32_t first, std::int32_t last) {
+void ProgramFlow::forget_repeats(std::int32_t first, std::int32_t last) {
     const std::size_t outer = frames_.empty() ? 0 : frames_.back().repeats;
     while (repeats_.size() > outer && repeats_.back().place >= first && repeats_.back().place < last)
         repeats_.pop_back();
 }
 
-void Walk::leave_loop(const FlowPlace& loop) {
+void ProgramFlow::leave_loop(const FlowPlace& loop) {
     forget_repeats(loop.begin, loop.end);
     jump(place_at(loop.end));
 }
 
 /// The next round of a loop, or its end.
-void Walk::go_on(const FlowPlace& loop) {
+void ProgramFlow::go_on(const FlowPlace& loop) {
     forget_repeats(loop.begin + 1, loop.end);
     const FlowPlace& decides = loop.word == FlowWord::while_true ? loop : place_at(loop.end);
     // That line is walked again: back to the end of the line before it.

@@ -20,10 +20,10 @@
 
 namespace motionrack::control::gcode {
 
-class Walk {
+class ProgramFlow {
   public:
     /// `text` must stay where it is.
-    Walk(std::string_view text, const Settings& settings, std::string file);
+    ProgramFlow(std::string_view text, const Settings& settings, std::string file);
 
     /// The next line to read; false: there is none.
     bool next(std::string_view& line) { return !over_ && (lines_.next(line) || text_ended()); }
@@ -64,7 +64,7 @@ class Walk {
         std::optional<FlowIndex> index;
     };
     struct Frame {
-        Lines back;
+        ProgramLines back;
         Source* source = nullptr;
         std::size_t repeats = 0;
         std::int32_t called_at = 0;
@@ -117,7 +117,7 @@ class Walk {
     const FlowPlace& place_at(std::int32_t at) const { return source_->index->places[static_cast<std::size_t>(at)]; }
     bool fail(const FlowPlace& place, std::size_t column, std::string message);
 
-    Lines lines_;
+    ProgramLines lines_;
     bool over_ = false;
     bool block_delete_;
     ProgramEnd end_;  ///< of the program's own text

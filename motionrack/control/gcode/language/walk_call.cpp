@@ -39,7 +39,8 @@ std::string too_deep(const std::string& asks) {
 }  // namespace
 
 /// Values in brackets up to the end of the line.
-bool Walk::arguments(const FlowPlace& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values) {
+bool ProgramFlow::arguments(const FlowPlace& place, std::size_t most, Interpreter& interpreter,
+                            std::vector<double>& values) {
     const KnownValues known(interpreter);
     ExpressionReader reader(place.text, known);
     const char* at = place.text.data() + place.rest;
@@ -64,7 +65,7 @@ bool Walk::arguments(const FlowPlace& place, std::size_t most, Interpreter& inte
 }
 
 /// The one value of a condition.
-bool Walk::evaluate(const FlowPlace& place, Interpreter& interpreter, double& value) {
+bool ProgramFlow::evaluate(const FlowPlace& place, Interpreter& interpreter, double& value) {
     std::vector<double> values;
     if (!arguments(place, 1, interpreter, values)) return false;
     if (values.empty())
@@ -75,7 +76,7 @@ bool Walk::evaluate(const FlowPlace& place, Interpreter& interpreter, double& va
 }
 
 /// The label of a call that computes it is a number.
-bool Walk::label_of_call(const FlowPlace& place, Interpreter& interpreter, std::string& label) {
+bool ProgramFlow::label_of_call(const FlowPlace& place, Interpreter& interpreter, std::string& label) {
     FlowLine words;
     if (!read_flow(place.text, place.column, words, problem_)) return false;
     label = words.label;
@@ -91,7 +92,7 @@ bool Walk::label_of_call(const FlowPlace& place, Interpreter& interpreter, std::
     return true;
 }
 
-bool Walk::call(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::call(const FlowPlace& place, Interpreter& interpreter) {
     std::string label;
     Target target{};
     std::vector<double> values;
@@ -104,14 +105,14 @@ bool Walk::call(const FlowPlace& place, Interpreter& interpreter) {
     return true;
 }
 
-void Walk::enter(const Target& target, std::int32_t program, std::int64_t times) {
+void ProgramFlow::enter(const Target& target, std::int32_t program, std::int64_t times) {
     frames_.push_back({lines_, source_, repeats_.size(), called_at_, program, times});
     if (called_at_ == 0 && target.source != source_) called_at_ = lines_.number();
     source_ = target.source;
     jump(place_at(target.place));
 }
 
-bool Walk::look_for(const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& target) {
     const auto look = [&](Source* source) {
         if (!source->index) return false;
         const auto& named = numbered ? source->index->programs : source->index->subs;
@@ -125,7 +126,7 @@ bool Walk::look_for(const std::string& label, bool numbered, Target& target) {
 }
 
 /// A sub or a numbered program of the same text, of one read before, or of a file of its own.
-bool Walk::find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
     if (look_for(label, numbered, target)) return true;
     if (look_for(label, !numbered, target)) {
         return fail(place, place.column,
@@ -135,7 +136,7 @@ bool Walk::find_sub(const FlowPlace& place, const std::string& label, bool numbe
     return load(place, label, numbered, target);
 }
 
-bool Walk::load(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::load(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
     const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
         return fail(place, place.column,
@@ -176,7 +177,7 @@ bool Walk::load(const FlowPlace& place, const std::string& label, bool numbered,
     return true;
 }
 
-bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::give_back(const FlowPlace& place, Interpreter& interpreter) {
     std::vector<double> values;
     bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;
@@ -186,7 +187,7 @@ bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
     return good;
 }
 
-bool Walk::leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned) {
+bool ProgramFlow::leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned) {
     if (interpreter.leave_call(returned)) return true;
     return fail(place, place.column,
                 "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter "
@@ -194,7 +195,7 @@ bool Walk::leave_call(const FlowPlace& place, Interpreter& interpreter, std::opt
                 "write G40 and a straight move before the sub ends");
 }
 
-void Walk::back_to_caller() {
+void ProgramFlow::back_to_caller() {
     const Frame& frame = frames_.back();
     lines_ = frame.back;
     counted_from_ = lines_.number();
@@ -207,7 +208,7 @@ void Walk::back_to_caller() {
 // ---- numbered programs
 
 /// M98 and M99: calls without arguments, as often as L says.
-Outcome<void> Walk::follow_program(Interpreter& interpreter) {
+Outcome<void> ProgramFlow::follow_program(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
     const FlowPlace place = this_line(block, block.m_column[m_program]);
@@ -217,7 +218,7 @@ Outcome<void> Walk::follow_program(Interpreter& interpreter) {
     return {};
 }
 
-FlowPlace Walk::this_line(const Block& block, std::size_t column) const {
+FlowPlace ProgramFlow::this_line(const Block& block, std::size_t column) const {
     FlowPlace place(lines_, lines_);
     place.text = block.text;
     place.column = static_cast<std::uint16_t>(column);
@@ -225,7 +226,7 @@ FlowPlace Walk::this_line(const Block& block, std::size_t column) const {
     return place;
 }
 
-bool Walk::call_program(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::call_program(const FlowPlace& place, Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const auto times = block.has('L') ? static_cast<std::int64_t>(block['L']) : 1;
     const std::string label = fmt::format("{:.0f}", block['P']);
@@ -239,7 +240,7 @@ bool Walk::call_program(const FlowPlace& place, Interpreter& interpreter) {
 }
 
 /// Once more, or back. In the main program it is over.
-bool Walk::leave_program(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::leave_program(const FlowPlace& place, Interpreter& interpreter) {
     if (frames_.empty()) {
         over_ = true;
         return true;
@@ -261,7 +262,7 @@ bool Walk::leave_program(const FlowPlace& place, Interpreter& interpreter) {
 }
 
 /// A text is over; of a numbered program without M99 that is told.
-bool Walk::text_ended() {
+bool ProgramFlow::text_ended() {
     if (frames_.empty() || frames_.back().program == no_place || !faults_.empty()) return false;
     over_ = true;
     const FlowPlace& begin = place_at(frames_.back().program);

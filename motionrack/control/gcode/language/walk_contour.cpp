@@ -20,7 +20,7 @@ Planar plane_of(const Point& at) {
 
 }  // namespace
 
-Outcome<void> Walk::follow_contour(Interpreter& interpreter) {
+Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const FlowPlace here = this_line(block, block.g_column[g_motion]);
     const auto failed = [&]() -> Outcome<void> { return tl::unexpected<Problem>(problem_); };
@@ -56,7 +56,7 @@ Outcome<void> Walk::follow_contour(Interpreter& interpreter) {
 }
 
 /// Walks through the sub with a reader of its own.
-bool Walk::read_contour(Interpreter& reader, std::vector<ContourPiece>& contour) {
+bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourPiece>& contour) {
     const std::size_t depth = frames_.size();
     Point at = {};
     bool begun = false;
@@ -82,8 +82,8 @@ bool Walk::read_contour(Interpreter& reader, std::vector<ContourPiece>& contour)
 }
 
 /// What the last line moves; the first move leads to where the contour begins.
-bool Walk::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at,
-                       bool& begun) {
+bool ProgramFlow::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at,
+                              bool& begun) {
     while (const Step* step = reader.pull()) {
         const Move& move = step->move;
         if (step->kind != StepKind::move || move.kind == MoveKind::dwell) continue;

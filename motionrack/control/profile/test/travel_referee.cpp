@@ -151,13 +151,13 @@ class Search {
 };
 
 Task mirrored(Task t) {
-    for (TravelState* s : {&t.from, &t.to}) *s = {-s->position, -s->speed, -s->accel};
+    for (KinematicState* s : {&t.from, &t.to}) *s = {-s->position, -s->speed, -s->accel};
     return t;
 }
 
 /// Seconds from a state that is too fast, or will be, until its speed is `top` for good, if the acceleration falls to
 /// `depth` and rises again; infinite if it then falls below -top.
-double braked(State s, double depth, double top, const TravelLimits& limits) {
+double braked(State s, double depth, double top, const KinematicLimits& limits) {
     const double j = limits.jerk;
     const double straight = s.a * s.a + 2 * j * (s.v - top);
     if (!(straight >= 0)) return no_time;
@@ -179,7 +179,7 @@ double braked(State s, double depth, double top, const TravelLimits& limits) {
 
 }  // namespace
 
-double slowly_found_entry(const TravelState& from, const TravelLimits& limits) {
+double slowly_found_entry(const KinematicState& from, const KinematicLimits& limits) {
     const double j = limits.jerk, top = limits.speed;
     State s = {0, from.speed, from.accel, 0};
     if (std::fabs(s.a) > limits.accel) s.go(s.a > 0 ? -j : j, (std::fabs(s.a) - limits.accel) / j);

@@ -56,7 +56,7 @@ Task Tasks::any() {
     Task t = usual();
     t.limits = {std::fabs(of_magnitude(1e-3, 1e3)), std::fabs(of_magnitude(1e-3, 1e3)),
                 std::fabs(of_magnitude(1e-3, 1e3))};
-    const auto within = [&](TravelState& s) {
+    const auto within = [&](KinematicState& s) {
         const double part_of_accel = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
         const double part_of_speed = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
         s.accel = one_in(4) ? 0 : t.limits.accel * part_of_accel;
@@ -86,8 +86,8 @@ std::optional<double> Tasks::motion(Task& t) {
     // a little within the limits: what takes all of them may be reachable to the bit only
     t.from.accel *= 0.999;
     t.from.speed *= 0.999;
-    const TravelLimits m = {0.999 * t.limits.speed, 0.999 * t.limits.accel, t.limits.jerk};
-    TravelState s = t.from;
+    const KinematicLimits m = {0.999 * t.limits.speed, 0.999 * t.limits.accel, t.limits.jerk};
+    KinematicState s = t.from;
     double seconds = 0;
     const int phases = 1 + static_cast<int>(random_() % 5);
     double side = one_in(2) ? 1 : -1;
@@ -116,8 +116,8 @@ std::optional<double> Tasks::motion(Task& t) {
     return seconds;
 }
 
-std::string fault_of(const Travel& travel, const Task& task, double within) {
-    const TravelLimits& m = task.limits;
+std::string fault_of(const AxisProfile& travel, const Task& task, double within) {
+    const KinematicLimits& m = task.limits;
     const double T = travel.duration();
     if (!(T >= 0 && std::isfinite(T))) return "duration";
     const ProfileSample first = travel.sample(0), last = travel.sample(T);
@@ -125,7 +125,7 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
         return "start";
     if (last.position != task.to.position || last.speed != task.to.speed || last.accel != task.to.accel) return "end";
     double begin = 0;
-    TravelState at = task.from;
+    KinematicState at = task.from;
     const double a_size = std::max({m.accel, std::fabs(task.from.accel)});
     const double v_size =
         std::max({m.speed, std::fabs(task.from.speed), a_size * a_size / m.jerk * (a_size > m.accel)});
@@ -142,7 +142,7 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
         if (!(std::fabs(accel - at.accel) <= 1e-12 * a_size + instant * m.jerk)) return "jump of the acceleration";
         return "";
     };
-    for (const Travel::Phase& p : travel.phases()) {
+    for (const AxisProfile::Phase& p : travel.phases()) {
         if (!(p.end > begin)) return "order of phases";
         if (p.jerk != 0 && std::fabs(p.jerk) != m.jerk) return "jerk";
         for (int i = 0; i <= 8; ++i) {
@@ -169,12 +169,12 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
     return jump(task.to.position, task.to.speed, task.to.accel);
 }
 
-double entry_of(const Travel& travel, const TravelLimits& limits) {
+double entry_of(const AxisProfile& travel, const KinematicLimits& limits) {
     const auto outside = [&](const ProfileSample& s) {
         return std::fabs(s.accel) > limits.accel * (1 + 1e-9) || std::fabs(s.speed) > limits.speed * (1 + 1e-9);
     };
     double entry = 0, begin = 0;
-    for (const Travel::Phase& p : travel.phases()) {
+    for (const AxisProfile::Phase& p : travel.phases()) {
         const double length = p.end - begin;
         for (int i = 0; i < 64; ++i) {
             double out = begin + length * i / 64, in = begin + length * (i + 1) / 64;
@@ -210,7 +210,7 @@ std::uint64_t bits_of_travels(std::uint64_t seed, int count) {
         const auto two = change_speed(t.from, t.to.speed, t.to.accel, t.limits);
         for (const auto* out : {&one, &two}) {
             if (!*out) continue;
-            for (const Travel::Phase& p : (*out)->phases())
+            for (const AxisProfile::Phase& p : (*out)->phases())
                 for (const double x : {p.end, p.zero, p.seconds, p.position, p.speed, p.accel, p.jerk}) fold(x);
             fold((*out)->sample(0.3 * (*out)->duration()).position);
         }

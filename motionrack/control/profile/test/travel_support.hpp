@@ -12,8 +12,8 @@
 namespace motionrack::control::travel_test {
 
 struct Task {
-    TravelState from, to;
-    TravelLimits limits;
+    KinematicState from, to;
+    KinematicLimits limits;
 };
 
 std::string text_of(const Task& task);
@@ -47,18 +47,18 @@ class Tasks {
 
 /// What is wrong with a travel for its task; nothing if all holds: phases in order, the jerk its limit or 0, the state
 /// going on without jumps, limits held from `within` on, both ends exact.
-std::string fault_of(const Travel& travel, const Task& task, double within = 0);
+std::string fault_of(const AxisProfile& travel, const Task& task, double within = 0);
 
 /// The least duration by a slow search: all motions of the form jerk +-j, 0, -+j, 0 (cruise), -+j, 0, +-j, by their
 /// peak, which is scanned and bisected. Starts and targets within the limits. Infinite if the search finds none.
 double slowly_found_duration(const Task& task, int steps = 100);
 
 /// The instant from which on a travel is within the limits.
-double entry_of(const Travel& travel, const TravelLimits& limits);
+double entry_of(const AxisProfile& travel, const KinematicLimits& limits);
 
 /// How soon a start can be within the limits for good, its acceleration first, by a slow search over how far the
 /// acceleration goes.
-double slowly_found_entry(const TravelState& from, const TravelLimits& limits);
+double slowly_found_entry(const KinematicState& from, const KinematicLimits& limits);
 
 /// A sum of the bits of all phases of the travels of `count` tasks.
 std::uint64_t bits_of_travels(std::uint64_t seed, int count);

@@ -21,26 +21,26 @@ double exactness(double seconds) {
     return 1e-8 * std::max(1.0, seconds);
 }
 
-TravelState state_at(const Travel& travel, double t) {
+KinematicState state_at(const AxisProfile& travel, double t) {
     const ProfileSample s = travel.sample(t);
     return {s.position, s.speed, s.accel};
 }
 
-TEST(Travel, FromRestToRestIsTheSCurve) {
+TEST(AxisProfile, FromRestToRestIsTheSCurve) {
     Tasks tasks(1);
     for (int i = 0; i < 3000; ++i) {
         const double speed = std::fabs(tasks.of_magnitude(1e-2, 1e3)), accel = std::fabs(tasks.of_magnitude(1e-2, 1e3));
         const double jerk = std::fabs(tasks.of_magnitude(1e-2, 1e3)), distance = tasks.of_magnitude(1e-6, 1e4);
         const auto out = travel({}, {distance}, {speed, accel, jerk});
         ASSERT_TRUE(out);
-        const SCurve curve(std::fabs(distance), speed, accel, jerk);
+        const SCurveProfile curve(std::fabs(distance), speed, accel, jerk);
         ASSERT_NEAR(out->duration(), curve.duration(), 1e-13 * curve.duration()) << i;
         const double t = tasks.part() * curve.duration();
         ASSERT_NEAR(std::fabs(out->sample(t).position), curve.sample(t).position, 1e-12 * std::fabs(distance)) << i;
     }
 }
 
-TEST(Travel, HoldsItsLimitsGoesOnWithoutJumpsAndEndsExactly) {
+TEST(AxisProfile, HoldsItsLimitsGoesOnWithoutJumpsAndEndsExactly) {
     Tasks tasks(2);
     for (int i = 0; i < 20'000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -50,7 +50,7 @@ TEST(Travel, HoldsItsLimitsGoesOnWithoutJumpsAndEndsExactly) {
     }
 }
 
-TEST(Travel, IsNeverSlowerThanTheRefereesBest) {
+TEST(AxisProfile, IsNeverSlowerThanTheRefereesBest) {
     Tasks tasks(3);
     int equal = 0;
     constexpr int count = 8000;
@@ -63,7 +63,7 @@ TEST(Travel, IsNeverSlowerThanTheRefereesBest) {
     EXPECT_GE(equal, count - count / 100);
 }
 
-TEST(Travel, IsNeverSlowerThanAMotionThatHappensToEndThere) {
+TEST(AxisProfile, IsNeverSlowerThanAMotionThatHappensToEndThere) {
     Tasks tasks(4);
     for (int i = 0; i < 100'000; ++i) {
         Task t;
@@ -74,7 +74,7 @@ TEST(Travel, IsNeverSlowerThanAMotionThatHappensToEndThere) {
     }
 }
 
-TEST(Travel, FoundAgainOnTheWayTakesWhatIsLeft) {
+TEST(AxisProfile, FoundAgainOnTheWayTakesWhatIsLeft) {
     Tasks tasks(5);
     for (int i = 0; i < 20'000; ++i) {
         Task t = tasks.usual();
@@ -89,7 +89,7 @@ TEST(Travel, FoundAgainOnTheWayTakesWhatIsLeft) {
 }
 
 /// To a target that moves there may be no way at all that is a rounding shorter, but for a detour; so nearly always.
-TEST(Travel, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) {
+TEST(AxisProfile, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) {
     Tasks tasks(14);
     int longer = 0;
     for (int i = 0; i < 20'000; ++i) {
@@ -103,16 +103,16 @@ TEST(Travel, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) {
     EXPECT_LE(longer, 20);
 }
 
-TEST(Travel, UpsideDownTakesAsLong) {
+TEST(AxisProfile, UpsideDownTakesAsLong) {
     Tasks tasks(6);
     for (int i = 0; i < 5000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto turned = [](const TravelState& s) { return TravelState{-s.position, -s.speed, -s.accel}; };
+        const auto turned = [](const KinematicState& s) { return KinematicState{-s.position, -s.speed, -s.accel}; };
         ASSERT_EQ(travel(turned(t.from), turned(t.to), t.limits)->duration(), seconds_of(t)) << text_of(t);
     }
 }
 
-TEST(Travel, ToWhereItStandsTakesNoTime) {
+TEST(AxisProfile, ToWhereItStandsTakesNoTime) {
     Tasks tasks(7);
     for (int i = 0; i < 2000; ++i) {
         Task t = tasks.usual();
@@ -125,8 +125,8 @@ TEST(Travel, ToWhereItStandsTakesNoTime) {
     EXPECT_TRUE(out->phases().empty());
 }
 
-TEST(Travel, StartsAndEndsAtItsLimits) {
-    const TravelLimits limits = {2, 1, 4};
+TEST(AxisProfile, StartsAndEndsAtItsLimits) {
+    const KinematicLimits limits = {2, 1, 4};
     const double signs[] = {-1, 0, 1};
     for (const double v : signs)
         for (const double a : signs)
@@ -145,7 +145,7 @@ TEST(Travel, StartsAndEndsAtItsLimits) {
                     }
 }
 
-TEST(Travel, TakesLimitsThatAreAMillionTimesApart) {
+TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
     Tasks tasks(8);
     for (const double speed : {1e-6, 1.0, 1e6})
         for (const double accel : {1e-6, 1.0, 1e6})
@@ -164,9 +164,9 @@ TEST(Travel, TakesLimitsThatAreAMillionTimesApart) {
                     }
 }
 
-TEST(Travel, ThatMustTurnBackDoes) {
+TEST(AxisProfile, ThatMustTurnBackDoes) {
     // at full speed past a place just ahead: it overshoots, returns and stands
-    const TravelLimits limits = {10, 20, 100};
+    const KinematicLimits limits = {10, 20, 100};
     const auto out = travel({0, 10, 0}, {1, 0, 0}, limits);
     double farthest = 0;
     for (int i = 0; i <= 1000; ++i) farthest = std::max(farthest, out->sample(out->duration() * i / 1000).position);
@@ -174,7 +174,7 @@ TEST(Travel, ThatMustTurnBackDoes) {
     EXPECT_EQ(out->sample(out->duration()).position, 1);
 }
 
-TEST(Travel, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
+TEST(AxisProfile, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
     Tasks tasks(9);
     for (int i = 0; i < 3000; ++i) {
         Task t = tasks.outside();
@@ -197,8 +197,8 @@ TEST(Travel, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
     }
 }
 
-TEST(Travel, IsRefusedToATargetThatCannotBeKept) {
-    const TravelLimits limits = {2, 4, 8};
+TEST(AxisProfile, IsRefusedToATargetThatCannotBeKept) {
+    const KinematicLimits limits = {2, 4, 8};
     EXPECT_TRUE(travel({}, {1, 2, 0}, limits));
     EXPECT_TRUE(travel({}, {1, 1, 4}, limits));
     EXPECT_FALSE(travel({}, {1, 2.001, 0}, limits));
@@ -206,14 +206,15 @@ TEST(Travel, IsRefusedToATargetThatCannotBeKept) {
     EXPECT_FALSE(travel({}, {1, 1.001, 4}, limits));
     EXPECT_FALSE(travel({}, {1, 1.001, -4}, limits));
     EXPECT_FALSE(change_speed({}, -2.001, 0, limits));
-    EXPECT_TRUE(can_end_so(-1, 4, limits));
-    EXPECT_FALSE(can_end_so(-1.001, 4, limits));
+    EXPECT_TRUE(is_feasible_end(-1, 4, limits));
+    EXPECT_FALSE(is_feasible_end(-1.001, 4, limits));
 }
 
-TEST(Travel, IsRefusedForWhatIsNoNumber) {
-    const TravelLimits limits = {2, 4, 8};
+TEST(AxisProfile, IsRefusedForWhatIsNoNumber) {
+    const KinematicLimits limits = {2, 4, 8};
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        for (const TravelState& state : {TravelState{bad, 0, 0}, TravelState{0, bad, 0}, TravelState{0, 0, bad}}) {
+        for (const KinematicState& state :
+             {KinematicState{bad, 0, 0}, KinematicState{0, bad, 0}, KinematicState{0, 0, bad}}) {
             EXPECT_FALSE(travel(state, {1}, limits));
             EXPECT_FALSE(travel({}, state, limits));
             EXPECT_FALSE(stop(state, limits));
@@ -221,11 +222,13 @@ TEST(Travel, IsRefusedForWhatIsNoNumber) {
         }
         EXPECT_FALSE(change_speed({}, bad, 0, limits));
         EXPECT_FALSE(change_speed({}, 0, bad, limits));
-        for (const TravelLimits& of_none : {TravelLimits{bad, 1, 1}, TravelLimits{1, bad, 1}, TravelLimits{1, 1, bad}})
+        for (const KinematicLimits& of_none :
+             {KinematicLimits{bad, 1, 1}, KinematicLimits{1, bad, 1}, KinematicLimits{1, 1, bad}})
             EXPECT_FALSE(travel({}, {1}, of_none));
     }
     for (const double bad : {0.0, -1.0})
-        for (const TravelLimits& of_none : {TravelLimits{bad, 1, 1}, TravelLimits{1, bad, 1}, TravelLimits{1, 1, bad}})
+        for (const KinematicLimits& of_none :
+             {KinematicLimits{bad, 1, 1}, KinematicLimits{1, bad, 1}, KinematicLimits{1, 1, bad}})
             EXPECT_FALSE(travel({}, {1}, of_none));
 }
 
@@ -284,7 +287,7 @@ TEST(AStop, EndsAtRestAndIsTheChangeOfSpeedToIt) {
 }
 
 /// The number was the same with g++ and clang++ at -O0, -O2 and -O3.
-TEST(Travel, BitsAreTheSameOnEveryCompilerAndCpu) {
+TEST(AxisProfile, BitsAreTheSameOnEveryCompilerAndCpu) {
     EXPECT_EQ(bits_of_travels(20261122, 20'000), 17850973485159433083u);
 }
 

@@ -65,7 +65,7 @@ Seconds seconds_of(const std::vector<Move>& moves, const MachineLimits& limits, 
     Seconds out;
     for (const ride_test::KeptStretch& kept : ride_test::kept_ride(moves, limits)) {
         out.ride += kept.stretch.seconds;
-        out.bound += accel_bound(kept.curve, limits);
+        out.bound += min_duration_s(kept.curve, limits);
         out.referee += ride_test::quickest_seconds(kept.curve, limits, of_piece);
     }
     return out;
@@ -79,7 +79,7 @@ TEST(AnAccelBound, OfALineIsItsTrapezoid) {
     EXPECT_NEAR(bound(slow), 50.0 / 100 + 100.0 / 2000, 1e-12);  // way / speed + speed / acceleration
     EXPECT_NEAR(bound(traverse), 40.0 / 200 + 200.0 / 2000, 1e-12);
     EXPECT_NEAR(bound(line_to({0, 2})), 2 * std::sqrt(2.0 / 2000), 1e-12);
-    EXPECT_EQ(accel_bound({}, limits), 0);
+    EXPECT_EQ(min_duration_s({}, limits), 0);
 }
 
 /// No axis may take the circle faster than sqrt(2 acceleration radius), and at sqrt(acceleration radius) both can hold
@@ -106,7 +106,7 @@ TEST(AnAccelBound, IsWhatTheRefereeFinds) {
     }
 }
 
-/// Chords that are too long to be smooth bend the curve by jerks; there more is between the two.
+/// Chords that are too long to be smooth curvature the curve by jerks; there more is between the two.
 TEST(AnAccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
@@ -133,7 +133,7 @@ TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::uint64_t fold = 0;
     for (const auto& shape : {circle(0.7), sine(0.25), spiral(1)})
         fold = (fold ^ std::bit_cast<std::uint64_t>(
-                           accel_bound(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) *
+                           min_duration_s(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) *
                0x9E3779B97F4A7C15u;
     EXPECT_EQ(fold, 18085057422729386909u);
 }

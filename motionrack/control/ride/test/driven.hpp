@@ -58,18 +58,18 @@ inline std::vector<Move> program(std::mt19937& random) {
 /// Pushes the moves that have come while there is room, and passes the time; looks at all axes all the time.
 class Driven {
   public:
-    Driven(std::vector<Move> moves, RiderSettings settings)
+    Driven(std::vector<Move> moves, TrajectoryGeneratorSettings settings)
         : moves_(std::move(moves)), rider(machine(), {}, settings) {}
 
     /// False when all is driven.
     bool step(double seconds, bool early) {
         while (next_ < std::min(come, moves_.size()) && rider.has_room()) rider.push({moves_[next_++]});
         if (next_ == moves_.size() && !flushed_ && rider.has_room()) flushed_ = (rider.flush(), true);
-        const RideNext next = rider.next(early);
-        if (next == RideNext::nothing) return next_ < moves_.size() || !flushed_;
-        if (next == RideNext::dwell) {
+        const NextMotion next = rider.next(early);
+        if (next == NextMotion::nothing) return next_ < moves_.size() || !flushed_;
+        if (next == NextMotion::dwell) {
             const double wait = std::min(seconds, rider.dwell_seconds());
-            rider.pass_dwell(wait);
+            rider.advance_dwell(wait);
             now += wait;
             return true;
         }
@@ -84,12 +84,12 @@ class Driven {
     std::size_t come = static_cast<std::size_t>(-1);  ///< so many moves, at most
     double now = 0, speed = 0, accel = 0, jerk = 0,
            jump = 0;  ///< greatest parts of the limits; of what the limits let change
-    RideState last;
+    TrajectoryPoint last;
 
   private:
     void look(double seconds) {
         const MachineLimits limits = machine();
-        const RideState state = rider.at(seconds);
+        const TrajectoryPoint state = rider.at(seconds);
         const double gap = now + seconds - at_;
         for (std::size_t i = 0; i < limits.size(); ++i) {
             const AxisLimits& most = limits[i];
@@ -110,7 +110,7 @@ class Driven {
     double at_ = 0;
 
   public:
-    Rider rider;
+    TrajectoryGenerator rider;
 };
 
 inline void expect_limits(const Driven& driven) {

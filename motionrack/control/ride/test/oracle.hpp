@@ -23,12 +23,12 @@ struct OracleStep {
 class Oracle {
   public:
     /// Each piece is cut into at least `of_piece` steps, and the curve into about `of_curve`.
-    Oracle(std::span<const CurvePiece> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000)
+    Oracle(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000)
         : limits_(limits) {
         if (curve.empty()) return;
         const double whole = curve.back().begin + curve.back().length;
         caps_.push_back(0);
-        for (const CurvePiece& piece : curve) {
+        for (const CubicSegment& piece : curve) {
             const int count = of_piece + static_cast<int>(of_curve * std::min(1.0, piece.length / whole));
             for (int i = 0; i < count; ++i) {
                 const double begin = piece.length * i / count, end = piece.length * (i + 1) / count;
@@ -45,10 +45,13 @@ class Oracle {
     double seconds() const {
         std::vector<double> most = caps_;
         for (std::size_t i = steps_.size(); i-- > 0;)
-            most[i] = greatest(caps_[i], [&](double square) { return reach(steps_[i], square, most[i + 1]).some(); });
+            most[i] = greatest(caps_[i], [&](double square) {
+                return compute_reachable_velocities(steps_[i], square, most[i + 1]).some();
+            });
         double seconds = 0, square = 0;
         for (std::size_t i = 0; i < steps_.size(); ++i) {
-            const double next = std::clamp(reach(steps_[i], square, most[i + 1]).high, 0.0, most[i + 1]);
+            const double next =
+                std::clamp(compute_reachable_velocities(steps_[i], square, most[i + 1]).high, 0.0, most[i + 1]);
             seconds += 2 * steps_[i].length / (std::sqrt(square) + std::sqrt(next));
             square = next;
         }
@@ -69,14 +72,14 @@ class Oracle {
     }
 
     /// The squares at the step's end that can be reached from one at its begin.
-    Reach reach(const OracleStep& step, double square, double most) const {
+    Reach compute_reachable_velocities(const OracleStep& step, double square, double most) const {
         Reach out{0, most};
         const double per_accel = 2 * step.length;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            // begin: |tangent a + bend w0| <= accel, where a = (w1 - w0) / (2 length)
+            // begin: |tangent a + curvature w0| <= accel, where a = (w1 - w0) / (2 length)
             within(out, step.tangent_in[i] / per_accel,
                    step.bend_in[i] * square - step.tangent_in[i] / per_accel * square, limits_[i].max_accel);
-            // end: |tangent a + bend w1| <= accel
+            // end: |tangent a + curvature w1| <= accel
             within(out, step.tangent_out[i] / per_accel + step.bend_out[i], -step.tangent_out[i] / per_accel * square,
                    limits_[i].max_accel);
         }
@@ -114,7 +117,7 @@ class Oracle {
 };
 
 /// Seconds.
-inline double quickest_seconds(std::span<const CurvePiece> curve, const MachineLimits& limits, int of_piece = 20,
+inline double quickest_seconds(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20,
                                int of_curve = 4000) {
     return Oracle(curve, limits, of_piece, of_curve).seconds();
 }

@@ -14,9 +14,9 @@ namespace {
 class RandomPieces {
   public:
     double between(double least, double most) { return std::uniform_real_distribution<>(least, most)(random_); }
-    /// As a turn leaves it: about as long as u, with a bend that may change its sign on it, or without any.
-    CurvePiece next() {
-        CurvePiece piece;
+    /// As a turn leaves it: about as long as u, with a curvature that may change its sign on it, or without any.
+    CubicSegment next() {
+        CubicSegment piece;
         piece.begin = between(0, 100);
         piece.length = between(1e-3, 3);
         piece.feed = between(1, 400);
@@ -25,8 +25,8 @@ class RandomPieces {
         for (std::size_t i = 0; i < 3; ++i) {
             piece.start[i] = between(-10, 10);
             piece.tangent[i] = between(-1, 1);
-            piece.bend[i] = bent * between(-1, 1);
-            piece.twist[i] = bent * between(-1, 1) / piece.length;
+            piece.curvature[i] = bent * between(-1, 1);
+            piece.curvature_rate[i] = bent * between(-1, 1) / piece.length;
         }
         return piece;
     }
@@ -41,24 +41,24 @@ class RandomPieces {
     std::mt19937 random_{20261123};
 };
 
-TEST(PieceLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
+TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
     RandomPieces random;
     for (int run = 0; run < 3000; ++run) {
-        const CurvePiece piece = random.next();
+        const CubicSegment piece = random.next();
         const MachineLimits machine = random.machine();
-        const PieceLimits limits(piece, machine);
-        const double top = random.between(0.05, 1) * limits.most_speed(0.97);
-        const FeedSpan span = limits.up_to(top, piece.length);
+        const SegmentLimits limits(piece, machine);
+        const double top = random.between(0.05, 1) * limits.max_velocity_for(0.97);
+        const LimitInterval span = limits.up_to(top, piece.length);
         ASSERT_GT(std::min({span.speed, span.accel, span.brake, span.jerk}), 0) << run;
         for (int k = 0; k < 40; ++k) {
             const double x = piece.length * random.between(0, 1), v = top * random.between(0, 1),
                          j = random.between(-span.jerk, span.jerk);
             const double a = k % 2 == 0 ? span.accel : -span.brake;
-            const Point tangent = tangent_on(piece, x), bend = bend_on(piece, x);
+            const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
             for (std::size_t i = 0; i < 3; ++i) {
                 ASSERT_LE(std::fabs(tangent[i] * v), machine[i].max_speed * (1 + 1e-9)) << run;
-                ASSERT_LE(std::fabs(tangent[i] * a + bend[i] * v * v), machine[i].max_accel * (1 + 1e-9)) << run;
-                ASSERT_LE(std::fabs(tangent[i] * j + 3 * bend[i] * v * a + piece.twist[i] * v * v * v),
+                ASSERT_LE(std::fabs(tangent[i] * a + curvature[i] * v * v), machine[i].max_accel * (1 + 1e-9)) << run;
+                ASSERT_LE(std::fabs(tangent[i] * j + 3 * curvature[i] * v * a + piece.curvature_rate[i] * v * v * v),
                           piece.jerk_share * machine[i].max_jerk * (1 + 1e-9))
                     << run;
             }
@@ -67,16 +67,16 @@ TEST(PieceLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
 }
 
 /// Speeding up all the way to it, and slowing down all the way from it.
-TEST(PieceLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
+TEST(SegmentLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
     RandomPieces random;
     int looked = 0;
     for (int run = 0; run < 1000; ++run) {
-        const CurvePiece piece = random.next();
+        const CubicSegment piece = random.next();
         MachineLimits machine = random.machine();
         for (AxisLimits& axis : machine) axis.max_jerk = 1e12;
-        const PieceLimits limits(piece, machine);
+        const SegmentLimits limits(piece, machine);
         const double from = random.between(0, 0.9) * limits.speed * limits.speed, length = 1e-3 * piece.length;
-        const double after = limits.square_after(from, length), before = limits.square_before(from, length);
+        const double after = limits.velocity2_after(from, length), before = limits.velocity2_before(from, length);
         if (std::max(after, before) > limits.speed * limits.speed) continue;
         EXPECT_NEAR(after, from + 2 * length * limits.up_to(std::sqrt(after), length).accel, 1e-9 * after) << run;
         EXPECT_NEAR(before, from + 2 * length * limits.up_to(std::sqrt(before), length).brake, 1e-9 * before) << run;
@@ -89,10 +89,10 @@ TEST(Parts, OfAPieceAreThePiece) {
     RandomPieces random;
     int cut = 0;
     for (int run = 0; run < 500; ++run) {
-        const CurvePiece piece = random.next();
+        const CubicSegment piece = random.next();
         double end = piece.begin;
         int count = 0;
-        for_parts(piece, random.machine(), [&](const CurvePiece& part) {
+        for_each_subsegment(piece, random.machine(), [&](const CubicSegment& part) {
             ++count;
             EXPECT_NEAR(part.begin, end, 1e-12 * end);
             end = part.begin + part.length;

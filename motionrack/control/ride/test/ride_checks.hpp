@@ -54,7 +54,7 @@ class RideChecks {
   private:
     static constexpr double slack = 1 + 1e-6;
     static constexpr double time_rounding = 1e-13;
-    /// Where a feed ends on a bend the bound's cells are too slow by so much.
+    /// Where a feed ends on a curvature the bound's cells are too slow by so much.
     static constexpr double bound_rounding = 3e-3;
     /// Where pieces of the curve and of the feed meet, a rounding decides which of the curve's is looked at with which
     /// of the feed's.
@@ -64,7 +64,7 @@ class RideChecks {
         if (fault_.name.empty()) fault_ = {name, fmt::format("{} ({:.9g} of what is allowed): {}", name, by, text)};
     }
     void hold(const char* name, double value, double most, const KeptStretch& kept, double time,
-              const RideState& state) {
+              const TrajectoryPoint& state) {
         if (!(value <= most))
             fail(name, value / most,
                  fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time,
@@ -72,17 +72,17 @@ class RideChecks {
     }
 
     void check(const KeptStretch& kept, double until, bool ends) {
-        const Stretch stretch = kept.view();
+        const PathSection stretch = kept.view();
         if (!(stretch.seconds > 0 && stretch.seconds < 1e15))
             return fail("finite time", stretch.seconds, fmt::format("{}", stretch.seconds));
-        StretchView view(stretch);
+        SectionSampler view(stretch);
         last_time_ = 0;
         looks_ = 0;
         const double hair_before = hair_;
         hair_ = time_rounding * stretch.seconds;
         double begin = 0;
         std::size_t piece = 0;
-        for (const FeedPiece& feed : kept.feed) {
+        for (const ProfileSegment& feed : kept.feed) {
             std::size_t pieces = 0;
             while (piece < kept.curve.size() && kept.curve[piece].begin < feed.begin + feed.length) ++piece, ++pieces;
             const std::size_t looks = std::min<std::size_t>(200, 6 + 4 * pieces);
@@ -101,15 +101,15 @@ class RideChecks {
         else
             last_ = view.at(until);
         if (ends) check_rest(kept);
-        const double least = accel_bound(kept.curve, limits_);
+        const double least = min_duration_s(kept.curve, limits_);
         if (!(stretch.seconds >= least * (1 - bound_rounding)))
             fail("bound", least / stretch.seconds,
                  fmt::format("{:.9g} s, the bound {:.9g} s, line {}", stretch.seconds, least, stretch.line));
     }
 
-    void look(const KeptStretch& kept, StretchView& view, double time, double hair) {
+    void look(const KeptStretch& kept, SectionSampler& view, double time, double hair) {
         if (time < last_time_) return;
-        const RideState state = view.at(time);
+        const TrajectoryPoint state = view.at(time);
         const double step = (time - last_time_) * slack + hair;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const AxisLimits& axis = limits_[i];
@@ -140,7 +140,7 @@ class RideChecks {
                    : move.feed * (paths_[i].length * (1 + 1e-9) + 0.02 * half_pulse_);
     }
 
-    void check_feed(const KeptStretch& kept, const RideState& state, double time) {
+    void check_feed(const KeptStretch& kept, const TrajectoryPoint& state, double time) {
         const std::size_t i = static_cast<std::size_t>(state.line - 1);
         double most = programmed(i);
         if (time < kept.stretch.overlap)
@@ -153,7 +153,7 @@ class RideChecks {
              most * slack, kept, time, state);
     }
 
-    double off_path(const RideState& state, std::size_t i) const {
+    double off_path(const TrajectoryPoint& state, std::size_t i) const {
         const Move& move = program_.moves[i];
         const double tolerance =
             move.path == PathControl::continuous ? std::max(move.tolerance_mm, half_pulse_) : half_pulse_;
@@ -165,7 +165,7 @@ class RideChecks {
         return std::sqrt(square) - tolerance;
     }
 
-    void check_path(const KeptStretch& kept, const RideState& state, double time) {
+    void check_path(const KeptStretch& kept, const TrajectoryPoint& state, double time) {
         const auto line = static_cast<std::ptrdiff_t>(state.line - 1),
                    count = static_cast<std::ptrdiff_t>(paths_.size());
         double least = std::numeric_limits<double>::infinity();
@@ -178,7 +178,7 @@ class RideChecks {
 
     void check_rest(const KeptStretch& kept) {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            const double jerk = jerk_of(limits_[i]);
+            const double jerk = effective_jerk(limits_[i]);
             hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_,
                  kept, last_time_, last_);
             hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_,
@@ -202,7 +202,7 @@ class RideChecks {
     std::vector<Geometry> paths_;
     double half_pulse_ = 0;
     Fault fault_;
-    RideState last_;
+    TrajectoryPoint last_;
     double last_time_ = 0;
     double hair_ = 0;  ///< s that a time of the stretch may be off by roundings
     int looks_ = 0;
@@ -239,10 +239,10 @@ inline std::string text_of(const WildProgram& program) {
                            axis.max_accel, axis.max_jerk, axis.pulses_per_unit);
     }
     for (const Move& move : program.moves) {
-        out +=
-            fmt::format("{} kind {} path {} mode {} feed {:.9g} haste {:.3g} tolerance {:.9g} end {:.17g}", move.line,
-                        static_cast<int>(move.kind), static_cast<int>(move.path), static_cast<int>(move.feed_mode),
-                        move.feed, move.haste, move.tolerance_mm, fmt::join(move.end, " "));
+        out += fmt::format("{} kind {} path {} mode {} feed {:.9g} rapid_override {:.3g} tolerance {:.9g} end {:.17g}",
+                           move.line, static_cast<int>(move.kind), static_cast<int>(move.path),
+                           static_cast<int>(move.feed_mode), move.feed, move.rapid_override, move.tolerance_mm,
+                           fmt::join(move.end, " "));
         if (move.kind == MoveKind::arc)
             out += fmt::format(" plane {}{} centre {:.17g} {:.17g} turns {}", move.first, move.second,
                                move.centre_first, move.centre_second, move.turns);

@@ -16,9 +16,9 @@ using curve_test::arc_from;
 using curve_test::line_to;
 using curve_test::machine;
 
-std::vector<PlannedMove> moves_of(const std::vector<Move>& program, RideMovesSettings settings = {},
+std::vector<PlannedMove> moves_of(const std::vector<Move>& program, InterpolatorSettings settings = {},
                                   const MachineLimits& limits = machine()) {
-    RideMoves planner(limits, {}, settings);
+    TrajectoryInterpolator planner(limits, {}, settings);
     std::vector<PlannedMove> out;
     PlannedMove planned;
     const auto pull = [&] {
@@ -142,9 +142,9 @@ TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
     double seconds = 0;
     for (const PlannedMove& move : moves_of(curvy())) seconds += seconds_of(move);
     double ride = 0;
-    Rider rider(machine(), {});
+    TrajectoryGenerator rider(machine(), {});
     const auto drive = [&] {
-        while (rider.next(false) == RideNext::motion) {
+        while (rider.next(false) == NextMotion::motion) {
             const double pass = std::min(0.01, rider.left());
             rider.pass(pass);
             ride += pass;
@@ -174,14 +174,14 @@ TEST(TheMovesOfARide, KeepDwellsWholeOrCutThem) {
     int count = 0;
     EXPECT_DOUBLE_EQ(seconds(moves_of(program), count), 0.25);
     EXPECT_EQ(count, 1);
-    RideMovesSettings settings;
+    InterpolatorSettings settings;
     settings.cut_dwells = true;
     EXPECT_NEAR(seconds(moves_of(program, settings), count), 0.25, 1e-12);
     EXPECT_EQ(count, 3);
 }
 
 TEST(TheMovesOfARide, RefuseWhatNoPlannerTakesAndGoOn) {
-    RideMoves planner(machine(), {});
+    TrajectoryInterpolator planner(machine(), {});
     Move bad = line_to({1});
     bad.feed = 0;
     const Result<void> refused = planner.push(bad);
@@ -193,18 +193,18 @@ TEST(TheMovesOfARide, RefuseWhatNoPlannerTakesAndGoOn) {
     EXPECT_TRUE(planner.pull(planned));
 }
 
-/// Draws two axes and steers a third.
-class TwoAxes : public DriveRule {
+/// Draws two axes and uses_auxiliary_axis a third.
+class TwoAxes : public DriveConstraints {
   public:
-    double joint_speed(const Geometry&, const Geometry&) const override { return 1e9; }
-    double spent_length(const Geometry&) const override { return 0; }
-    int most_drawn() const override { return 2; }
-    double steering_seconds() const override { return 0.01; }
+    double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }
+    double constant_velocity_length(const Geometry&) const override { return 0; }
+    int max_interpolated_axes() const override { return 2; }
+    double min_velocity_update_s() const override { return 0.01; }
 };
 
 TEST(TheMovesOfARide, StandBeforeACornerThatWouldTakeMoreAxesThanTheCardDraws) {
     const TwoAxes rule;
-    RideMovesSettings settings;
+    InterpolatorSettings settings;
     settings.drive = &rule;
     const auto stands = [&](const std::vector<Move>& program) {
         int count = 0;

@@ -11,18 +11,18 @@ namespace motionrack::control::ride_test {
 
 /// A stretch with its own pieces.
 struct KeptStretch {
-    std::vector<CurvePiece> curve;
-    std::vector<FeedPiece> feed;
-    KeptEnd before;
-    Stretch stretch;
+    std::vector<CubicSegment> curve;
+    std::vector<ProfileSegment> feed;
+    StoredRamp before;
+    PathSection stretch;
 
-    explicit KeptStretch(const Stretch& from)
+    explicit KeptStretch(const PathSection& from)
         : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) {
         before.keep(from.before);
     }
     /// Valid as long as this is.
-    Stretch view() const {
-        Stretch out = stretch;
+    PathSection view() const {
+        PathSection out = stretch;
         out.curve = curve;
         out.feed = feed;
         out.before = before.end();
@@ -33,7 +33,7 @@ struct KeptStretch {
 inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const MachineLimits& limits,
                                           const Point& start = {}) {
     std::vector<KeptStretch> out;
-    Ride ride(limits, start, [&](const Stretch& stretch) { out.emplace_back(stretch); });
+    OfflineTrajectory ride(limits, start, [&](const PathSection& stretch) { out.emplace_back(stretch); });
     for (const Move& move : moves) ride.push(move);
     ride.flush();
     return out;
@@ -48,7 +48,7 @@ inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimit
 
 /// By the planner of trapezoids; S-curves from stop to stop.
 inline double seconds_stopping(std::vector<Move> moves, const MachineLimits& limits) {
-    Planner planner(limits, {});
+    LookAheadPlanner planner(limits, {});
     PlanSummary sum;
     PlannedMove planned;
     for (Move& move : moves) {

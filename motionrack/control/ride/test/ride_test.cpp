@@ -22,21 +22,21 @@ struct Ridden {
     double seconds = 0, speed = 0, accel = 0, jerk = 0;
     int rests = 0;
     Point end = {};
-    std::vector<RideState> states;
+    std::vector<TrajectoryPoint> states;
 };
 
 Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
     Ridden out;
     const MachineLimits limits = machine();
-    Ride ride(limits, {}, [&](const Stretch& stretch) {
+    OfflineTrajectory ride(limits, {}, [&](const PathSection& stretch) {
         out.seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds;
         out.rests += !stretch.curve.empty();
         out.end = stretch.end;
         if (stretch.curve.empty()) return;
-        StretchView view(stretch);
+        SectionSampler view(stretch);
         const int steps = std::clamp(static_cast<int>(stretch.seconds / step), 50, 4000);
         for (int i = 0; i <= steps; ++i) {
-            const RideState state = view.at(stretch.seconds * i / steps);
+            const TrajectoryPoint state = view.at(stretch.seconds * i / steps);
             for (std::size_t axis = 0; axis < limits.size(); ++axis) {
                 out.speed = std::max(out.speed, std::fabs(state.speed[axis]) / limits[axis].max_speed);
                 out.accel = std::max(out.accel, std::fabs(state.accel[axis]) / limits[axis].max_accel);
@@ -71,7 +71,7 @@ TEST(ARide, HasNoJumps) {
     moves.push_back(arc);
     const Ridden ridden = ride(moves, 1e-5);
     for (std::size_t i = 1; i < ridden.states.size(); ++i) {
-        const RideState &a = ridden.states[i - 1], &b = ridden.states[i];
+        const TrajectoryPoint &a = ridden.states[i - 1], &b = ridden.states[i];
         if (b.u < a.u) continue;  // the next stretch, which begins before this one ends
         for (std::size_t axis = 0; axis < 2; ++axis) {
             ASSERT_NEAR(a.place[axis], b.place[axis], 0.05);
@@ -103,7 +103,7 @@ TEST(ARide, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
         const std::vector<Move> moves = square_wave(8, 10, tolerance);
         const std::vector<Geometry> paths = curve_test::paths_of(moves);
         double farthest = 0;
-        for (const RideState& state : ride(moves).states) {
+        for (const TrajectoryPoint& state : ride(moves).states) {
             double nearest = 1e9;
             for (const Geometry& path : paths)
                 nearest = std::min(nearest, distance_to(path, state.place[0], state.place[1], state.place[2]));
@@ -127,7 +127,7 @@ TEST(ARide, OfAZigzagIsHardlySlowerThanWithExactStops) {
 TEST(ARide, TakesACircleAtTheSpeedOfItsBend) {
     const Ridden ridden = ride({arc_from({}, 0, 5, 12 * pi)});
     double fastest = 0;
-    for (const RideState& state : ridden.states)
+    for (const TrajectoryPoint& state : ridden.states)
         fastest = std::max(fastest, std::sqrt(state.speed[0] * state.speed[0] + state.speed[1] * state.speed[1]));
     EXPECT_GT(fastest, 0.97 * std::sqrt(0.8 * 2000 * 5));
     EXPECT_EQ(ridden.rests, 1);
@@ -149,9 +149,9 @@ TEST(ARide, RunsThroughManyChordsAsThroughTheCurve) {
         const SinCos wave = sin_cos(x / 15);
         Move move = line_to({x, 20 * wave.sin});
         const double slope = 20.0 / 15 * wave.cos,
-                     bend = 20.0 / 225 * std::fabs(wave.sin) / std::pow(1 + slope * slope, 1.5);
+                     curvature = 20.0 / 225 * std::fabs(wave.sin) / std::pow(1 + slope * slope, 1.5);
         quickest += std::hypot(move.end[0] - at[0], move.end[1] - at[1]) /
-                    std::min(100.0, std::sqrt(2000 / std::max(bend, 1e-9)));
+                    std::min(100.0, std::sqrt(2000 / std::max(curvature, 1e-9)));
         at = move.end;
         moves.push_back(move);
     }

@@ -35,8 +35,8 @@ TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
             }
             driven.rider.hold();
             double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it slows down
-            while (driven.rider.next(true) == RideNext::motion) {
-                const RideState before = driven.last;
+            while (driven.rider.next(true) == NextMotion::motion) {
+                const TrajectoryPoint before = driven.last;
                 const double at = driven.now;
                 driven.step(0.001, true);
                 const double way = driven.last.u - before.u;
@@ -62,11 +62,11 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     while (driven.now < 0.5) driven.step(0.001, true);
     driven.rider.hold();
     const double asked = driven.now;
-    while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
+    while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
     // twice sqrt(speed / jerk): its acceleration is not reached
     EXPECT_NEAR(driven.now - asked, 2 * std::sqrt(50 / machine()[0].max_jerk), 0.005);
     EXPECT_TRUE(driven.rider.stands());
-    EXPECT_EQ(driven.rider.next(true), RideNext::nothing);
+    EXPECT_EQ(driven.rider.next(true), NextMotion::nothing);
     driven.rider.resume();
     while (driven.step(0.001, true)) {
     }
@@ -94,7 +94,7 @@ TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
             while (driven.now < 0.5 + after) driven.step(0.001, true);
             driven.rider.hold();
             const double asked = driven.now;
-            while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
+            while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
             expect_limits(driven);
             return driven.now - asked;
         };
@@ -106,8 +106,8 @@ TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
     }
 }
 
-/// The bend alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down takes
-/// from the same.
+/// The curvature alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down
+/// takes from the same.
 TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
     Move circle = arc_from({}, 0, 10, 50);
     circle.feed = 1000;
@@ -120,7 +120,7 @@ TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
         driven.rider.hold();
         const double asked = driven.now,
                      alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
-        while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
+        while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
         EXPECT_LT(driven.now - asked, 4 * alone) << when;
         expect_limits(driven);
     }
@@ -139,7 +139,7 @@ TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
             while (slowed.now < when) slowed.step(0.001, true);
             const double speed = speed_of(held);
             held.rider.hold();
-            while (held.rider.next(true) == RideNext::motion) held.step(0.001, true);
+            while (held.rider.next(true) == NextMotion::motion) held.step(0.001, true);
             EXPECT_LT(held.now - when, 0.5);
             slowed.rider.set_overrides(0.5 * speed / circle.feed, 1);
             while (speed_of(slowed) > 0.51 * speed && slowed.now < when + 1) slowed.step(0.001, true);
@@ -153,7 +153,7 @@ TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
 TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
     Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
     driven.step(0, true);
-    const double whole = driven.rider.until_rest();
+    const double whole = driven.rider.seconds_to_standstill();
     while (driven.rider.left() > 0.005) ASSERT_TRUE(driven.step(0.0005, true));
     ASSERT_LT(driven.now, 0.8 * whole);
     driven.rider.hold();

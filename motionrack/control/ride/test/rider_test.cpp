@@ -129,9 +129,9 @@ TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
     Driven driven(moves, {40});
     int looks = 0;
     while (driven.step(0.003, false)) {
-        if (driven.rider.stands() || driven.rider.left() < driven.rider.until_rest())
+        if (driven.rider.stands() || driven.rider.left() < driven.rider.seconds_to_standstill())
             continue;  // the next stretch begins before its end
-        const RideState end = driven.rider.at(driven.rider.until_rest());
+        const TrajectoryPoint end = driven.rider.at(driven.rider.seconds_to_standstill());
         for (const double speed : end.speed) EXPECT_EQ(speed, 0);
         ++looks;
     }
@@ -144,7 +144,7 @@ TEST(ARider, TellsWhichMoveItIsOnAndKeepsNoOther) {
     Driven driven(moves, {500});
     std::int64_t last = 0;
     while (driven.step(0.02, false)) {
-        if (driven.rider.next(false) != RideNext::motion) continue;
+        if (driven.rider.next(false) != NextMotion::motion) continue;
         const std::int64_t number = driven.rider.move_of(driven.rider.at(0));
         EXPECT_GE(number, last);
         EXPECT_EQ(driven.rider.move(number).move.end, moves[static_cast<std::size_t>(number)].end);
@@ -152,7 +152,7 @@ TEST(ARider, TellsWhichMoveItIsOnAndKeepsNoOther) {
         last = number;
     }
     EXPECT_GT(last, 2990);
-    EXPECT_EQ(driven.rider.first_left(), 3000);
+    EXPECT_EQ(driven.rider.first_pending_move(), 3000);
 }
 
 }  // namespace

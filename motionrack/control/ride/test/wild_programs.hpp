@@ -62,7 +62,7 @@ class WildMaker {
     void make_mode() {
         mode_ = Move{};
         mode_.kind = one_of(6) == 0 ? MoveKind::traverse : MoveKind::feed;
-        mode_.haste = one_of(2) == 0 ? 1 : between(0.01, 1);
+        mode_.rapid_override = one_of(2) == 0 ? 1 : between(0.01, 1);
         mode_.path = static_cast<PathControl>(one_of(5) < 3 ? 2 : one_of(2));
         mode_.tolerance_mm = one_of(8) == 0 ? 0 : size_between(1e-5, 2);
         mode_.feed_mode = one_of(5) == 0 ? FeedMode::inverse_time : FeedMode::units_per_second;
