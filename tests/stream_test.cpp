@@ -275,7 +275,7 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
         Watched w(router(GetParam()));
         std::vector<double> at;
         w.stream->on_event([&](const control::gcode::Step& step) {
-            if (step.kind == control::gcode::StepKind::output)
+            if (step.kind == control::gcode::CanonCallKind::output)
                 at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
         });
         double slowest = 1e9;
@@ -301,7 +301,7 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
 
 TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
     Watched w(router(GetParam()));
-    std::vector<control::gcode::StepKind> seen;
+    std::vector<control::gcode::CanonCallKind> seen;
     w.stream->on_event([&](const control::gcode::Step& step) { seen.push_back(step.kind); });
     int waits = 0;
     drive_all(w, "G21 G90 F3000\nG1 X10 M3 S1000\nM0\nG1 X20\nM2\n", [&] {
@@ -310,7 +310,7 @@ TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
         if (++waits == 50) w.stream->resume();
     });
     EXPECT_EQ(waits, 50);
-    EXPECT_EQ(seen.back(), control::gcode::StepKind::end);
+    EXPECT_EQ(seen.back(), control::gcode::CanonCallKind::end);
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 20, 1e-9);
 }
 

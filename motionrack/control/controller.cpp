@@ -40,41 +40,41 @@ std::string input_words(const gcode::Step& step) {
 }
 
 std::string words_of(const gcode::Step& step) {
-    using gcode::StepKind;
+    using gcode::CanonCallKind;
     switch (step.kind) {
-        case StepKind::comment:
+        case CanonCallKind::comment:
             return fmt::format("comment: {}", step.text);
-        case StepKind::message:
+        case CanonCallKind::message:
             return fmt::format("message: {}", step.text);
-        case StepKind::spindle_speed:
+        case CanonCallKind::spindle_speed:
             return fmt::format("spindle speed {} rpm", step.speed_rpm);
-        case StepKind::spindle:
+        case CanonCallKind::spindle:
             if (step.spindle == gcode::Spindle::off) return "spindle off";
             return fmt::format("spindle {} at {} rpm",
                                step.spindle == gcode::Spindle::clockwise ? "clockwise" : "counter-clockwise",
                                step.speed_rpm);
-        case StepKind::coolant:
+        case CanonCallKind::coolant:
             return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
-        case StepKind::tool_select:
+        case CanonCallKind::tool_select:
             return fmt::format("tool {} selected", step.tool);
-        case StepKind::tool_number:
+        case CanonCallKind::tool_number:
             return fmt::format("tool {} is in the spindle", step.tool);
-        case StepKind::tool_change:
+        case CanonCallKind::tool_change:
             return fmt::format("tool {} changed in", step.tool);
-        case StepKind::overrides:
+        case CanonCallKind::overrides:
             return override_words(step);
-        case StepKind::output:
+        case CanonCallKind::output:
             return fmt::format("{} output {} to {:g} (M{})", step.analog ? "analog" : "digital", step.port, step.value,
                                output_code(step));
-        case StepKind::input:
+        case CanonCallKind::input:
             return input_words(step);
-        case StepKind::pause:
+        case CanonCallKind::pause:
             return "pause (M0): nobody waits in simulated time, the program goes on";
-        case StepKind::optional_pause:
+        case CanonCallKind::optional_pause:
             return "optional pause (M1): not asked for, the program goes on";
-        case StepKind::end:
+        case CanonCallKind::end:
             return "end of program";
-        case StepKind::move:
+        case CanonCallKind::move:
             break;
     }
     return {};
@@ -141,19 +141,19 @@ void ProgramExecutor::note(ProgramEvent event, ProgramResult& run) {
 }
 
 Result<void> ProgramExecutor::take(const gcode::Step& step, ProgramResult& run) {
-    using gcode::StepKind;
-    if (step.kind == StepKind::move) {
+    using gcode::CanonCallKind;
+    if (step.kind == CanonCallKind::move) {
         run.moves += step.move.kind != MoveKind::dwell;
         if (!planner_->has_room()) MOTIONRACK_CHECK(hand_over());
         return planner_->push(programmed(step.move));
     }
     // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
-    if (gcode::needs_rest(step)) {
+    if (gcode::needs_standstill(step)) {
         planner_->flush();
         MOTIONRACK_CHECK(hand_over());
     }
     remember(step, run);
-    if (step.kind == StepKind::end) run.ended = true;
+    if (step.kind == CanonCallKind::end) run.ended = true;
     return {};
 }
 
@@ -168,7 +168,7 @@ Result<void> ProgramExecutor::probe(const gcode::Step& step, gcode::ProgramReade
     tell(planned);
     MOTIONRACK_TRY(const ProbeResult outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
     const Point stands = axes_.commanded_position();
-    reader.probed(outcome.hit, outcome.at, stands);
+    reader.set_probe_result(outcome.hit, outcome.at, stands);
     plan_from(stands);
     if (run.probes.size() < settings_.event_limit) run.probes.push_back({step.line, step.probe, outcome});
     const std::string what = probe_text(step.probe, outcome);
@@ -184,7 +184,7 @@ Result<void> ProgramExecutor::run(std::string_view text, const std::string& file
     Result<void> outcome;
     while (outcome) {
         auto step = reader.next();
-        run.lines = reader.walk().furthest();
+        run.lines = reader.walk().highest_line();
         if (!step) {
             outcome = tl::unexpected<Error>(step.error());
             break;

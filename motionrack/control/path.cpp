@@ -47,7 +47,7 @@ Result<void> LookAheadPlanner::push(const Move& move) {
     const AlongPathLimits along = along_of(path, move);
     double joint = 0;
     if (tail_ != ready_) {
-        joint = joint_of(last_, path, along);
+        joint = join_corner(last_, path, along);
         if (joint == 0) flush();
     }
     append(move, path, along, joint);
@@ -66,7 +66,7 @@ AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& mov
 }
 
 /// Square of the greatest speed.
-double LookAheadPlanner::joint_of(const Last& before, const Geometry& path, const AlongPathLimits& along) const {
+double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const {
     const double joint = limits_.max_junction_velocity2(before.path, before.along.speed, path, along.speed,
                                                         before.control, before.tolerance_mm);
     if (joint <= 0 || drive_ == nullptr) return joint;
@@ -162,7 +162,7 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     PlannedMove& last = slot(index);
     if (!are_alike(last.move, move) || (index == ready_ ? committed_ != 0 : index <= settled_)) return false;
     if (last_.path.length >= least_length(last_.path, last.move)) return false;
-    if (joint_of(last_, path, along_of(path, move)) <= 0) return false;
+    if (join_corner(last_, path, along_of(path, move)) <= 0) return false;
     Move whole = last.move;
     whole.end = move.end;
     const Geometry line = geometry_of(whole, last.start);
@@ -170,7 +170,7 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     if (move.path == PathControl::continuous) tolerance = std::max(tolerance, part_of_tolerance * move.tolerance_mm);
     if (line.shape != last_.path.shape || !is_on_the_way(line, tolerance)) return false;
     const AlongPathLimits along = along_of(line, whole);
-    const double joint = index == ready_ ? node(index).joint : joint_of(before_last_, line, along);
+    const double joint = index == ready_ ? node(index).joint : join_corner(before_last_, line, along);
     if (index != ready_ && joint <= 0) return false;
     between_[between_size_++] = position_;
     last.move = whole;
@@ -285,7 +285,7 @@ void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& cha
         const AlongPathLimits along = along_of(path, planned.move);
         planned.accel = along.accel;
         planned.jerk = along.jerk;
-        const double joint = i != head_ && node(i).joint > 0 ? joint_of(before, path, along) : 0;
+        const double joint = i != head_ && node(i).joint > 0 ? join_corner(before, path, along) : 0;
         node(i) = node_of(path, along, joint, node(i).gain);
         before_last_ = std::exchange(before, {path, along, planned.move.path, planned.move.tolerance_mm});
     }

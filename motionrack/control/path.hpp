@@ -88,7 +88,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     double least_length(const Geometry& path, const Move& move) const;
     bool is_on_the_way(const Geometry& line, double tolerance_mm) const;
     AlongPathLimits along_of(const Geometry& path, const Move& move) const;
-    double joint_of(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
+    double join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
     double gain_of(const Last& before, const Geometry& path) const;
     Node node_of(const Geometry& path, const AlongPathLimits& along, double joint, double gain) const;
     static double braked(const Node& node, double exit);

@@ -11,8 +11,8 @@ namespace motionrack::control {
 
 namespace {
 
+using gcode::CanonCallKind;
 using gcode::Step;
-using gcode::StepKind;
 
 /// Pieces of an arc are short enough to tell from a place where on it the machine is.
 constexpr double most_sweep = 2 * pi / 3;
@@ -50,7 +50,7 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gc
         walk.refused(text_, read.error());
         return read;
     }
-    if (gcode::Outcome<void> taken = walk.took(interpreter_); !taken) return taken;
+    if (gcode::Outcome<void> taken = walk.line_accepted(interpreter_); !taken) return taken;
     unpulled_ = true;
     pull_steps();
     return {};
@@ -88,11 +88,11 @@ void Stream::pull_steps() {
             entries_.push_back({*step, {}, read_to_});
             entries_.back().step.move.index = read_++;
             if (on_move_) on_move_(entries_.back().step.move, read_to_);
-        } else if (step->kind == StepKind::move && step->move.kind != MoveKind::dwell) {
+        } else if (step->kind == CanonCallKind::move && step->move.kind != MoveKind::dwell) {
             begin_cut(*step, false);
         } else {
             entries_.push_back({*step, std::string(step->text), read_to_});
-            if (step->kind != StepKind::move) continue;
+            if (step->kind != CanonCallKind::move) continue;
             ++moves_;
             entries_.back().step.move.index = read_++;
         }
@@ -211,7 +211,7 @@ Result<void> Stream::fill_planner() {
 
 bool Stream::stops_before(const Entry& entry) const {
     if (single_step_ && entry.step.line != entries_.front().step.line) return true;
-    return entry.is_probe() || gcode::needs_rest(entry.step);
+    return entry.is_probe() || gcode::needs_standstill(entry.step);
 }
 
 /// Whether what the axes have goes on for longer than the margin.
@@ -271,7 +271,7 @@ Result<ExecutionState> Stream::stand() {
     if (wish == Wish::hold && has_work()) return state_ = ExecutionState::held;
     while (!entries_.empty() && !entries_.front().is_move()) {
         if (entries_.front().is_probe()) return probe();
-        const bool pause = entries_.front().step.kind == StepKind::pause;
+        const bool pause = entries_.front().step.kind == CanonCallKind::pause;
         pop();
         if (pause) return state_ = ExecutionState::paused;
     }

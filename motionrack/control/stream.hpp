@@ -146,7 +146,7 @@ class Stream {
         bool by_hand = false;     ///< not of a line
         bool is_probe() const { return step.probe != gcode::Probe::none; }
         bool is_overridable() const { return !by_hand && step.overridable; }
-        bool is_move() const { return step.kind == gcode::StepKind::move && !is_probe(); }
+        bool is_move() const { return step.kind == gcode::CanonCallKind::move && !is_probe(); }
         /// What the overrides make of its move.
         void override_feed(Move& move, double feed, double rapid) const {
             if (is_overridable()) move.feed = step.move.feed * feed;

@@ -28,7 +28,7 @@ Result<ExecutionState> Stream::probe() {
     --moves_;
     entries_.pop_front();
     planned_ = handed_ = 0;
-    interpreter_.probed(outcome->hit, outcome->at, place);
+    interpreter_.set_probe_result(outcome->hit, outcome->at, place);
     read_to_ = place;
     new_planner(place);
     if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::driving : ExecutionState::rest;

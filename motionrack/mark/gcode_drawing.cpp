@@ -47,7 +47,7 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
         const auto step = reader.next();
         if (!step) return tl::unexpected<Error>(static_cast<const Error&>(step.error()));
         if (*step == nullptr) return out;
-        if ((*step)->kind != control::gcode::StepKind::move || (*step)->move.kind == MoveKind::dwell) continue;
+        if ((*step)->kind != control::gcode::CanonCallKind::move || (*step)->move.kind == MoveKind::dwell) continue;
         const Move& move = (*step)->move;
         const Spot to{move.end[0], move.end[1]};
         if (move.kind == MoveKind::traverse) {

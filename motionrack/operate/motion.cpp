@@ -344,14 +344,15 @@ void Machine::enter(MachineState state, std::string why) {
 }
 
 void Machine::pass_event(const control::gcode::Step& step) {
-    using control::gcode::StepKind;
-    if (step.kind == StepKind::spindle_speed || step.kind == StepKind::spindle) status_.spindle_rpm = step.speed_rpm;
-    if (step.kind == StepKind::spindle) status_.spindle = step.spindle;
-    if (step.kind == StepKind::coolant) {
+    using control::gcode::CanonCallKind;
+    if (step.kind == CanonCallKind::spindle_speed || step.kind == CanonCallKind::spindle)
+        status_.spindle_rpm = step.speed_rpm;
+    if (step.kind == CanonCallKind::spindle) status_.spindle = step.spindle;
+    if (step.kind == CanonCallKind::coolant) {
         status_.mist = step.mist;
         status_.flood = step.flood;
     }
-    if (step.kind == StepKind::end) tools_off();
+    if (step.kind == CanonCallKind::end) tools_off();
     if (settings_.on_event) settings_.on_event(step);
 }
 

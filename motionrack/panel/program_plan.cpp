@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_points = 20'000, most_problems = 100;
+constexpr std::size_t most_points = 20'000, max_problems = 100;
 constexpr double radians_a_chord = 0.15;
 
 void add_move(Polyline& line, const control::PlannedMove& planned) {
@@ -78,7 +78,7 @@ ProgramPlan plan_program(const std::string& text, const std::string& name, const
                          double accel_reserve) {
     ProgramPlan plan;
     plan.name = name;
-    plan.check = control::gcode::check_program(text, settings, most_problems, name);
+    plan.check = control::gcode::check_program(text, settings, max_problems, name);
     if (!plan.check.problems.empty()) return plan;
     control::MachineLimits limits = settings.limits;
     for (control::AxisLimits& axis : limits) axis.max_accel *= 1 - accel_reserve;
@@ -87,7 +87,7 @@ ProgramPlan plan_program(const std::string& text, const std::string& name, const
     for (;;) {
         const auto step = reader.next();
         if (!step || *step == nullptr) break;
-        if ((*step)->kind == control::gcode::StepKind::move && !sums.push((*step)->move)) break;
+        if ((*step)->kind == control::gcode::CanonCallKind::move && !sums.push((*step)->move)) break;
     }
     sums.finish();
     return plan;

@@ -74,7 +74,7 @@ class Feeder {
                 more_ = false;
                 return;
             }
-            run_.lines = walk_.furthest();
+            run_.lines = walk_.highest_line();
             const control::gcode::Block& block = stream.interpreter().block();
             if (block.has_m(control::gcode::m_stop))
                 run_.ended =

@@ -11,7 +11,7 @@ namespace motionrack::python {
 
 namespace {
 constexpr Duration slice = milliseconds(50);
-constexpr std::size_t most_problems = 20;
+constexpr std::size_t max_problems = 20;
 }  // namespace
 
 World::World(const rack::RackConfig& config) : config_(config) {
@@ -172,7 +172,7 @@ control::gcode::Settings World::reading_of(const GivenProgram& program) const {
 control::gcode::Settings World::check(const GivenProgram& program) const {
     if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
     control::gcode::Settings reading = reading_of(program);
-    if (auto check = control::gcode::check_program(program.text, reading, most_problems, program.name);
+    if (auto check = control::gcode::check_program(program.text, reading, max_problems, program.name);
         !check.problems.empty())
         throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
     return reading;

@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             continue;
         }
         if (*step == nullptr) break;
-        if ((*step)->kind == StepKind::move) {
+        if ((*step)->kind == CanonCallKind::move) {
             check_move((*step)->move, (*step)->line);
             before = (*step)->move.end;
         }

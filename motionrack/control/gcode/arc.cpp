@@ -8,8 +8,8 @@ namespace motionrack::control::gcode {
 namespace {
 
 /// Whether `v` comes before `w` when turning counter-clockwise from `from`; a `v` along `from` comes first of all.
-bool comes_before(Planar from, Planar v, Planar w) {
-    const auto second_half = [&](Planar p) {
+bool comes_before(PlanePoint from, PlanePoint v, PlanePoint w) {
+    const auto second_half = [&](PlanePoint p) {
         return !(cross(from, p) > 0 || (cross(from, p) == 0 && dot(from, p) > 0));
     };
     const bool v_second = second_half(v);
@@ -20,12 +20,12 @@ bool comes_before(Planar from, Planar v, Planar w) {
 
 }  // namespace
 
-double length(Planar v) {
+double length(PlanePoint v) {
     return std::sqrt(dot(v, v));
 }
 
-bool centre_from_radius(Planar start, Planar end, double radius, bool counter_clockwise, Planar& centre) {
-    const Planar chord = {end.first - start.first, end.second - start.second};
+bool centre_from_radius(PlanePoint start, PlanePoint end, double radius, bool counter_clockwise, PlanePoint& centre) {
+    const PlanePoint chord = {end.first - start.first, end.second - start.second};
     const double whole = length(chord);
     const double half = whole / 2;
     const double size = std::fabs(radius);
@@ -37,8 +37,9 @@ bool centre_from_radius(Planar start, Planar end, double radius, bool counter_cl
     return true;
 }
 
-std::array<bool, 4> extremes_passed(Planar from, Planar to, bool counter_clockwise) {
-    constexpr std::array<Planar, 4> extremes = {Planar{1, 0}, Planar{0, 1}, Planar{-1, 0}, Planar{0, -1}};
+std::array<bool, 4> extremes_passed(PlanePoint from, PlanePoint to, bool counter_clockwise) {
+    constexpr std::array<PlanePoint, 4> extremes = {PlanePoint{1, 0}, PlanePoint{0, 1}, PlanePoint{-1, 0},
+                                                    PlanePoint{0, -1}};
     if (!counter_clockwise) std::swap(from, to);
     std::array<bool, 4> passed = {};
     for (std::size_t i = 0; i < 4; ++i) passed[i] = comes_before(from, extremes[i], to);

@@ -42,7 +42,7 @@ enum GroupM : std::uint8_t {
     m_coolant_off,  ///< M9
     m_override,     ///< M48 .. M53
     m_state,        ///< M70 .. M73
-    m_port,         ///< M62 .. M68
+    m_io,           ///< M62 .. M68
     m_program,      ///< M98 M99
     m_group_count,
     m_unknown = 255

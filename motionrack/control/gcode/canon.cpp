@@ -56,12 +56,12 @@ void CanonPrinter::line(Interpreter& interpreter) {
     n_word_ = block.has('N') ? static_cast<std::int64_t>(block['N']) : -1;
     bool fed = false;
     bool told = false;
-    const auto before = [&](StepKind kind, bool dwell) {
-        if (kind == StepKind::comment || kind == StepKind::message) return;
-        if (!fed) brought_back(interpreter), feed(interpreter);
+    const auto before = [&](CanonCallKind kind, bool dwell) {
+        if (kind == CanonCallKind::comment || kind == CanonCallKind::message) return;
+        if (!fed) print_restored_modes(interpreter), feed(interpreter);
         fed = true;
-        const bool late = kind == StepKind::pause || kind == StepKind::optional_pause || kind == StepKind::end ||
-                          (kind == StepKind::move && !dwell);
+        const bool late = kind == CanonCallKind::pause || kind == CanonCallKind::optional_pause ||
+                          kind == CanonCallKind::end || (kind == CanonCallKind::move && !dwell);
         if (late && !told) {
             modes(interpreter);
             told = true;
@@ -69,27 +69,27 @@ void CanonPrinter::line(Interpreter& interpreter) {
     };
     std::size_t comments = 0;
     while (const Step* step = interpreter.pull()) {
-        if (step->kind == StepKind::input || step->awaits_input) continue;  // rs274 tells of neither
-        late_ = interpreter.has_waited();
+        if (step->kind == CanonCallKind::input || step->awaits_input) continue;  // rs274 tells of neither
+        late_ = interpreter.was_held();
         if (late_) {
             event(*step, interpreter);
             continue;
         }
-        const bool dwell = step->kind == StepKind::move && step->move.kind == MoveKind::dwell;
+        const bool dwell = step->kind == CanonCallKind::move && step->move.kind == MoveKind::dwell;
         before(step->kind, dwell);
-        if (step->kind == StepKind::move) {
+        if (step->kind == CanonCallKind::move) {
             if (!dwell && straight_home(block)) here(interpreter);
             if (step->probe != Probe::none)
                 probe(step->move, interpreter);
             else
                 event(*step, interpreter);
-        } else if (step->kind != StepKind::comment || !block.comments[comments].rest_of_line) {
+        } else if (step->kind != CanonCallKind::comment || !block.comments[comments].rest_of_line) {
             event(*step, interpreter);
         }
-        if (step->kind == StepKind::comment || step->kind == StepKind::message) ++comments;
+        if (step->kind == CanonCallKind::comment || step->kind == CanonCallKind::message) ++comments;
     }
     late_ = false;
-    before(StepKind::move, false);
+    before(CanonCallKind::move, false);
     note(interpreter);
     if (path_ != interpreter.modes().path)
         path(interpreter.modes().path, interpreter.modes().tolerance_mm, interpreter);
@@ -107,7 +107,7 @@ void CanonPrinter::note(const Interpreter& interpreter) {
 }
 
 /// No word of the line says what M72 brings back on it, or M73 at the end of a call.
-void CanonPrinter::brought_back(const Interpreter& interpreter) {
+void CanonPrinter::print_restored_modes(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const bool ends_call = block.flow || block.has_m(m_program);
     if (!ends_call && !(block.has_m(m_state) && block.m[m_state] == 72)) return;
@@ -190,35 +190,35 @@ void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter
 
 void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
     switch (step.kind) {
-        case StepKind::comment:
+        case CanonCallKind::comment:
             return call(fmt::format("COMMENT(\"{}\")", step.text));
-        case StepKind::message:
+        case CanonCallKind::message:
             return call(fmt::format("MESSAGE(\"{}\")", step.text));
-        case StepKind::spindle_speed:
+        case CanonCallKind::spindle_speed:
             return call(fmt::format("SET_SPINDLE_SPEED(0, {:.4f})", step.speed_rpm));
-        case StepKind::spindle:
+        case CanonCallKind::spindle:
             return call(step.spindle == Spindle::clockwise           ? "START_SPINDLE_CLOCKWISE(0)"
                         : step.spindle == Spindle::counter_clockwise ? "START_SPINDLE_COUNTERCLOCKWISE(0)"
                                                                      : "STOP_SPINDLE_TURNING(0)");
-        case StepKind::coolant:
+        case CanonCallKind::coolant:
             if (late_ ? step.mist : interpreter.block().has_m(m_mist)) call("MIST_ON()");
             if (late_ ? step.flood : interpreter.block().has_m(m_flood)) call("FLOOD_ON()");
             if (late_ ? step.mist || step.flood : !interpreter.block().has_m(m_coolant_off)) return;
             call("MIST_OFF()");
             return call("FLOOD_OFF()");
-        case StepKind::tool_select:
+        case CanonCallKind::tool_select:
             return call(fmt::format("SELECT_TOOL({})", step.tool));
-        case StepKind::tool_change:
+        case CanonCallKind::tool_change:
             call("START_CHANGE()");
             return call(fmt::format("CHANGE_TOOL({})", step.tool));
-        case StepKind::tool_number:
+        case CanonCallKind::tool_number:
             return call(fmt::format("CHANGE_TOOL_NUMBER({})", step.tool));
-        case StepKind::pause:
+        case CanonCallKind::pause:
             if (!late_ && interpreter.block().m[m_stop] == 60) call("PALLET_SHUTTLE()");
             return call("PROGRAM_STOP()");
-        case StepKind::optional_pause:
+        case CanonCallKind::optional_pause:
             return call("OPTIONAL_PROGRAM_STOP()");
-        case StepKind::end:
+        case CanonCallKind::end:
             call(fmt::format("SET_G5X_OFFSET(1, {})",
                              six(in_units(interpreter.frame().work[0], interpreter.modes().inch))));
             call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().turn[0])));
@@ -227,13 +227,13 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
             if (!step.overridable) call("ENABLE_FEED_OVERRIDE()");
             call("STOP_SPINDLE_TURNING(0)");
             return call("PROGRAM_END()");
-        case StepKind::overrides:
+        case CanonCallKind::overrides:
             return overrides(step.port, step.value != 0);
-        case StepKind::output:
+        case CanonCallKind::output:
             return output(step);
-        case StepKind::input:
+        case CanonCallKind::input:
             return;
-        case StepKind::move:
+        case CanonCallKind::move:
             return step.awaits_input ? void() : move(step.move, interpreter);
     }
 }
@@ -303,7 +303,7 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
             walk.refused(line, done.error());
             return done;
         }
-        if (auto done = walk.took(interpreter); !done) return done;
+        if (auto done = walk.line_accepted(interpreter); !done) return done;
         printer.line(interpreter);
     }
     if (walk.has_faults()) return tl::unexpected<Problem>(walk.take_fault());

@@ -46,7 +46,7 @@ class CanonPrinter {
     void feed(const Interpreter& interpreter);
     void feed_rate(const Modes& now);
     void modes(const Interpreter& interpreter);
-    void brought_back(const Interpreter& interpreter);
+    void print_restored_modes(const Interpreter& interpreter);
     void units(const Modes& now);
     void plane(const Modes& now);
     void system(const Interpreter& interpreter);

@@ -42,8 +42,8 @@ constexpr CodeM known_m[] = {{0, m_stop},        {1, m_stop},      {2, m_stop}, 
                              {3, m_spindle},     {4, m_spindle},   {5, m_spindle},   {7, m_mist},      {8, m_flood},
                              {9, m_coolant_off}, {60, m_stop},     {61, m_tool},     {48, m_override}, {49, m_override},
                              {50, m_override},   {51, m_override}, {52, m_override}, {53, m_override}, {70, m_state},
-                             {71, m_state},      {72, m_state},    {73, m_state},    {62, m_port},     {63, m_port},
-                             {64, m_port},       {65, m_port},     {66, m_port},     {67, m_port},     {68, m_port},
+                             {71, m_state},      {72, m_state},    {73, m_state},    {62, m_io},       {63, m_io},
+                             {64, m_io},         {65, m_io},       {66, m_io},       {67, m_io},       {68, m_io},
                              {98, m_program},    {99, m_program}};
 
 template <class Group, std::size_t size, class List>

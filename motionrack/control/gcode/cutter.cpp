@@ -16,20 +16,20 @@ constexpr double parallel = 1e-9;
 /// A move that comes back along itself within this sine, with an arc that bends towards the cutter, leaves it no room.
 constexpr double cusp = 0.05;
 
-double distance(Planar a, Planar b) {
+double distance(PlanePoint a, PlanePoint b) {
     return length(b - a);
 }
-Planar unit(Planar v) {
+PlanePoint unit(PlanePoint v) {
     return v * (1 / length(v));
 }
 
 /// From `a` to `b`, in (-pi, pi].
-double angle_between(Planar a, Planar b) {
+double angle_between(PlanePoint a, PlanePoint b) {
     return motionrack::atan2(cross(a, b), dot(a, b));
 }
 
 /// From `a` to `b` in the sense of `turns`, with its sign, above 0 to a whole turn.
-double part_of_turn(Planar a, Planar b, std::int32_t turns) {
+double part_of_turn(PlanePoint a, PlanePoint b, std::int32_t turns) {
     const double whole = turns > 0 ? 2 * pi : -2 * pi;
     const double angle = angle_between(a, b);
     if (std::fabs(angle) < min_sweep_rad) return whole;
@@ -44,10 +44,10 @@ double sweep_of(const CutterPath& path) {
 
 /// Where two paths are wanted to meet: near the corner, on the side to which `towards` points.
 struct Near {
-    Planar corner;
-    Planar towards;
+    PlanePoint corner;
+    PlanePoint towards;
 
-    Planar of(Planar one, Planar two) const {
+    PlanePoint of(PlanePoint one, PlanePoint two) const {
         const bool one_there = dot(one - corner, towards) > 0;
         const bool two_there = dot(two - corner, towards) > 0;
         if (one_there != two_there) return one_there ? one : two;
@@ -56,8 +56,9 @@ struct Near {
 };
 
 /// A circle that is missed by less than the tolerance is touched.
-bool meet_line_circle(Planar on, Planar direction, Planar centre, double radius, const Near& near, Planar& at) {
-    const Planar foot = on + direction * dot(centre - on, direction);
+bool meet_line_circle(PlanePoint on, PlanePoint direction, PlanePoint centre, double radius, const Near& near,
+                      PlanePoint& at) {
+    const PlanePoint foot = on + direction * dot(centre - on, direction);
     const double apart = distance(foot, centre);
     if (apart > radius + cutter_tolerance_mm) return false;
     const double half = apart >= radius ? 0 : std::sqrt((radius - apart) * (radius + apart));
@@ -65,16 +66,16 @@ bool meet_line_circle(Planar on, Planar direction, Planar centre, double radius,
     return true;
 }
 
-bool meet_circles(Planar centre_a, double a, Planar centre_b, double b, const Near& near, Planar& at) {
+bool meet_circles(PlanePoint centre_a, double a, PlanePoint centre_b, double b, const Near& near, PlanePoint& at) {
     const double apart = distance(centre_a, centre_b);
     if (apart < cutter_tolerance_mm) return false;
     if (apart > a + b + cutter_tolerance_mm || apart < std::fabs(a - b) - cutter_tolerance_mm) return false;
-    const Planar along = (centre_b - centre_a) * (1 / apart);
+    const PlanePoint along = (centre_b - centre_a) * (1 / apart);
     const double reach = std::clamp((apart * apart + (a - b) * (a + b)) / (2 * apart), -a, a);
     return meet_line_circle(centre_a + along * reach, left_of(along), centre_a, a, near, at);
 }
 
-bool meet(const CutterPath& before, const CutterPath& after, const Near& near, Planar& at) {
+bool meet(const CutterPath& before, const CutterPath& after, const Near& near, PlanePoint& at) {
     if (before.arc && after.arc)
         return meet_circles(before.centre, before.radius_out, after.centre, after.radius_in, near, at);
     if (before.arc)
@@ -99,16 +100,17 @@ bool is_convex(const CutterPath& before, const CutterPath& after, double offset)
 
 }  // namespace
 
-CutterPath beside_line(Planar from, Planar to, double offset) {
+CutterPath offset_line(PlanePoint from, PlanePoint to, double offset) {
     CutterPath path;
     path.direction_in = path.direction_out = unit(to - from);
-    const Planar beside = left_of(path.direction_in) * offset;
+    const PlanePoint beside = left_of(path.direction_in) * offset;
     path.start = from + beside;
     path.end = to + beside;
     return path;
 }
 
-bool beside_arc(Planar from, Planar to, Planar centre, std::int32_t turns, double offset, CutterPath& path) {
+bool offset_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset,
+                CutterPath& path) {
     const double sense = turns > 0 ? 1 : -1;
     const double radius_in = distance(centre, from);
     const double radius_out = distance(centre, to);
@@ -128,17 +130,18 @@ bool beside_arc(Planar from, Planar to, Planar centre, std::int32_t turns, doubl
     return true;
 }
 
-CutterPath onto_line(Planar from, Planar to, double offset) {
-    CutterPath path = beside_line(from, to, offset);
+CutterPath lead_in_line(PlanePoint from, PlanePoint to, double offset) {
+    CutterPath path = offset_line(from, to, offset);
     path.start = from;
     return path;
 }
 
-bool onto_arc(Planar from, Planar to, Planar centre, std::int32_t turns, double offset, CutterPath& path) {
-    if (!beside_arc(from, to, centre, turns, offset, path)) return false;
+bool lead_in_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset,
+                 CutterPath& path) {
+    if (!offset_arc(from, to, centre, turns, offset, path)) return false;
     // The centre lies on the line through the end towards the contour's centre, as far from the start as from the end.
-    const Planar towards = unit(centre - path.end);
-    const Planar chord = from - path.end;
+    const PlanePoint towards = unit(centre - path.end);
+    const PlanePoint chord = from - path.end;
     const double along = dot(chord, towards);
     if (std::fabs(along) < parallel * length(chord)) return false;
     const double radius = dot(chord, chord) / (2 * along);
@@ -152,20 +155,20 @@ bool onto_arc(Planar from, Planar to, Planar centre, std::int32_t turns, double 
     return true;
 }
 
-JointPlace joint_of(const CutterPath& before, const CutterPath& after, Planar corner, double offset) {
+CornerJoinPoint join_corner(const CutterPath& before, const CutterPath& after, PlanePoint corner, double offset) {
     const double gap = distance(before.end, after.start);
-    if (gap <= cutter_tolerance_mm) return {CutterJoint::straight_on, before.end};
-    Planar at;
+    if (gap <= cutter_tolerance_mm) return {CornerJoin::straight_on, before.end};
+    PlanePoint at;
     const bool convex = is_convex(before, after, offset);
-    const Planar turn = after.direction_in - before.direction_out;
+    const PlanePoint turn = after.direction_in - before.direction_out;
     const bool meets = meet(before, after, {corner, convex ? turn * -1 : turn}, at);
-    if (!convex) return {meets ? CutterJoint::meeting : CutterJoint::none, at};
+    if (!convex) return {meets ? CornerJoin::meeting : CornerJoin::none, at};
     const bool near = meets && distance(at, corner) <= std::fabs(offset) + cutter_tolerance_mm &&
                       distance(at, before.end) <= gap && distance(at, after.start) <= gap;
-    return {near ? CutterJoint::meeting : CutterJoint::around, near ? at : before.end};
+    return {near ? CornerJoin::meeting : CornerJoin::around, near ? at : before.end};
 }
 
-bool trim(CutterPath& path, Planar from, Planar to) {
+bool trim(CutterPath& path, PlanePoint from, PlanePoint to) {
     if (!path.arc) {
         if (!(dot(to - from, path.direction_out) > min_length_mm)) return false;
         path.start = from;

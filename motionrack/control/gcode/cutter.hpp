@@ -20,48 +20,49 @@ inline constexpr double cutter_tolerance_mm = 0.001;
 /// The path of the cutter's centre beside one move, as if that move were alone.
 struct CutterPath {
     bool arc = false;
-    std::int32_t turns = 0;  ///< arc: as Move::turns
-    Planar start;            ///< beside the start of the contour's move
-    Planar end;              ///< beside its end
-    Planar direction_in;     ///< unit vectors along the contour at its start
-    Planar direction_out;    ///< and at its end
-    Planar centre;           ///< arc
-    double radius_in = 0;    ///< arc: of the cutter's path at its start
-    double radius_out = 0;   ///< and at its end, which may differ by a rounding
-    double sweep = 0;        ///< arc: rad from start to end, of the sign of `turns`
-    double bend = 0;         ///< curvature of the contour, 1/mm, > 0 counter-clockwise
+    std::int32_t turns = 0;    ///< arc: as Move::turns
+    PlanePoint start;          ///< beside the start of the contour's move
+    PlanePoint end;            ///< beside its end
+    PlanePoint direction_in;   ///< unit vectors along the contour at its start
+    PlanePoint direction_out;  ///< and at its end
+    PlanePoint centre;         ///< arc
+    double radius_in = 0;      ///< arc: of the cutter's path at its start
+    double radius_out = 0;     ///< and at its end, which may differ by a rounding
+    double sweep = 0;          ///< arc: rad from start to end, of the sign of `turns`
+    double bend = 0;           ///< curvature of the contour, 1/mm, > 0 counter-clockwise
 };
 
 /// `offset`: the cutter's radius, > 0 left of the contour, < 0 right of it. The ends must differ.
-CutterPath beside_line(Planar from, Planar to, double offset);
+CutterPath offset_line(PlanePoint from, PlanePoint to, double offset);
 
 /// False: the cutter does not fit into the arc from inside.
-bool beside_arc(Planar from, Planar to, Planar centre, std::int32_t turns, double offset, CutterPath& path);
+bool offset_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset, CutterPath& path);
 
 /// The first straight move: from where the cutter stands to beside the end.
-CutterPath onto_line(Planar from, Planar to, double offset);
+CutterPath lead_in_line(PlanePoint from, PlanePoint to, double offset);
 
 /// The first move if it is an arc: from where the cutter stands, tangent to the contour's parallel at the end. False:
 /// no arc does that.
-bool onto_arc(Planar from, Planar to, Planar centre, std::int32_t turns, double offset, CutterPath& path);
+bool lead_in_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset,
+                 CutterPath& path);
 
-enum class CutterJoint : std::uint8_t {
+enum class CornerJoin : std::uint8_t {
     straight_on,  ///< the second move begins where the first ends
     meeting,      ///< both at `at`
     around,       ///< an arc of the cutter's radius about the corner joins the two
     none          ///< the cutter does not fit into the corner
 };
 
-struct JointPlace {
-    CutterJoint kind = CutterJoint::none;
-    Planar at;
+struct CornerJoinPoint {
+    CornerJoin kind = CornerJoin::none;
+    PlanePoint at;
 };
 
 /// How the paths beside two moves that meet at `corner` are joined.
-JointPlace joint_of(const CutterPath& before, const CutterPath& after, Planar corner, double offset);
+CornerJoinPoint join_corner(const CutterPath& before, const CutterPath& after, PlanePoint corner, double offset);
 
 /// Lets the path begin and end elsewhere on its line or circle; sets its turns. False: it would have to go backwards,
 /// so the cutter would cut into the contour.
-bool trim(CutterPath& path, Planar from, Planar to);
+bool trim(CutterPath& path, PlanePoint from, PlanePoint to);
 
 }  // namespace motionrack::control::gcode

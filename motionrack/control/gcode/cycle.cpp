@@ -33,7 +33,7 @@ std::span<const DrillCycleMoves::Act> DrillCycleMoves::acts_of(std::int16_t code
     }
 }
 
-void DrillCycleMoves::begin(const CyclePlan& plan) {
+void DrillCycleMoves::begin(const DrillCycle& plan) {
     plan_ = plan;
     phase_ = Phase::lift;
     at_ = plan.from;
@@ -43,14 +43,14 @@ void DrillCycleMoves::begin(const CyclePlan& plan) {
 
 void DrillCycleMoves::straight(Step& step, MoveKind kind, double third) {
     at_[plan_.third] = third;
-    step.kind = StepKind::move;
+    step.kind = CanonCallKind::move;
     step.move = plan_.pattern;
     step.move.kind = kind;
     step.move.end = at_;
 }
 
 void DrillCycleMoves::spindle(Step& step, Spindle how) const {
-    step.kind = StepKind::spindle;
+    step.kind = CanonCallKind::spindle;
     step.spindle = how;
     step.speed_rpm = plan_.speed_rpm;
 }

@@ -27,7 +27,7 @@ inline bool is_pecking(std::int16_t code) {
 /// At the bottom: G73 G81 G83 T to clear (G73 has no way back to r, only up by the clearance); G82 waits, T to clear;
 /// G85 F to r, T to clear; G86 waits, stops the spindle, T to clear, starts it; G89 waits, F to clear; G74 G84 stop the
 /// spindle, turn it the other way, wait, F to clear, stop it, turn it as before.
-struct CyclePlan {
+struct DrillCycle {
     std::int16_t code = 810;         ///< in tenths
     Spindle spindle = Spindle::off;  ///< as it turns before the cycle
     double speed_rpm = 0;
@@ -50,7 +50,7 @@ struct CyclePlan {
 
 class DrillCycleMoves {
   public:
-    void begin(const CyclePlan& plan);
+    void begin(const DrillCycle& plan);
 
     /// The next move or event of the spindle; false: there is none.
     bool next(Step& step);
@@ -64,7 +64,7 @@ class DrillCycleMoves {
     void spindle(Step& step, Spindle how) const;
     void act(Act what, Step& step);
 
-    CyclePlan plan_;
+    DrillCycle plan_;
     Phase phase_ = Phase::lift;
     Point at_ = {};
     double level_ = 0;

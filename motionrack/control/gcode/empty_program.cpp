@@ -9,7 +9,7 @@ namespace motionrack::control::gcode {
 
 bool is_empty_program(std::string_view text) {
     ProgramLines lines(text);
-    ProgramEnd end(false);
+    ProgramEndDetector end(false);
     for (std::string_view line; lines.next(line);) {
         if (end.is_at(line)) return true;
         if (is_rest_empty(line, 0)) continue;

@@ -8,11 +8,11 @@
 namespace motionrack::control::gcode {
 
 struct Frame {
-    std::array<Point, work_system_count> work = {};
-    std::array<double, work_system_count> turn = {};  ///< degrees, counter-clockwise seen from above
+    std::array<Point, work_offset_count> work = {};
+    std::array<double, work_offset_count> turn = {};  ///< degrees, counter-clockwise seen from above
     Point g92 = {};
-    Point g92_kept = {};  ///< what G92.3 brings back
-    Point tool = {};      ///< G43, G43.1, G43.2
+    Point g92_saved = {};  ///< what G92.3 brings back
+    Point tool = {};       ///< G43, G43.1, G43.2
     Point g28 = {};
     Point g30 = {};
     Point probe = {};  ///< machine coordinates where the probe last touched or left, or where its move ended without

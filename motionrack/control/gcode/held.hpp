@@ -12,7 +12,7 @@
 
 namespace motionrack::control::gcode {
 
-class HeldSteps {
+class CompensationQueue {
   public:
     /// Steps that may wait for one move.
     static constexpr std::size_t most = 10'000;
@@ -30,7 +30,7 @@ class HeldSteps {
     /// The next step that is ready, valid until push() is called; null: none.
     const Step* next();
     /// The last step that next() gave was there before this line.
-    bool has_waited() const { return next_ <= of_lines_before_; }
+    bool was_held() const { return next_ <= of_lines_before_; }
     /// Drops the steps that were ready and not taken.
     void begin_line() {
         if (!steps_.empty()) {

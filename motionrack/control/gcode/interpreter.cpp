@@ -42,9 +42,9 @@ Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Lang
     held_.begin_line();
     line_ = number;
     language_ = language;
-    moving_.kind = StepKind::move;
+    moving_.kind = CanonCallKind::move;
     if (end_pending_) apply_end();
-    const KnownValues known(*this);
+    const MachineParameters known(*this);
     if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
         todo_ = 0;
         problem_.place.line = number;
@@ -71,7 +71,7 @@ bool Interpreter::evaluate() {
     if (block_.has('F')) apply_feed();
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
-    if (block_.has_m(m_port) && !ports()) return false;
+    if (block_.has_m(m_io) && !ports()) return false;
     if (ends_program() && next_.cutter != CutterSide::off && !end_cutter()) return false;
     if (held_.full() && !may_wait()) return false;
     if ((block_.words & ~used_) != 0) return unused();
@@ -82,8 +82,8 @@ bool Interpreter::evaluate() {
     if (!block_.assignments.empty() && !assign()) return false;
     if (!block_.comments.empty()) show_values();
     if (tool_edited_) tools_.put(*tool_edited_);
-    if (block_.has_m(m_state)) keep_modes();
-    if (block_.has_m(m_port) && block_.m[m_port] == 66) parameters_.set(input_parameter, port_value_);
+    if (block_.has_m(m_state)) save_modes();
+    if (block_.has_m(m_io) && block_.m[m_io] == 66) parameters_.set(input_parameter, port_value_);
     commit();
     return true;
 }
@@ -116,9 +116,9 @@ bool Interpreter::check_values() {
         if (block_.value[index] >= 0) continue;
         const char letter = static_cast<char>('A' + index);
         if ((letter == 'P' || letter == 'Q') && negative_handles()) continue;
-        if (letter == 'Q' && block_.has_m(m_port) && block_.m[m_port] >= 67) continue;  // a value
+        if (letter == 'Q' && block_.has_m(m_io) && block_.m[m_io] >= 67) continue;  // a value
         return fail_word(letter, GrblStatus::negative_value,
-                         fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
+                         fmt::format("{} is negative; {} must be 0 or more", word_text(letter), letter));
     }
     if (const std::uint32_t absent = block_.words & axis_words & ~present_words_; absent != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(absent));
@@ -130,18 +130,19 @@ bool Interpreter::check_values() {
         return fail_word(
             letter, GrblStatus::unsupported,
             fmt::format("{}: this machine has no {} axis (it has {}); take the word out or set the axis up",
-                        written(letter), letter, present.empty() ? "none" : present));
+                        word_text(letter), letter, present.empty() ? "none" : present));
     }
     if (block_.has('N') && (block_['N'] > largest_line_number || block_['N'] != std::floor(block_['N']))) {
         return fail_word('N', GrblStatus::bad_line_number,
-                         fmt::format("{}: line numbers are integers from N0 to N9999999", written('N')));
+                         fmt::format("{}: line numbers are integers from N0 to N9999999", word_text('N')));
     }
     if (block_.has('T')) {
         if (!need_integer('T', 0, 1e9, "a tool number")) return false;
         if (block_['T'] > largest_tool) {
-            return fail_word('T', GrblStatus::value_too_large, fmt::format("{}: tools are T0 to T99999", written('T')));
+            return fail_word('T', GrblStatus::value_too_large,
+                             fmt::format("{}: tools are T0 to T99999", word_text('T')));
         }
-        if (!known_tool('T', static_cast<std::int32_t>(block_['T']))) return false;
+        if (!require_tool('T', static_cast<std::int32_t>(block_['T']))) return false;
     }
     return true;
 }
@@ -197,8 +198,8 @@ void Interpreter::commit() {
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
-    if (modes_.cutter != CutterSide::off || astray_) commit_cutter();
-    if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) tell_probe(true, position_);
+    if (modes_.cutter != CutterSide::off || off_path_) commit_cutter();
+    if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, position_);
 }
 
 const Step* Interpreter::pull_next() {
@@ -207,7 +208,7 @@ const Step* Interpreter::pull_next() {
     if (what == todo_motion) return pull_motion();
     if (what == todo_held) {
         if (const Step* step = held_.next()) {
-            has_waited_ = held_.has_waited();
+            has_waited_ = held_.was_held();
             return step;
         }
         todo_ &= ~what;
@@ -224,20 +225,20 @@ const Step* Interpreter::pull_next() {
     event_.overridable = modes_.feed_override;
     switch (what) {
         case todo_speed:
-            event_.kind = StepKind::spindle_speed;
+            event_.kind = CanonCallKind::spindle_speed;
             break;
         case todo_tool_select:
-            event_.kind = StepKind::tool_select;
+            event_.kind = CanonCallKind::tool_select;
             break;
         case todo_tool_change:
-            event_.kind = block_.m[m_tool] == 61 ? StepKind::tool_number : StepKind::tool_change;
+            event_.kind = block_.m[m_tool] == 61 ? CanonCallKind::tool_number : CanonCallKind::tool_change;
             event_.tool = modes_.tool_loaded;
             break;
         case todo_coolant:
-            event_.kind = StepKind::coolant;
+            event_.kind = CanonCallKind::coolant;
             break;
         case todo_spindle:
-            event_.kind = StepKind::spindle;
+            event_.kind = CanonCallKind::spindle;
             event_.spindle = modes_.spindle;
             break;
         case todo_wait:
@@ -255,9 +256,9 @@ const Step* Interpreter::pull_next() {
             break;
         default:
             if (end_pending_) apply_end();
-            event_.kind = stop_code_ == 0 || stop_code_ == 60 ? StepKind::pause
-                          : stop_code_ == 1                   ? StepKind::optional_pause
-                                                              : StepKind::end;
+            event_.kind = stop_code_ == 0 || stop_code_ == 60 ? CanonCallKind::pause
+                          : stop_code_ == 1                   ? CanonCallKind::optional_pause
+                                                              : CanonCallKind::end;
             break;
     }
     return &event_;
@@ -278,10 +279,10 @@ const Step* Interpreter::pull_motion() {
         todo_ &= ~static_cast<std::uint32_t>(todo_motion);
         return &moving_;
     }
-    if (motion_ == Motion::by_way_of) {
-        moving_.move.end = on_the_way_ ? position_ : via_;
-        if (on_the_way_) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
-        on_the_way_ = true;
+    if (motion_ == Motion::via_point) {
+        moving_.move.end = via_point_pending_ ? position_ : via_;
+        if (via_point_pending_) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
+        via_point_pending_ = true;
         return &moving_;
     }
     if (motion_ == Motion::turning) {
@@ -289,7 +290,7 @@ const Step* Interpreter::pull_motion() {
         return &moving_;
     }
     if (motion_ == Motion::spline ? pull_spline() : cycle_.next(moving_)) return &moving_;
-    moving_.kind = StepKind::move;
+    moving_.kind = CanonCallKind::move;
     todo_ &= ~static_cast<std::uint32_t>(todo_motion);
     return pull();
 }
@@ -298,7 +299,7 @@ const Step* Interpreter::pull_comment() {
     const Comment& comment = block_.comments[comments_pulled_++];
     if (comments_pulled_ == block_.comments.size()) todo_ &= ~static_cast<std::uint32_t>(todo_comments);
     event_ = Step{};
-    event_.kind = comment.message ? StepKind::message : StepKind::comment;
+    event_.kind = comment.message ? CanonCallKind::message : CanonCallKind::comment;
     event_.line = line_;
     event_.text = comment.text;
     if (comment.values) event_.text = shown_[comments_pulled_ - 1];
@@ -324,7 +325,7 @@ bool Interpreter::fail_word(char letter, GrblStatus status, std::string message)
     return fail_at(block_.column[letter_index(letter)], status, std::move(message));
 }
 
-std::string_view Interpreter::written(char letter) const {
+std::string_view Interpreter::word_text(char letter) const {
     return word_at(block_.text, block_.column[letter_index(letter)]);
 }
 
@@ -333,16 +334,16 @@ bool Interpreter::need_integer(char letter, double low, double high, const char*
     if (value != std::floor(value)) {
         return fail_word(
             letter, GrblStatus::not_an_integer,
-            fmt::format("{}: {} is {}, an integer; write e.g. {}{}", written(letter), letter, use, letter, low));
+            fmt::format("{}: {} is {}, an integer; write e.g. {}{}", word_text(letter), letter, use, letter, low));
     }
     if (value < low || value > high) {
         return fail_word(letter, GrblStatus::value_too_large,
-                         fmt::format("{}: {} is {}, from {} to {}", written(letter), letter, use, low, high));
+                         fmt::format("{}: {} is {}, from {} to {}", word_text(letter), letter, use, low, high));
     }
     return true;
 }
 
-std::size_t Interpreter::blame() const {
+std::size_t Interpreter::error_column() const {
     if (block_.has_g(g_motion)) return block_.g_column[g_motion];
     std::size_t first = block_.text.size();
     for (std::uint32_t left = block_.words & (axis_words | offset_words); left != 0; left &= left - 1) {
@@ -361,7 +362,7 @@ bool Interpreter::unused_exponent() {
     if (begin > 0) --begin;
     return !fail_at(begin, GrblStatus::bad_number,
                     fmt::format("{}{}: numbers of G-code have no exponent; write 1000, not 1e3",
-                                text.substr(begin, column - begin), written('E')));
+                                text.substr(begin, column - begin), word_text('E')));
 }
 
 bool Interpreter::unused() {
@@ -394,7 +395,7 @@ bool Interpreter::unused() {
             "M67 and M68";
     }
     return fail_word(letter, GrblStatus::unused_word,
-                     fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));
+                     fmt::format("{}: nothing on this line uses the {} word{}", word_text(letter), letter, use));
 }
 
 }  // namespace motionrack::control::gcode

@@ -81,19 +81,19 @@ struct Modes {
     double cycle_z = 0;             ///< the drilling axis' word, as written, mm
     double cycle_q = 0;             ///< mm
     double cycle_p = 0;             ///< seconds
-    Planar spline_end;              ///< of the last G5: P and Q, mm
-    Planar spline_at;               ///< and where it ended
+    PlanePoint spline_end;          ///< of the last G5: P and Q, mm
+    PlanePoint spline_at;           ///< and where it ended
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
 };
 
 /// What a line does to the move that waits before it, and the move that waits after it.
-struct CutterPlan {
+struct CompensationPlan {
     bool joins = false;   ///< the move that waits goes along `last`
     bool around = false;  ///< then along `arc`
     bool begins = false;  ///< a move begins at `from` and waits along `path`
     CutterPath last;
     CutterPath path;
-    Planar from;
+    PlanePoint from;
     Move arc;
 
     void clear() { joins = around = begins = false; }
@@ -122,17 +122,17 @@ class Interpreter {
     /// that of the line that waited.
     Outcome<void> finish();
     /// Whether the step that was pulled last is one of a line before, which has waited.
-    bool has_waited() const { return has_waited_; }
+    bool was_held() const { return has_waited_; }
 
     /// Machine coordinates after the last line; with cutter compensation where the cutter's centre is if it goes no
     /// further.
-    const Point& position() const { return astray_ ? at_ : position_; }
+    const Point& position() const { return off_path_ ? at_ : position_; }
     Point program_position() const;                     ///< the same in the active work system, mm and degrees
     std::int32_t line_number() const { return line_; }  ///< of the last line
     /// The probing move of the last line (Step::probe) has stopped: the edge was at `at` if `hit`, and the machine
     /// stands at `stands`, where the next line begins. Without this call the move counts as gone to its end, where the
     /// probe did as it was meant to. #5061 .. #5070 tell of it.
-    void probed(bool hit, const Point& at, const Point& stands);
+    void set_probe_result(bool hit, const Point& at, const Point& stands);
     /// The machine was moved otherwise: the next line begins there, without cutter compensation.
     void resync_position(const Point& position);
     /// The operator has switched the coolant.
@@ -148,7 +148,7 @@ class Interpreter {
     const ToolTable& tools() const { return tools_; }
     /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they
     /// are, since cutter compensation is on and would not go with them.
-    bool leave_call(std::optional<double> returned);
+    bool end_call(std::optional<double> returned);
     /// The last line is a turning cycle (G70 .. G72.2), which needs its contour: the moves of the sub `label`, which
     /// draws_contour() reads. Until turn() has it, the line has no steps but its comments and events.
     bool turns() const { return turning_.has_value(); }
@@ -156,7 +156,7 @@ class Interpreter {
     /// One that reads a contour: as this one, but without limits and with a feed, from where the cycle starts.
     Interpreter draws_contour() const;
     /// Gives the line its moves. Errors: with nothing of them.
-    Outcome<void> turn(std::vector<ContourPiece> contour);
+    Outcome<void> turn(std::vector<ContourSegment> contour);
     /// No work system is turned from now on, and overrides count.
     void reset_after_program();
 
@@ -176,7 +176,7 @@ class Interpreter {
         todo_motion = 2048,
         todo_stop = 4096
     };
-    enum class Motion : std::uint8_t { single, by_way_of, cycle, spline, turning };
+    enum class Motion : std::uint8_t { single, via_point, cycle, spline, turning };
 
     bool evaluate();
     bool check_values();
@@ -188,7 +188,7 @@ class Interpreter {
     bool program_words();
     bool ports();
     bool port_number(char letter, char other);
-    bool own_words(std::uint32_t words);
+    bool claim_words(std::uint32_t words);
     bool read_input();
     void fill_dwell(double seconds);
     void fill_port();
@@ -206,12 +206,12 @@ class Interpreter {
     bool tool_length_of_table(bool adds);
     const Tool* tool_of_table(std::int32_t number, char letter, GroupG code);
     bool set_tool();
-    bool known_tool(char letter, std::int32_t number);
+    bool require_tool(char letter, std::int32_t number);
     Point shift_to_words(const Frame& frame) const;
     void shift_turned(Frame& frame, int system);
     bool edit_tool(int what);
     bool edit_tool_shape(Tool& tool);
-    void keep_modes();
+    void save_modes();
     void restore(const Modes& saved);
     bool goes_beside(const Modes& saved) const;
     bool shift();
@@ -219,24 +219,25 @@ class Interpreter {
     bool motion();
     bool motion_needs(std::int16_t code, bool wants_motion);
     bool straight(std::int16_t code);
-    void tell_probe(bool hit, const Point& at);
+    void store_probe_result(bool hit, const Point& at);
     bool may_probe(std::int16_t code);
     bool probing(std::int16_t code);
     bool by_itself(std::int16_t code);
     bool arc(std::int16_t code);
     bool in_turned_plane(std::int16_t code);
-    bool arc_centre(bool counter_clockwise, Planar& centre);
-    bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);
-    bool arc_centre_of_offsets(Planar start, Planar& centre);
-    bool arc_radii_agree(Planar start, Planar end, Planar centre);
-    bool arc_within_limits(Planar start, Planar end, Planar centre, std::int32_t turns);
+    bool arc_centre(bool counter_clockwise, PlanePoint& centre);
+    bool arc_centre_of_radius(PlanePoint start, PlanePoint end, bool closed, bool counter_clockwise,
+                              PlanePoint& centre);
+    bool arc_centre_of_offsets(PlanePoint start, PlanePoint& centre);
+    bool arc_radii_agree(PlanePoint start, PlanePoint end, PlanePoint centre);
+    bool arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint centre, std::int32_t turns);
     bool cutter();
     bool cutter_diameter(double& diameter);
     bool cutter_allows();
     bool compensates() const { return next_.cutter != CutterSide::off && next_.cutter_radius_mm > 0; }
     bool compensate();
-    bool path_beside(Planar from, Planar to, CutterPath& path);
-    bool join(Planar corner);
+    bool path_beside(PlanePoint from, PlanePoint to, CutterPath& path);
+    bool join(PlanePoint corner);
     bool end_waiting_path();
     bool end_cutter();
     bool may_wait();
@@ -250,20 +251,20 @@ class Interpreter {
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool spindle_turns(std::int16_t code);
-    bool pecks_go(const CyclePlan& plan);
-    bool cycle_within_limits(CyclePlan& plan);
-    bool cycle_places(CyclePlan& plan);
-    bool cycle_places_turned(CyclePlan& plan);
+    bool pecks_go(const DrillCycle& plan);
+    bool cycle_within_limits(DrillCycle& plan);
+    bool cycle_places(DrillCycle& plan);
+    bool cycle_places_turned(DrillCycle& plan);
     bool turning(std::int16_t code);
     bool turning_allowed(std::int16_t code);
-    bool turning_words(std::int16_t code, TurningPlan& plan);
+    bool turning_words(std::int16_t code, LatheCycle& plan);
     bool turning_within_limits();
     void pull_turning();
     bool spline(std::int16_t code);
     bool spline_allowed(std::int16_t code);
-    bool cubic_of_words(Planar start, Planar end, Cubic& curve);
-    bool quadratic_of_words(Planar start, Planar end, Cubic& curve);
-    Planar turned_handle(Planar handle) const;
+    bool cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve);
+    bool quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve);
+    PlanePoint turned_handle(PlanePoint handle) const;
     bool pull_spline();
     bool negative_handles() const;
     bool targets(bool machine_coordinates);
@@ -271,9 +272,9 @@ class Interpreter {
     Move& begin_move(MoveKind kind);
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
-        return (value >= low_[axis] && value <= high_[axis]) || beyond(axis, value, column);
+        return (value >= low_[axis] && value <= high_[axis]) || exceeds_travel(axis, value, column);
     }
-    bool beyond(int axis, double value, std::size_t column);
+    bool exceeds_travel(int axis, double value, std::size_t column);
     bool no_feed();
     bool unused();
     bool unused_exponent();
@@ -281,13 +282,13 @@ class Interpreter {
     const Step* pull_motion();
     const Step* pull_comment();
     void show_values();
-    std::string with_values(std::string_view text) const;
+    std::string substitute_values(std::string_view text) const;
 
     bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
     bool fail_word(char letter, GrblStatus status, std::string message);
     bool need_integer(char letter, double low, double high, const char* use);
-    std::size_t blame() const;  ///< column of the motion word, or of the first axis or offset word
-    std::string_view written(char letter) const;
+    std::size_t error_column() const;  ///< column of the motion word, or of the first axis or offset word
+    std::string_view word_text(char letter) const;
     double scale_of(int axis) const { return axis < 3 && next_.inch ? 25.4 : 1.0; }
     double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }
     Frame& edit_frame();
@@ -323,15 +324,15 @@ class Interpreter {
     std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
     // Cutter compensation: the move that waits, and what the line being read makes of it.
-    HeldSteps held_;
+    CompensationQueue held_;
     bool has_waited_ = false;
-    bool beside_ = false;  // a move waits in held_; from the first one beside the contour to G40
-    bool astray_ = false;  // the machine is not at position_, but at at_
+    bool compensating_ = false;  // a move waits in held_; from the first one beside the contour to G40
+    bool off_path_ = false;      // the machine is not at position_, but at at_
     Point at_ = {};
     CutterPath cutter_path_;
-    Planar cutter_from_;
+    PlanePoint cutter_from_;
     std::int32_t cutter_line_ = 0;
-    CutterPlan cutter_plan_;
+    CompensationPlan cutter_plan_;
 
     Block block_;
     Problem problem_;
@@ -340,7 +341,7 @@ class Interpreter {
     // What is left to pull.
     std::uint32_t todo_ = 0;
     Motion motion_ = Motion::single;
-    bool on_the_way_ = false;
+    bool via_point_pending_ = false;
     std::size_t comments_pulled_ = 0;
     std::vector<std::string> shown_;  ///< of the comments with values: what they show
     double dwell_seconds_ = 0;
@@ -353,10 +354,10 @@ class Interpreter {
     Step event_;
     Step moving_;
     DrillCycleMoves cycle_;
-    SplineMoves spline_;
-    std::optional<TurningPlan> turning_;  ///< of the last line
+    BiarcApproximator spline_;
+    std::optional<LatheCycle> turning_;  ///< of the last line
     std::string contour_label_;
-    std::vector<TurningMove> turned_;
+    std::vector<LatheMove> turned_;
     std::size_t turned_pulled_ = 0;
 };
 

@@ -85,7 +85,7 @@ bool Interpreter::overrides() {
 
 void Interpreter::fill_overrides() {
     const int code = block_.m[m_override];
-    event_.kind = StepKind::overrides;
+    event_.kind = CanonCallKind::overrides;
     event_.port = code;
     event_.value = code == 51   ? modes_.speed_override
                    : code == 52 ? false
@@ -127,7 +127,7 @@ bool Interpreter::set_tool() {
                        "Q word missing: M61 needs the number of the tool in the spindle; write e.g. M61 Q3");
     if (!need_integer('Q', 0, largest_tool, "a tool number")) return false;
     const auto number = static_cast<std::int32_t>(block_['Q']);
-    if (!known_tool('Q', number)) return false;
+    if (!require_tool('Q', number)) return false;
     used_ |= letter_bit('Q');
     next_.tool_loaded = number;
     todo_ |= todo_tool_change;
@@ -135,16 +135,16 @@ bool Interpreter::set_tool() {
 }
 
 /// Without a tool table every number is a tool's.
-bool Interpreter::known_tool(char letter, std::int32_t number) {
+bool Interpreter::require_tool(char letter, std::int32_t number) {
     if (number == 0 || settings_.tools.empty() || tools_.find(number)) return true;
     return fail_word(
         letter, GrblStatus::unsupported,
-        fmt::format("{}: the tool table has no tool {}; write it into the table", written(letter), number));
+        fmt::format("{}: the tool table has no tool {}; write it into the table", word_text(letter), number));
 }
 
 /// M70 keeps the modes, M71 forgets them, M72 brings them back, M73 keeps them until the call ends. Spindle and coolant
 /// are left alone.
-void Interpreter::keep_modes() {
+void Interpreter::save_modes() {
     const int code = block_.m[m_state];
     if (code == 72) return;
     const auto level = static_cast<std::size_t>(parameters_.level());
@@ -171,7 +171,7 @@ void Interpreter::restore(const Modes& saved) {
     if (next_.system != modes_.system || frame_edited_) edit_frame().activate(next_.system);
 }
 
-bool Interpreter::leave_call(std::optional<double> returned) {
+bool Interpreter::end_call(std::optional<double> returned) {
     const auto level = static_cast<std::size_t>(parameters_.level());
     parameters_.leave(returned);
     if (kept_.size() <= level) return true;

@@ -70,7 +70,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
         return fail_word(letter, GrblStatus::axis_words_unused,
                          fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it",
-                                     written(letter), is_explicit ? "after G80" : "here"));
+                                     word_text(letter), is_explicit ? "after G80" : "here"));
     }
     if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
     if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code) || is_probing(code))) {
@@ -89,7 +89,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
 bool Interpreter::targets(bool machine_coordinates) {
     if (frame_now().turned && !machine_coordinates) return targets_turned();
     const Point& offset = frame_now().offset;
-    const bool beside_contour = compensates();
+    const bool offset_contour = compensates();
     const int third = next_.plane == 0 ? 2 : next_.plane == 1 ? 1 : 0;
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::size_t index = axis_letter(axis);
@@ -98,16 +98,16 @@ bool Interpreter::targets(bool machine_coordinates) {
         const double target = machine_coordinates ? value
                               : next_.incremental ? position_[axis] + value
                                                   : value + offset[axis];
-        if (!(beside_contour && axis < 3 && axis != third) && !reach(axis, target, block_.column[index])) return false;
+        if (!(offset_contour && axis < 3 && axis != third) && !reach(axis, target, block_.column[index])) return false;
         end_[axis] = target;
     }
-    return beside_contour || !astray_ || reaches_contour();
+    return offset_contour || !off_path_ || reaches_contour();
 }
 
 /// Where the work system is turned, a word of X moves Y too.
 bool Interpreter::targets_turned() {
     const Frame& frame = frame_now();
-    const bool beside_contour = compensates();
+    const bool offset_contour = compensates();
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
     Point program = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < axis_count; ++axis)
@@ -120,7 +120,7 @@ bool Interpreter::targets_turned() {
         const double target = next_.incremental ? position_[axis] + by[axis] : to[axis];
         const int blamed = (block_.words & own) != 0 ? axis : 1 - axis;
         const bool absent = (present_words_ & own) == 0 && target == position_[axis];
-        const bool in_plane = beside_contour && axis < 2;
+        const bool in_plane = offset_contour && axis < 2;
         if (!absent && !in_plane && !reach(axis, target, block_.column[axis_letter(blamed)])) return false;
         end_[axis] = target;
     }
@@ -130,7 +130,7 @@ bool Interpreter::targets_turned() {
         end_[0] = position_[0];
         end_[1] = position_[1];
     }
-    return beside_contour || !astray_ || reaches_contour();
+    return offset_contour || !off_path_ || reaches_contour();
 }
 
 bool Interpreter::straight(std::int16_t code) {
@@ -161,7 +161,7 @@ bool Interpreter::by_itself(std::int16_t code) {
         if (end_[axis] != position_[axis]) moving += (moving.empty() ? "" : ", ") + std::string(1, axis_letters[axis]);
     if (moving.size() <= 1 && !is_arc(code)) return true;
     return fail_at(
-        blame(), GrblStatus::unsupported,
+        error_column(), GrblStatus::unsupported,
         is_arc(code)
             ? fmt::format("{} is an arc, but the axes of this rack position one by one; write straight moves",
                           name_of_g(code))
@@ -193,7 +193,7 @@ bool Interpreter::feed_of(Move& move) {
         return true;
     }
     if (next_.feed == 0) return no_feed();
-    const bool rotary_only = !(astray_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] &&
+    const bool rotary_only = !(off_path_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] &&
                              end_[1] == position_[1] && end_[2] == position_[2] && (block_.words & rotary_words) != 0 &&
                              move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
@@ -205,20 +205,20 @@ bool Interpreter::no_feed() {
     const std::string code = name_of_g(next_.motion);
     if (block_.has('F')) {
         return fail_word('F', GrblStatus::no_feed,
-                         fmt::format("{}: {} cannot move at feed 0; write e.g. F600", written('F'), code));
+                         fmt::format("{}: {} cannot move at feed 0; write e.g. F600", word_text('F'), code));
     }
     if (next_.inverse_time) {
         return fail_at(
-            blame(), GrblStatus::no_feed,
+            error_column(), GrblStatus::no_feed,
             fmt::format("F word missing: in G93 every {} line needs its own; write e.g. F2 (the move takes 1/2 minute)",
                         code));
     }
-    return fail_at(blame(), GrblStatus::no_feed,
+    return fail_at(error_column(), GrblStatus::no_feed,
                    fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it",
                                code, next_.inch ? "inch" : "mm"));
 }
 
-bool Interpreter::beyond(int axis, double value, std::size_t column) {
+bool Interpreter::exceeds_travel(int axis, double value, std::size_t column) {
     const AxisLimits& limits = settings_.limits[axis];
     const char* unit = axis < 3 ? "mm" : "degrees";
     const double offset = frame_now().offset[axis];

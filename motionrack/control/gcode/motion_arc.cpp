@@ -38,7 +38,7 @@ bool Interpreter::arc(std::int16_t code) {
         turns = block_['P'];
         used_ |= letter_bit('P');
     }
-    Planar centre;
+    PlanePoint centre;
     if (!arc_centre(counter_clockwise, centre)) return false;
     Move& move = begin_move(MoveKind::arc);
     move.first = axes[0];
@@ -58,17 +58,17 @@ bool Interpreter::arc(std::int16_t code) {
 bool Interpreter::in_turned_plane(std::int16_t code) {
     if (!frame_now().turned || next_.plane == 0) return true;
     return fail_at(
-        blame(), GrblStatus::unsupported,
+        error_column(), GrblStatus::unsupported,
         fmt::format(
             "{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and cycles go in G17 only",
             name_of_g(code), plane_names[next_.plane], frame_now().turn[next_.system]));
 }
 
 /// Finds the centre from R or from I J K.
-bool Interpreter::arc_centre(bool counter_clockwise, Planar& centre) {
+bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
     const auto& axes = plane_axes[next_.plane];
-    const Planar start = {position_[axes[0]], position_[axes[1]]};
-    const Planar end = {end_[axes[0]], end_[axes[1]]};
+    const PlanePoint start = {position_[axes[0]], position_[axes[1]]};
+    const PlanePoint end = {end_[axes[0]], end_[axes[1]]};
     const bool closed =
         std::fabs(end.first - start.first) <= same_point_mm && std::fabs(end.second - start.second) <= same_point_mm;
     if (block_.has('R')) return arc_centre_of_radius(start, end, closed, counter_clockwise, centre);
@@ -80,12 +80,13 @@ bool Interpreter::arc_centre(bool counter_clockwise, Planar& centre) {
     return arc_radii_agree(start, closed ? start : end, centre);
 }
 
-bool Interpreter::arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre) {
+bool Interpreter::arc_centre_of_radius(PlanePoint start, PlanePoint end, bool closed, bool counter_clockwise,
+                                       PlanePoint& centre) {
     const auto& axes = plane_axes[next_.plane];
     used_ |= letter_bit('R');
     const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
     if ((block_.words & plane_words) == 0) {
-        return fail_at(blame(), GrblStatus::no_plane_axis,
+        return fail_at(error_column(), GrblStatus::no_plane_axis,
                        fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
                                    axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
     }
@@ -95,7 +96,7 @@ bool Interpreter::arc_centre_of_radius(Planar start, Planar end, bool closed, bo
         return fail_word(
             'R', GrblStatus::bad_target,
             fmt::format("{}: an arc with R cannot end where it starts; write a full turn with offsets, e.g. {} I10",
-                        written('R'), name_of_g(next_.motion)));
+                        word_text('R'), name_of_g(next_.motion)));
     }
     const double radius = scaled('R');
     if (centre_from_radius(start, end, radius, counter_clockwise, centre)) return true;
@@ -103,15 +104,15 @@ bool Interpreter::arc_centre_of_radius(Planar start, Planar end, bool closed, bo
     return fail_word(
         'R', GrblStatus::bad_radius,
         fmt::format("{}: the radius is {:.6g} mm but the end is {:.6g} mm away; it must be at least {:.6g} mm",
-                    written('R'), std::fabs(radius), chord, chord / 2));
+                    word_text('R'), std::fabs(radius), chord, chord / 2));
 }
 
-bool Interpreter::arc_centre_of_offsets(Planar start, Planar& centre) {
+bool Interpreter::arc_centre_of_offsets(PlanePoint start, PlanePoint& centre) {
     const auto& axes = plane_axes[next_.plane];
     const std::array<char, 2> letters = {offset_letters[axes[0]], offset_letters[axes[1]]};
     if (!block_.has(letters[0]) && !block_.has(letters[1])) {
         return fail_at(
-            blame(), GrblStatus::no_offsets,
+            error_column(), GrblStatus::no_offsets,
             fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", name_of_g(next_.motion),
                         std::min(letters[0], letters[1]), std::max(letters[0], letters[1]), plane_names[next_.plane]));
     }
@@ -123,7 +124,7 @@ bool Interpreter::arc_centre_of_offsets(Planar start, Planar& centre) {
             words[axes[i]] = scaled(letters[i]);
             middle[i] = scaled(letters[i]) + (next_.arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
         } else if (next_.arc_absolute) {
-            return fail_at(blame(), GrblStatus::no_offsets,
+            return fail_at(error_column(), GrblStatus::no_offsets,
                            fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}",
                                        letters[i], name_of_g(next_.motion), std::min(letters[0], letters[1]),
                                        std::max(letters[0], letters[1])));
@@ -132,19 +133,19 @@ bool Interpreter::arc_centre_of_offsets(Planar start, Planar& centre) {
     centre = {middle[0], middle[1]};
     if (const Frame& frame = frame_now(); frame.turned) {  // G17: the first axis is X, the second is Y
         const Point by = next_.arc_absolute ? frame.to_machine(words) : frame.turned_by(words);
-        centre = next_.arc_absolute ? Planar{by[0], by[1]} : Planar{start.first + by[0], start.second + by[1]};
+        centre = next_.arc_absolute ? PlanePoint{by[0], by[1]} : PlanePoint{start.first + by[0], start.second + by[1]};
     }
     return true;
 }
 
-bool Interpreter::arc_radii_agree(Planar start, Planar end, Planar centre) {
+bool Interpreter::arc_radii_agree(PlanePoint start, PlanePoint end, PlanePoint centre) {
     const auto& axes = plane_axes[next_.plane];
     const char letter = block_.has(offset_letters[axes[0]]) ? offset_letters[axes[0]] : offset_letters[axes[1]];
     const double radius = length({start.first - centre.first, start.second - centre.second});
     const double end_radius = length({end.first - centre.first, end.second - centre.second});
     if (radius == 0 || end_radius == 0) {
         return fail_word(letter, GrblStatus::bad_target,
-                         fmt::format("{}: the radius of this arc is 0; its {} lies on the centre", written(letter),
+                         fmt::format("{}: the radius of this arc is 0; its {} lies on the centre", word_text(letter),
                                      radius == 0 ? "start" : "end"));
     }
     const double difference = std::fabs(radius - end_radius);
@@ -155,13 +156,13 @@ bool Interpreter::arc_radii_agree(Planar start, Planar end, Planar centre) {
         letter, GrblStatus::bad_target,
         fmt::format("{}: the arc starts {:.6g} mm from its centre but ends {:.6g} mm from it; they may differ by "
                     "0.005 mm or 0.1 %; correct the centre or the end",
-                    written(letter), radius, end_radius));
+                    word_text(letter), radius, end_radius));
 }
 
-bool Interpreter::arc_within_limits(Planar start, Planar end, Planar centre, std::int32_t turns) {
+bool Interpreter::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint centre, std::int32_t turns) {
     const auto& axes = plane_axes[next_.plane];
-    const Planar from = {start.first - centre.first, start.second - centre.second};
-    const Planar to = {end.first - centre.first, end.second - centre.second};
+    const PlanePoint from = {start.first - centre.first, start.second - centre.second};
+    const PlanePoint to = {end.first - centre.first, end.second - centre.second};
     const double radius = std::max(length(from), length(to));
     const std::array<double, 4> extremes = {centre.first + radius, centre.second + radius, centre.first - radius,
                                             centre.second - radius};
@@ -172,7 +173,7 @@ bool Interpreter::arc_within_limits(Planar start, Planar end, Planar centre, std
     const bool full = std::abs(turns) > 1 || (from.first == to.first && from.second == to.second);
     const auto passed = full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
     for (int i = 0; i < 4; ++i) {
-        if (passed[i] && !reach(axis[i], extremes[i], blame())) {
+        if (passed[i] && !reach(axis[i], extremes[i], error_column())) {
             problem_.message = "on its way this arc goes too far: " + problem_.message;
             return false;
         }

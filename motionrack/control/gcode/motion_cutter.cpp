@@ -19,7 +19,7 @@ bool Interpreter::cutter() {
     const std::int16_t code = block_.g[g_cutter];
     const std::size_t column = block_.g_column[g_cutter];
     if (code == 400) {
-        if (beside_ && !end_waiting_path()) return false;
+        if (compensating_ && !end_waiting_path()) return false;
         next_.cutter = CutterSide::off;
         return true;
     }
@@ -127,7 +127,7 @@ bool Interpreter::end_waiting_path() {
 
 bool Interpreter::gouges(std::int32_t line) {
     return fail_at(
-        blame(), GrblStatus::bad_target,
+        error_column(), GrblStatus::bad_target,
         fmt::format("the cutter (radius {:.6g} mm) would have to go backwards along the move of line {}, which is "
                     "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
                     "leave the move out",
@@ -135,29 +135,29 @@ bool Interpreter::gouges(std::int32_t line) {
 }
 
 /// The path beside the move that straight() or arc() has prepared.
-bool Interpreter::path_beside(Planar from, Planar to, CutterPath& path) {
+bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
     const Move& move = moving_.move;
     const double radius = next_.cutter_radius_mm;
     const double offset = next_.cutter == CutterSide::left ? radius : -radius;
-    const Planar centre = {move.centre_first, move.centre_second};
+    const PlanePoint centre = {move.centre_first, move.centre_second};
     const bool is_arc = move.kind == MoveKind::arc;
-    if (!beside_ && length({to.first - from.first, to.second - from.second}) <= radius) {
+    if (!compensating_ && length({to.first - from.first, to.second - from.second}) <= radius) {
         return fail_at(
-            blame(), GrblStatus::bad_target,
+            error_column(), GrblStatus::bad_target,
             fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
                         "radius of {:.6g} mm; begin farther away",
                         radius));
     }
     if (!is_arc) {
-        path = beside_ ? beside_line(from, to, offset) : onto_line(from, to, offset);
+        path = compensating_ ? offset_line(from, to, offset) : lead_in_line(from, to, offset);
         return true;
     }
-    if (beside_ ? beside_arc(from, to, centre, move.turns, offset, path)
-                : onto_arc(from, to, centre, move.turns, offset, path))
+    if (compensating_ ? offset_arc(from, to, centre, move.turns, offset, path)
+                      : lead_in_arc(from, to, centre, move.turns, offset, path))
         return true;
     const double arc_radius = length({from.first - centre.first, from.second - centre.second});
     return fail_at(
-        blame(), GrblStatus::bad_radius,
+        error_column(), GrblStatus::bad_radius,
         arc_radius <= radius
             ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
                           "smaller cutter",
@@ -169,10 +169,10 @@ bool Interpreter::path_beside(Planar from, Planar to, CutterPath& path) {
 bool Interpreter::compensate() {
     Move& move = moving_.move;
     const auto& axes = plane_axes[next_.plane];
-    const Planar from = {position_[axes[0]], position_[axes[1]]};
-    const Planar to = {end_[axes[0]], end_[axes[1]]};
+    const PlanePoint from = {position_[axes[0]], position_[axes[1]]};
+    const PlanePoint to = {end_[axes[0]], end_[axes[1]]};
     if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
-        if (!beside_) return !astray_ || reaches_contour();
+        if (!compensating_) return !off_path_ || reaches_contour();
         move.end[axes[0]] = cutter_path_.end.first;
         move.end[axes[1]] = cutter_path_.end.second;
         return true;
@@ -180,21 +180,22 @@ bool Interpreter::compensate() {
     CutterPath& path = cutter_plan_.path;
     if (!path_beside(from, to, path)) return false;
     cutter_plan_.begins = true;
-    cutter_plan_.from = astray_ ? Planar{at_[axes[0]], at_[axes[1]]} : from;
-    if (beside_ && !join(from)) return false;
+    cutter_plan_.from = off_path_ ? PlanePoint{at_[axes[0]], at_[axes[1]]} : from;
+    if (compensating_ && !join(from)) return false;
     move.end[axes[0]] = path.end.first;
     move.end[axes[1]] = path.end.second;
     move.centre_first = path.centre.first;
     move.centre_second = path.centre.second;
     if (path.arc && !arc_within_limits(path.start, path.end, path.centre, path.turns)) return off_limits();
-    return (reach(axes[0], path.end.first, blame()) && reach(axes[1], path.end.second, blame())) || off_limits();
+    return (reach(axes[0], path.end.first, error_column()) && reach(axes[1], path.end.second, error_column())) ||
+           off_limits();
 }
 
 /// From beside the contour back to it, which may lie where the machine cannot go.
 bool Interpreter::reaches_contour() {
     for (int axis = 0; axis < 3; ++axis)
         if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
-            if (!reach(axis, end_[axis], blame())) return false;
+            if (!reach(axis, end_[axis], error_column())) return false;
     return true;
 }
 
@@ -204,14 +205,14 @@ bool Interpreter::off_limits() {
 }
 
 /// Joins the move that waits to the one of this line.
-bool Interpreter::join(Planar corner) {
+bool Interpreter::join(PlanePoint corner) {
     const auto& axes = plane_axes[next_.plane];
     const double offset = next_.cutter == CutterSide::left ? next_.cutter_radius_mm : -next_.cutter_radius_mm;
     const CutterPath& path = cutter_plan_.path;
-    const JointPlace joint = joint_of(cutter_path_, path, corner, offset);
-    if (joint.kind == CutterJoint::none) {
+    const CornerJoinPoint joint = join_corner(cutter_path_, path, corner, offset);
+    if (joint.kind == CornerJoin::none) {
         return fail_at(
-            blame(), GrblStatus::bad_target,
+            error_column(), GrblStatus::bad_target,
             fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
                         "take a smaller cutter",
                         next_.cutter_radius_mm, cutter_line_));
@@ -219,8 +220,9 @@ bool Interpreter::join(Planar corner) {
     cutter_plan_.joins = true;
     cutter_plan_.last = cutter_path_;
     if (!trim(cutter_plan_.last, cutter_from_, joint.at)) return gouges(cutter_line_);
-    if (!reach(axes[0], joint.at.first, blame()) || !reach(axes[1], joint.at.second, blame())) return off_limits();
-    cutter_plan_.around = joint.kind == CutterJoint::around;
+    if (!reach(axes[0], joint.at.first, error_column()) || !reach(axes[1], joint.at.second, error_column()))
+        return off_limits();
+    cutter_plan_.around = joint.kind == CornerJoin::around;
     cutter_plan_.from = cutter_plan_.around ? path.start : joint.at;
     if (!cutter_plan_.around) return true;
     // Before a rapid move the corner is cut straight, in the air.
@@ -237,13 +239,14 @@ bool Interpreter::join(Planar corner) {
     arc.end[axes[1]] = path.start.second;
     if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns))
         return off_limits();
-    return (reach(axes[0], path.start.first, blame()) && reach(axes[1], path.start.second, blame())) || off_limits();
+    return (reach(axes[0], path.start.first, error_column()) && reach(axes[1], path.start.second, error_column())) ||
+           off_limits();
 }
 
 /// After G40 the cutter still stands beside the contour.
 bool Interpreter::leaves_straight(std::int16_t code) {
-    if (!astray_ || (beside_ && next_.cutter != CutterSide::off)) return true;
-    return fail_at(blame(), GrblStatus::bad_target,
+    if (!off_path_ || (compensating_ && next_.cutter != CutterSide::off)) return true;
+    return fail_at(error_column(), GrblStatus::bad_target,
                    fmt::format("{} after G40: the cutter stands beside the contour yet; leave it with a straight move",
                                name_of_g(code)));
 }
@@ -251,7 +254,7 @@ bool Interpreter::leaves_straight(std::int16_t code) {
 /// The program ends on this line.
 bool Interpreter::end_cutter() {
     if (cutter_plan_.begins) return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(line_);
-    return !beside_ || end_waiting_path();
+    return !compensating_ || end_waiting_path();
 }
 
 /// Without a move beside the contour, or an end of it, what the line does would wait too.
@@ -262,7 +265,7 @@ bool Interpreter::may_wait() {
                    fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, "
                                "and no more can; nothing of this line was done; "
                                "write that move before it, or G40",
-                               HeldSteps::most, cutter_line_));
+                               CompensationQueue::most, cutter_line_));
 }
 
 /// What the good line changes: the steps that are final become ready, its own ones wait behind them.
@@ -271,7 +274,7 @@ void Interpreter::commit_cutter() {
     const bool off = modes_.cutter == CutterSide::off;
     const bool ends = end_pending_ || off;
     const bool moved = (todo_ & todo_motion) != 0;
-    if (ends && beside_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
+    if (ends && compensating_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
     if (!ends || cutter_plan_.begins) hold_steps();
     if (cutter_plan_.begins) {
         cutter_path_ = cutter_plan_.path;
@@ -279,15 +282,15 @@ void Interpreter::commit_cutter() {
         cutter_line_ = line_;
         if (ends) held_.settle(axes[0], axes[1], cutter_path_);
     }
-    if (beside_ || cutter_plan_.begins) {
+    if (compensating_ || cutter_plan_.begins) {
         at_ = position_;
         at_[axes[0]] = cutter_path_.end.first;
         at_[axes[1]] = cutter_path_.end.second;
-        astray_ = !(off && moved);
+        off_path_ = !(off && moved);
     } else {
-        astray_ = astray_ && !moved;
+        off_path_ = off_path_ && !moved;
     }
-    beside_ = (beside_ || cutter_plan_.begins) && !ends;
+    compensating_ = (compensating_ || cutter_plan_.begins) && !ends;
     if (held_.has_ready()) todo_ |= todo_held;
 }
 
@@ -313,20 +316,20 @@ void Interpreter::hold_steps() {
         held_.push(*pull_next());
     }
     todo_ = kept;
-    if (!beside_ && !cutter_plan_.begins) held_.settle();
+    if (!compensating_ && !cutter_plan_.begins) held_.settle();
 }
 
 void Interpreter::resync_position(const Point& position) {
     position_ = position;
     held_.clear();
-    beside_ = astray_ = false;
+    compensating_ = off_path_ = false;
     modes_.cutter = CutterSide::off;
 }
 
 Outcome<void> Interpreter::finish() {
     todo_ = 0;
     cutter_plan_.clear();
-    if (!beside_) return {};
+    if (!compensating_) return {};
     const auto& axes = plane_axes[modes_.plane];
     if (!end_waiting_path()) {
         held_.settle(axes[0], axes[1], cutter_path_);
@@ -337,7 +340,7 @@ Outcome<void> Interpreter::finish() {
         return tl::unexpected<Problem>(problem_);
     }
     held_.settle(axes[0], axes[1], cutter_plan_.last);
-    beside_ = false;
+    compensating_ = false;
     modes_.cutter = CutterSide::off;
     todo_ = todo_held;
     return {};

@@ -45,7 +45,7 @@ bool Interpreter::cycle_words(std::int16_t code) {
                        : letter == 'R' ? "the height to which to rapid, e.g. R2"
                        : letter == 'P' ? "the wait at the bottom in seconds, e.g. P0.5"
                                        : "the depth of a peck, e.g. Q1.5";
-    return fail_at(blame(), GrblStatus::word_missing,
+    return fail_at(error_column(), GrblStatus::word_missing,
                    fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
 }
 
@@ -55,7 +55,7 @@ bool Interpreter::spindle_turns(std::int16_t code) {
     const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next_.spindle;
     if (code != 740 && code != 840 && code != 860) return true;
     if (next_.spindle != Spindle::off && next_.spindle == needed) return true;
-    return fail_at(blame(), GrblStatus::unsupported,
+    return fail_at(error_column(), GrblStatus::unsupported,
                    fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
                                code == 740   ? " counter-clockwise"
                                : code == 840 ? " clockwise"
@@ -64,11 +64,11 @@ bool Interpreter::spindle_turns(std::int16_t code) {
 }
 
 /// A peck that is too thin for its hole would go on for ever.
-bool Interpreter::pecks_go(const CyclePlan& plan) {
+bool Interpreter::pecks_go(const DrillCycle& plan) {
     if (!is_pecking(plan.code) || (plan.peck * most_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
         return true;
     return fail_at(
-        block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
+        block_.has('Q') ? block_.column[letter_index('Q')] : error_column(), GrblStatus::bad_target,
         fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
                     "pecks of one line",
                     plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats),
@@ -78,27 +78,27 @@ bool Interpreter::pecks_go(const CyclePlan& plan) {
 bool Interpreter::cycle(std::int16_t code) {
     if (next_.cutter != CutterSide::off) {
         return fail_at(
-            blame(), GrblStatus::axis_conflict,
+            error_column(), GrblStatus::axis_conflict,
             fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
                         name_of_g(code)));
     }
     if (!leaves_straight(code)) return false;
     if ((block_.words & rotary_words) != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & rotary_words));
-        return fail_word(
-            letter, GrblStatus::unused_word,
-            fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it", written(letter)));
+        return fail_word(letter, GrblStatus::unused_word,
+                         fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it",
+                                     word_text(letter)));
     }
     if (next_.inverse_time) {
         return fail_at(
-            blame(), GrblStatus::no_feed,
+            error_column(), GrblStatus::no_feed,
             fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
     }
     const auto& axes = plane_axes[next_.plane];
     const int third = axes[2];
     const char depth_letter = axis_letters[third];
     if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
-    CyclePlan plan;
+    DrillCycle plan;
     if (block_.has('L')) {
         if (!need_integer('L', 1, most_repeats, "the number of holes")) return false;
         plan.repeats = static_cast<std::int32_t>(block_['L']);
@@ -119,7 +119,7 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
     if (plan.r < plan.bottom) {
         return fail_at(
-            block_.has('R') ? block_.column[letter_index('R')] : blame(), GrblStatus::bad_target,
+            block_.has('R') ? block_.column[letter_index('R')] : error_column(), GrblStatus::bad_target,
             fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
                         depth_letter, plan.r - offset, plan.bottom - offset));
     }
@@ -144,19 +144,19 @@ bool Interpreter::cycle(std::int16_t code) {
 
 /// The holes lie on a straight line, so the first and the last decide. Fills the plan's steps and first hole, and the
 /// end.
-bool Interpreter::cycle_within_limits(CyclePlan& plan) {
+bool Interpreter::cycle_within_limits(DrillCycle& plan) {
     plan.pattern.end = position_;
     if (!(frame_now().turned ? cycle_places_turned(plan) : cycle_places(plan))) return false;
     const char depth = axis_letters[plan.third];
-    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : blame();
-    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : blame();
+    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : error_column();
+    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : error_column();
     end_[plan.third] = plan.clear;
     if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
     return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
 }
 
 /// The first hole and the steps in a turned work system, G17.
-bool Interpreter::cycle_places_turned(CyclePlan& plan) {
+bool Interpreter::cycle_places_turned(DrillCycle& plan) {
     const Frame& frame = frame_now();
     Point words = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < 2; ++axis)
@@ -167,12 +167,13 @@ bool Interpreter::cycle_places_turned(CyclePlan& plan) {
         step = next_.incremental ? by[axis] : 0;
         if (!next_.incremental) plan.pattern.end[axis] = to[axis];
         end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
-        if (!reach(axis, plan.pattern.end[axis] + step, blame()) || !reach(axis, end_[axis], blame())) return false;
+        if (!reach(axis, plan.pattern.end[axis] + step, error_column()) || !reach(axis, end_[axis], error_column()))
+            return false;
     }
     return true;
 }
 
-bool Interpreter::cycle_places(CyclePlan& plan) {
+bool Interpreter::cycle_places(DrillCycle& plan) {
     for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
         const char letter = axis_letters[axis];
         if (!block_.has(letter)) continue;

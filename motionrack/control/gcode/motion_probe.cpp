@@ -8,7 +8,7 @@ namespace motionrack::control::gcode {
 
 bool Interpreter::may_probe(std::int16_t code) {
     const std::string name = name_of_g(code);
-    const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(blame(), status, name + why); };
+    const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(error_column(), status, name + why); };
     if (!settings_.probe) {
         return refuse(
             GrblStatus::unsupported,
@@ -27,7 +27,7 @@ bool Interpreter::may_probe(std::int16_t code) {
 /// What straight() has prepared becomes a probing move.
 bool Interpreter::probing(std::int16_t code) {
     const std::string name = name_of_g(code);
-    const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(blame(), status, name + why); };
+    const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(error_column(), status, name + why); };
     for (int axis = 3; axis < axis_count; ++axis)
         if (end_[axis] != position_[axis])
             return refuse(GrblStatus::unused_word, " does not turn axes; put the turn on a line before it");
@@ -40,7 +40,7 @@ bool Interpreter::probing(std::int16_t code) {
 }
 
 /// #5061 .. #5066 in the coordinates and units of the probing line, #5070.
-void Interpreter::tell_probe(bool hit, const Point& at) {
+void Interpreter::store_probe_result(bool hit, const Point& at) {
     constexpr int first = 5061, success = 5070;
     const Point place = frame_.to_program(at);
     for (int axis = 0; axis < axis_count; ++axis)
@@ -49,10 +49,10 @@ void Interpreter::tell_probe(bool hit, const Point& at) {
     parameters_.set(success, hit ? 1 : 0);
 }
 
-void Interpreter::probed(bool hit, const Point& at, const Point& stands) {
+void Interpreter::set_probe_result(bool hit, const Point& at, const Point& stands) {
     frame_.probe = at;
     frame_.probe_hit = hit;
-    tell_probe(hit, at);
+    store_probe_result(hit, at);
     resync_position(stands);
 }
 

@@ -9,19 +9,19 @@ namespace motionrack::control::gcode {
 
 bool Interpreter::spline(std::int16_t code) {
     if (!spline_allowed(code) || !targets(false)) return false;
-    const Planar start = {position_[0], position_[1]};
-    const Planar end = {end_[0], end_[1]};
-    Cubic curve;
+    const PlanePoint start = {position_[0], position_[1]};
+    const PlanePoint end = {end_[0], end_[1]};
+    CubicBezier curve;
     if (!(code == 50 ? cubic_of_words(start, end, curve) : quadratic_of_words(start, end, curve))) return false;
     if (curve.is_point()) {
-        return fail_at(blame(), GrblStatus::bad_target,
+        return fail_at(error_column(), GrblStatus::bad_target,
                        fmt::format("{}: the curve has no length; its end and control points are where it starts",
                                    name_of_g(code)));
     }
     for (const int axis : {0, 1}) {
         double least = 0, greatest = 0;
-        curve.range(axis == 0 ? &Planar::first : &Planar::second, least, greatest);
-        if (!reach(axis, least, blame()) || !reach(axis, greatest, blame())) {
+        curve.range(axis == 0 ? &PlanePoint::first : &PlanePoint::second, least, greatest);
+        if (!reach(axis, least, error_column()) || !reach(axis, greatest, error_column())) {
             problem_.message = "on its way this curve goes too far: " + problem_.message;
             return false;
         }
@@ -36,7 +36,9 @@ bool Interpreter::spline(std::int16_t code) {
 
 bool Interpreter::spline_allowed(std::int16_t code) {
     const std::string name = name_of_g(code);
-    const auto refuse = [&](GrblStatus status, const std::string& why) { return fail_at(blame(), status, name + why); };
+    const auto refuse = [&](GrblStatus status, const std::string& why) {
+        return fail_at(error_column(), status, name + why);
+    };
     if (settings_.point_to_point)
         return refuse(GrblStatus::unsupported,
                       " is a curve, but the axes of this rack position one by one; write straight moves");
@@ -55,65 +57,65 @@ bool Interpreter::spline_allowed(std::int16_t code) {
     }
     for (const char letter : {'Z', 'A', 'B', 'C'}) {
         if (!block_.has(letter)) continue;
-        return fail_word(
-            letter, GrblStatus::unused_word,
-            fmt::format("{}: {} moves X and Y only; put the other axes on a line of their own", written(letter), name));
+        return fail_word(letter, GrblStatus::unused_word,
+                         fmt::format("{}: {} moves X and Y only; put the other axes on a line of their own",
+                                     word_text(letter), name));
     }
     return true;
 }
 
 /// I J from the start to the first control point, P Q from the end to the second one.
-bool Interpreter::cubic_of_words(Planar start, Planar end, Cubic& curve) {
+bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     if (!block_.has('P') || !block_.has('Q') || (used_ & (letter_bit('P') | letter_bit('Q'))) != 0) {
         return fail_at(
-            blame(), GrblStatus::word_missing,
+            error_column(), GrblStatus::word_missing,
             "G5 needs P and Q, the way from its end to its second control point; write e.g. G5 X20 Y0 I5 J10 P-5 Q10");
     }
     if (block_.has('I') != block_.has('J')) {
         const char missing = block_.has('I') ? 'J' : 'I';
         return fail_at(
-            blame(), GrblStatus::no_offsets,
+            error_column(), GrblStatus::no_offsets,
             fmt::format(
                 "{} word missing: G5 takes both I and J, or neither to go on in the direction of the G5 before it",
                 missing));
     }
-    Planar handle = {-modes_.spline_end.first,
-                     -modes_.spline_end.second};  // as written: not turned with the work system
+    PlanePoint handle = {-modes_.spline_end.first,
+                         -modes_.spline_end.second};  // as written: not turned with the work system
     const bool goes_on =
         modes_.motion == 50 && modes_.spline_at.first == start.first && modes_.spline_at.second == start.second;
     if (block_.has('I')) {
         handle = {scaled('I'), scaled('J')};
     } else if (!goes_on) {
-        return fail_at(blame(), GrblStatus::no_offsets,
+        return fail_at(error_column(), GrblStatus::no_offsets,
                        "G5 needs I and J, the way from its start to its first control point; only a G5 right after "
                        "another goes on without them");
     }
     used_ |= letter_bit('I') | letter_bit('J') | letter_bit('P') | letter_bit('Q');
-    const Planar written_back = {scaled('P'), scaled('Q')};
-    const Planar back = turned_handle(written_back);
+    const PlanePoint written_back = {scaled('P'), scaled('Q')};
+    const PlanePoint back = turned_handle(written_back);
     handle = turned_handle(handle);
-    curve.points = {start, Planar{start.first + handle.first, start.second + handle.second},
-                    Planar{end.first + back.first, end.second + back.second}, end};
+    curve.points = {start, PlanePoint{start.first + handle.first, start.second + handle.second},
+                    PlanePoint{end.first + back.first, end.second + back.second}, end};
     next_.spline_end = written_back;
     next_.spline_at = end;
     return true;
 }
 
 /// I J from the start to the one control point.
-bool Interpreter::quadratic_of_words(Planar start, Planar end, Cubic& curve) {
+bool Interpreter::quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     used_ |= letter_bit('I') | letter_bit('J');
-    const Planar handle = {block_.has('I') ? scaled('I') : 0.0, block_.has('J') ? scaled('J') : 0.0};
+    const PlanePoint handle = {block_.has('I') ? scaled('I') : 0.0, block_.has('J') ? scaled('J') : 0.0};
     if (handle.first == 0 && handle.second == 0) {
         return fail_at(
-            blame(), GrblStatus::no_offsets,
+            error_column(), GrblStatus::no_offsets,
             "G5.1 needs I or J, the way from its start to its control point; write e.g. G5.1 X20 Y0 I10 J10");
     }
-    const Planar by = turned_handle(handle);
+    const PlanePoint by = turned_handle(handle);
     curve = quadratic(start, {start.first + by.first, start.second + by.second}, end);
     return true;
 }
 
-Planar Interpreter::turned_handle(Planar handle) const {
+PlanePoint Interpreter::turned_handle(PlanePoint handle) const {
     if (!frame_now().turned) return handle;
     const Point by = frame_now().turned_by({handle.first, handle.second});
     return {by[0], by[1]};

@@ -19,7 +19,7 @@ constexpr double least_depth = 1e-4;
 
 /// The words of the cycle. Its moves come when the contour is known: turn().
 bool Interpreter::turning(std::int16_t code) {
-    TurningPlan plan;
+    LatheCycle plan;
     plan.code = code;
     if (!turning_allowed(code) || !turning_words(code, plan)) return false;
     used_ |= axis_words;
@@ -45,7 +45,7 @@ bool Interpreter::turning_allowed(std::int16_t code) {
     if (block_.has_g(g_nonmodal) || axis_words_taken_)
         return refuse(GrblStatus::axis_conflict,
                       " stands without other codes that use its words; put it on a line of its own");
-    if (block_.has_m(m_stop) || block_.has_m(m_port))
+    if (block_.has_m(m_stop) || block_.has_m(m_io))
         return refuse(GrblStatus::unsupported,
                       " goes before a stop, an end or an output; put that on a line of its own");
     if (next_.plane != 1)
@@ -63,12 +63,12 @@ bool Interpreter::turning_allowed(std::int16_t code) {
         if (block_.has(letter))
             return fail_word(letter, GrblStatus::unused_word,
                              fmt::format("{}: {} moves X and Z only; put the other axes on a line of their own",
-                                         written(letter), name));
+                                         word_text(letter), name));
     }
     return true;
 }
 
-bool Interpreter::turning_words(std::int16_t code, TurningPlan& plan) {
+bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
     if (!block_.has('Q')) {
         return fail_at(
             block_.g_column[g_motion], GrblStatus::word_missing,
@@ -82,7 +82,7 @@ bool Interpreter::turning_words(std::int16_t code, TurningPlan& plan) {
     for (const char letter : {'D', 'E', 'R'}) {
         if (block_.has(letter) && block_[letter] < 0)
             return fail_word(letter, GrblStatus::negative_value,
-                             fmt::format("{} is negative; it is a distance, 0 or more", written(letter)));
+                             fmt::format("{} is negative; it is a distance, 0 or more", word_text(letter)));
     }
     if (block_.has('D')) plan.distance = scaled('D');
     if (code == finishing) {
@@ -99,7 +99,7 @@ bool Interpreter::turning_words(std::int16_t code, TurningPlan& plan) {
     if (plan.depth >= least_depth) return true;
     return fail_word(
         'I', GrblStatus::bad_target,
-        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", written('I'), least_depth));
+        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", word_text('I'), least_depth));
 }
 
 Interpreter Interpreter::draws_contour() const {
@@ -115,7 +115,7 @@ Interpreter Interpreter::draws_contour() const {
     return reader;
 }
 
-Outcome<void> Interpreter::turn(std::vector<ContourPiece> contour) {
+Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
     const std::size_t column = block_.g_column[g_motion];
     const std::string fault = gcode::turn(*turning_, std::move(contour), {position_[2], position_[0]}, turned_);
     const std::string name = name_of_g(turning_->code);
@@ -138,8 +138,8 @@ Outcome<void> Interpreter::turn(std::vector<ContourPiece> contour) {
 
 bool Interpreter::turning_within_limits() {
     const std::size_t column = block_.g_column[g_motion];
-    Planar from = {position_[2], position_[0]};
-    for (const TurningMove& move : turned_) {
+    PlanePoint from = {position_[2], position_[0]};
+    for (const LatheMove& move : turned_) {
         if (!reach(2, move.to.first, column) || !reach(0, move.to.second, column)) return false;
         if (move.kind == MoveKind::arc && !arc_within_limits(from, move.to, move.centre, move.turns)) return false;
         from = move.to;
@@ -148,7 +148,7 @@ bool Interpreter::turning_within_limits() {
 }
 
 void Interpreter::pull_turning() {
-    const TurningMove& turned = turned_[turned_pulled_++];
+    const LatheMove& turned = turned_[turned_pulled_++];
     Move& move = moving_.move;
     move.kind = turned.kind;
     move.first = plane_axes[1][0];

@@ -27,7 +27,7 @@ bool Interpreter::nonmodal() {
             return shift();
         case 921: {
             Frame& frame = edit_frame();
-            frame.g92 = frame.g92_kept = Point{};
+            frame.g92 = frame.g92_saved = Point{};
             frame.activate(next_.system);
             break;
         }
@@ -39,7 +39,7 @@ bool Interpreter::nonmodal() {
         }
         case 923: {
             Frame& frame = edit_frame();
-            frame.g92 = frame.g92_kept;
+            frame.g92 = frame.g92_saved;
             frame.activate(next_.system);
             break;
         }
@@ -49,7 +49,7 @@ bool Interpreter::nonmodal() {
     if ((block_.words & axis_words) != 0 && !block_.has_g(g_motion)) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
         return fail_word(letter, GrblStatus::axis_words_unused,
-                         fmt::format("{}: {} takes no axis words; put the move on a line of its own", written(letter),
+                         fmt::format("{}: {} takes no axis words; put the move on a line of its own", word_text(letter),
                                      name_of_g(code)));
     }
     return true;
@@ -82,7 +82,7 @@ bool Interpreter::shift() {
         if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
         frame.g92[axis] = unshifted[axis] - block_.value[axis_letter(axis)] * scale_of(axis);
     }
-    frame.g92_kept = frame.g92;
+    frame.g92_saved = frame.g92;
     frame.activate(next_.system);
     axis_words_taken_ = true;
     used_ |= axis_words;
@@ -107,8 +107,8 @@ bool Interpreter::reference() {
         end_[axis] = home[axis];
     }
     begin_move(MoveKind::traverse);
-    motion_ = axes != 0 ? Motion::by_way_of : Motion::single;
-    on_the_way_ = false;
+    motion_ = axes != 0 ? Motion::via_point : Motion::single;
+    via_point_pending_ = false;
     todo_ |= todo_motion;
     axis_words_taken_ = true;
     used_ |= axis_words;

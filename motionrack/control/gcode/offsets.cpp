@@ -28,14 +28,14 @@ bool Interpreter::set_offsets() {
         return fail_word(
             'L', GrblStatus::unsupported,
             fmt::format("G10 {} is not supported; G10 L2 sets an offset, G10 L20 sets the position in a system{}",
-                        written('L'), by_sender ? "" : ", G10 L1, L10 and L11 set a tool's length"));
+                        word_text('L'), by_sender ? "" : ", G10 L1, L10 and L11 set a tool's length"));
     }
     if (!need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
-    if (block_['P'] > (by_sender ? grbl_work_system_count : work_system_count)) {
+    if (block_['P'] > (by_sender ? grbl_work_system_count : work_offset_count)) {
         return fail_word(
             'P', GrblStatus::no_such_system,
             fmt::format("{}: there are {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one",
-                        written('P'), by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
+                        word_text('P'), by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
     }
     used_ |= letter_bit('L') | letter_bit('P');
     const int number = static_cast<int>(block_['P']);
@@ -100,7 +100,7 @@ bool Interpreter::edit_tool(int what) {
         tool = *known;
     } else if (tools_.tools().size() >= most_tools) {
         return fail_word('P', GrblStatus::unsupported,
-                         fmt::format("{}: the tool table has {} tools already", written('P'), most_tools));
+                         fmt::format("{}: the tool table has {} tools already", word_text('P'), most_tools));
     }
     if (what == 1) {
         for (int axis = 0; axis < axis_count; ++axis)
@@ -110,7 +110,7 @@ bool Interpreter::edit_tool(int what) {
         Frame with = frame_now();
         with.tool = tool.offset;
         if (what == 11) with.g92 = {};
-        with.activate(what == 11 ? work_system_count - 1 : next_.system);
+        with.activate(what == 11 ? work_offset_count - 1 : next_.system);
         const Point by = shift_to_words(with);
         for (int axis = 0; axis < axis_count; ++axis) tool.offset[axis] += by[axis];
     }
@@ -129,7 +129,7 @@ bool Interpreter::edit_tool_shape(Tool& tool) {
     };
     if (block_.has('R') && block_['R'] < 0)
         return fail_word('R', GrblStatus::negative_value,
-                         fmt::format("{}: the radius of a tool is 0 or more", written('R')));
+                         fmt::format("{}: the radius of a tool is 0 or more", word_text('R')));
     take('R', tool.diameter_mm, 2 * scale_of(0));
     take('I', tool.front_angle, 1);
     take('J', tool.back_angle, 1);
@@ -161,7 +161,7 @@ bool Interpreter::tool_length_of_words(bool adds) {
         return fail_word(
             letter, GrblStatus::tool_length_axis,
             fmt::format("{}: the tool length goes along Z only; write e.g. G43.1 Z12.5 on a line of its own",
-                        written(letter)));
+                        word_text(letter)));
     }
     if ((block_.words & axis_words) == 0) {
         return fail_at(
@@ -189,7 +189,7 @@ const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG 
     if (!tool) {
         fail_at(named ? block_.column[letter_index(letter)] : block_.g_column[code], GrblStatus::unsupported,
                 fmt::format("{}: the tool table has no tool {}; write it into the table",
-                            named ? written(letter) : name_of_g(block_.g[code]), number));
+                            named ? word_text(letter) : name_of_g(block_.g[code]), number));
     }
     return tool;
 }

@@ -25,15 +25,15 @@ bool is_analog_output(int code) {
 
 /// After everything else of the line: what words are theirs must be nobody else's.
 bool Interpreter::ports() {
-    const int code = block_.m[m_port];
+    const int code = block_.m[m_io];
     if (code == wait_on_input) return read_input();
     const bool analog = is_analog_output(code);
-    if (!own_words(analog ? letter_bit('E') | letter_bit('Q') : letter_bit('P')) ||
+    if (!claim_words(analog ? letter_bit('E') | letter_bit('Q') : letter_bit('P')) ||
         !port_number(analog ? 'E' : 'P', '\0'))
         return false;
     if (analog && !block_.has('Q')) {
         return fail_at(
-            block_.m_column[m_port], GrblStatus::word_missing,
+            block_.m_column[m_io], GrblStatus::word_missing,
             fmt::format("Q word missing: M{} needs the value for its output; write e.g. M{} E0 Q2.5", code, code));
     }
     port_value_ = analog ? block_['Q'] : code == 62 || code == 64 ? 1 : 0;
@@ -43,7 +43,7 @@ bool Interpreter::ports() {
 
 /// M66 P or E, L how to wait, Q for how long.
 bool Interpreter::read_input() {
-    if (!own_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E'))
+    if (!claim_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E'))
         return false;
     if (block_.has('L') && !need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)"))
         return false;
@@ -51,13 +51,13 @@ bool Interpreter::read_input() {
     if (block_.has('E') && wait != at_once)
         return fail_word(
             'L', GrblStatus::unsupported,
-            fmt::format("{}: nobody can wait for an analog input; write L0, or P and a digital one", written('L')));
+            fmt::format("{}: nobody can wait for an analog input; write L0, or P and a digital one", word_text('L')));
     if (wait != at_once && !(block_.has('Q') && block_['Q'] > 0)) {
         constexpr const char* why =
             "M66 waits for at most Q seconds, which must be above 0; write e.g. M66 P0 L3 Q5, or L0 to look and go on";
         return block_.has('Q')
-                   ? fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", written('Q'), why))
-                   : fail_at(block_.m_column[m_port], GrblStatus::word_missing, fmt::format("Q word missing: {}", why));
+                   ? fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", word_text('Q'), why))
+                   : fail_at(block_.m_column[m_io], GrblStatus::word_missing, fmt::format("Q word missing: {}", why));
     }
     const bool comes = wait == at_once || wait == low;
     port_value_ = comes ? 0 : -1;
@@ -69,15 +69,15 @@ bool Interpreter::read_input() {
 
 /// Exactly one of the two words, with a number of a port.
 bool Interpreter::port_number(char letter, char other) {
-    const int code = block_.m[m_port];
+    const int code = block_.m[m_io];
     const bool second = other != '\0' && block_.has(other);
     if (block_.has(letter) && second)
         return fail_word(
             other, GrblStatus::unsupported,
             fmt::format("{}: M{} looks at one input, a digital one (P) or an analog one (E); leave one out",
-                        written(other), code));
+                        word_text(other), code));
     if (!block_.has(letter) && !second) {
-        return fail_at(block_.m_column[m_port], GrblStatus::word_missing,
+        return fail_at(block_.m_column[m_io], GrblStatus::word_missing,
                        fmt::format("{} word missing: M{} needs the number of its {}; write e.g. M{} {}0{}", letter,
                                    code, code == wait_on_input ? "input" : "output", code, letter,
                                    is_analog_output(code) ? " Q2.5" : ""));
@@ -87,19 +87,19 @@ bool Interpreter::port_number(char letter, char other) {
 }
 
 /// Words that are the port's, and that nothing else on the line has taken.
-bool Interpreter::own_words(std::uint32_t words) {
+bool Interpreter::claim_words(std::uint32_t words) {
     const std::uint32_t taken = words & block_.words & used_;
     used_ |= words;
     if (taken == 0) return true;
     const char letter = static_cast<char>('A' + std::countr_zero(taken));
     return fail_word(letter, GrblStatus::axis_conflict,
                      fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines",
-                                 written(letter), block_.m[m_port], letter));
+                                 word_text(letter), block_.m[m_io], letter));
 }
 
 void Interpreter::fill_port() {
-    const int code = block_.m[m_port];
-    event_.kind = code == wait_on_input ? StepKind::input : StepKind::output;
+    const int code = block_.m[m_io];
+    event_.kind = code == wait_on_input ? CanonCallKind::input : CanonCallKind::output;
     event_.analog = block_.has('E') && (is_analog_output(code) || code == wait_on_input);
     event_.with_motion = code == 62 || code == 63 || code == 67;
     event_.port = static_cast<std::int32_t>(block_[event_.analog ? 'E' : 'P']);

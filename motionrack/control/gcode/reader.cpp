@@ -39,7 +39,8 @@ Outcome<const Step*> ProgramReader::next_from_lines() {
             }
             return tl::unexpected<Problem>(std::move(done.error()));
         }
-        if (auto done = walk_.took(interpreter_); !done) return tl::unexpected<Problem>(std::move(done.error()));
+        if (auto done = walk_.line_accepted(interpreter_); !done)
+            return tl::unexpected<Problem>(std::move(done.error()));
         if (const Step* step = interpreter_.pull()) return step;
     }
     if (walk_.has_faults()) return tl::unexpected<Problem>(walk_.take_fault());
@@ -64,7 +65,7 @@ bool is_known(const std::vector<Problem>& problems, const Problem& one) {
 
 }  // namespace
 
-ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
+ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t max_problems,
                            const std::string& file) {
     ProgramCheck check;
     check.least = check.greatest = settings.start;
@@ -79,12 +80,12 @@ ProgramCheck check_program(std::string_view text, const Settings& settings, std:
                 break;
             }
             check.problems.push_back(step.error());
-            if (check.problems.size() < most_problems) continue;
+            if (check.problems.size() < max_problems) continue;
             check.more_problems = true;
             break;
         }
         if (*step == nullptr) break;
-        if ((*step)->kind != StepKind::move) continue;
+        if ((*step)->kind != CanonCallKind::move) continue;
         const Move& move = (*step)->move;
         if (move.kind == MoveKind::dwell) {
             ++check.dwells;
@@ -97,7 +98,7 @@ ProgramCheck check_program(std::string_view text, const Settings& settings, std:
             check.greatest[axis] = std::max(check.greatest[axis], move.end[axis]);
         }
     }
-    check.lines = reader.walk().furthest();
+    check.lines = reader.walk().highest_line();
     check.ended = reader.interpreter().modes().ended;
     if (check.problems.empty() && is_empty_program(text)) check.problems.push_back(empty_program_problem(text, file));
     return check;

@@ -16,7 +16,7 @@ namespace motionrack::control::gcode {
 ///         auto step = reader.next();
 ///         if (!step) { report(step.error().text()); break; }
 ///         if (*step == nullptr) break;
-///         if ((*step)->kind == StepKind::move) planner.push((*step)->move);
+///         if ((*step)->kind == CanonCallKind::move) planner.push((*step)->move);
 ///     }
 ///
 /// After a problem the line has had no effect, and next() goes on with the line after it; see ProgramFlow for O words,
@@ -37,8 +37,10 @@ class ProgramReader {
 
     const Interpreter& interpreter() const { return interpreter_; }
     const ProgramFlow& walk() const { return walk_; }
-    /// See Interpreter::probed(); after the step that probes, before the next one.
-    void probed(bool hit, const Point& at, const Point& stands) { interpreter_.probed(hit, at, stands); }
+    /// See Interpreter::set_probe_result(); after the step that probes, before the next one.
+    void set_probe_result(bool hit, const Point& at, const Point& stands) {
+        interpreter_.set_probe_result(hit, at, stands);
+    }
     std::int32_t line() const { return walk_.number(); }  ///< the line that the last step or problem is from
 
   private:
@@ -65,8 +67,8 @@ struct ProgramCheck {
     double seconds_of_dwells = 0;
 };
 
-/// Reads a program to its end without keeping it, and collects up to `most_problems` (>= 1).
-ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
+/// Reads a program to its end without keeping it, and collects up to `max_problems` (>= 1).
+ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t max_problems,
                            const std::string& file = {});
 
 }  // namespace motionrack::control::gcode

@@ -12,7 +12,7 @@
 
 namespace motionrack::control::gcode {
 
-inline constexpr int work_system_count = 9;       ///< G54 .. G59, G59.1 .. G59.3
+inline constexpr int work_offset_count = 9;       ///< G54 .. G59, G59.1 .. G59.3
 inline constexpr int grbl_work_system_count = 6;  ///< of them those that lines from a sender know
 
 /// The text of a subprogram that a program calls by a name that it does not have itself. An error's sentence goes on
@@ -29,7 +29,7 @@ struct Settings {
     double path_tolerance_mm = 0.01;   ///< of G64 without P, and at the start; >= 0
     double peck_clearance_mm = 0.254;  ///< G83 rapids back to this far above the depth already drilled; >= 0
     Point start = {};                  ///< where the machine is at the start, machine coordinates
-    std::array<Point, work_system_count> work_offsets = {};  ///< at the start, mm and degrees
+    std::array<Point, work_offset_count> work_offsets = {};  ///< at the start, mm and degrees
     Point g28 = {};                                          ///< where G28 goes, machine coordinates
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
     ToolTable tools = {};  ///< for G43, G41 and G42; empty: any tool number will do, but has no length and no diameter

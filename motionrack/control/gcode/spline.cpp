@@ -22,17 +22,17 @@ constexpr double largest_radius_mm = 1e6;
 /// Part of the control polygon's length below which a vector has no direction.
 constexpr double no_direction = 1e-12;
 
-Planar interpolated(Planar a, Planar b, double t) {
+PlanePoint interpolated(PlanePoint a, PlanePoint b, double t) {
     return a * (1 - t) + b * t;
 }
-double polygon_length(const std::array<Planar, 4>& p) {
+double polygon_length(const std::array<PlanePoint, 4>& p) {
     return length(p[1] - p[0]) + length(p[2] - p[1]) + length(p[3] - p[2]);
 }
 
 /// Radius (> 0 to the left of `tangent`) and centre of the arc that leaves `at` along `tangent` and passes through
 /// `at + chord`; 0: a line.
-double arc_through(Planar at, Planar tangent, Planar chord, Planar& centre) {
-    const Planar normal = left_of(tangent);
+double arc_through(PlanePoint at, PlanePoint tangent, PlanePoint chord, PlanePoint& centre) {
+    const PlanePoint normal = left_of(tangent);
     const double height = dot(normal, chord);
     if (std::fabs(height) < 4 * flat_mm) return 0;
     const double radius = dot(chord, chord) / (2 * height);
@@ -43,29 +43,29 @@ double arc_through(Planar at, Planar tangent, Planar chord, Planar& centre) {
 
 }  // namespace
 
-Planar Cubic::at(double t) const {
+PlanePoint CubicBezier::at(double t) const {
     if (t == 1) return points[3];
-    const Planar a = interpolated(points[0], points[1], t);
-    const Planar b = interpolated(points[1], points[2], t);
-    const Planar c = interpolated(points[2], points[3], t);
+    const PlanePoint a = interpolated(points[0], points[1], t);
+    const PlanePoint b = interpolated(points[1], points[2], t);
+    const PlanePoint c = interpolated(points[2], points[3], t);
     return interpolated(interpolated(a, b, t), interpolated(b, c, t), t);
 }
 
-Planar Cubic::tangent(double t, bool before) const {
-    const Planar a = points[1] - points[0];
-    const Planar b = points[2] - points[1];
-    const Planar c = points[3] - points[2];
+PlanePoint CubicBezier::tangent(double t, bool before) const {
+    const PlanePoint a = points[1] - points[0];
+    const PlanePoint b = points[2] - points[1];
+    const PlanePoint c = points[3] - points[2];
     const double least = polygon_length(points) * no_direction;
-    Planar first = interpolated(interpolated(a, b, t), interpolated(b, c, t), t);
+    PlanePoint first = interpolated(interpolated(a, b, t), interpolated(b, c, t), t);
     if (length(first) <= least) {
-        const Planar second = interpolated(b - a, c - b, t);
+        const PlanePoint second = interpolated(b - a, c - b, t);
         first = before ? second * -1 : second;
     }
     if (length(first) <= least) first = (c - b) - (b - a);
     return first * (1 / length(first));
 }
 
-void Cubic::range(double Planar::*coordinate, double& least, double& greatest) const {
+void CubicBezier::range(double PlanePoint::*coordinate, double& least, double& greatest) const {
     const double start = points[0].*coordinate, end = points[3].*coordinate;
     least = std::min(start, end);
     greatest = std::max(start, end);
@@ -85,15 +85,15 @@ void Cubic::range(double Planar::*coordinate, double& least, double& greatest) c
     }
 }
 
-bool Cubic::is_point() const {
+bool CubicBezier::is_point() const {
     return polygon_length(points) < 1e-9;
 }
 
-Cubic quadratic(Planar start, Planar control, Planar end) {
+CubicBezier quadratic(PlanePoint start, PlanePoint control, PlanePoint end) {
     return {{start, start + (control - start) * (2.0 / 3), end + (control - end) * (2.0 / 3), end}};
 }
 
-void SplineMoves::begin(const Cubic& curve, const Move& pattern) {
+void BiarcApproximator::begin(const CubicBezier& curve, const Move& pattern) {
     curve_ = curve;
     pattern_ = pattern;
     at_ = 0;
@@ -101,14 +101,14 @@ void SplineMoves::begin(const Cubic& curve, const Move& pattern) {
     given_ = 2;
 }
 
-bool SplineMoves::next(Move& move) {
+bool BiarcApproximator::next(Move& move) {
     if (given_ == 2 && !piece()) return false;
     move = half(given_++);
     return true;
 }
 
 /// The next piece of the curve: as long as it can be, beginning with twice the length of the last one.
-bool SplineMoves::piece() {
+bool BiarcApproximator::piece() {
     if (at_ == finest) return false;
     width_ = std::min(width_, finest / 2) * 2;
     while (at_ % width_ != 0) width_ /= 2;
@@ -120,13 +120,13 @@ bool SplineMoves::piece() {
 }
 
 /// False: the piece must be shorter.
-bool SplineMoves::fit(double from, double to, Biarc& biarc) const {
+bool BiarcApproximator::fit(double from, double to, Biarc& biarc) const {
     biarc.from = curve_.at(from);
     biarc.to = curve_.at(to);
     biarc.tangent_in = curve_.tangent(from, false);
     biarc.tangent_out = curve_.tangent(to, true);
     biarc.radius = {0, 0};
-    const Planar chord = biarc.to - biarc.from;
+    const PlanePoint chord = biarc.to - biarc.from;
     const double size = (to - from) * polygon_length(curve_.points) * 3;
     if (size <= tolerance || to - from <= 1.0 / finest) {  // a straight line is near enough
         biarc.joint = biarc.to;
@@ -139,8 +139,8 @@ bool SplineMoves::fit(double from, double to, Biarc& biarc) const {
     const double along = dot(chord, biarc.tangent_in + biarc.tangent_out);
     const double square = dot(chord, chord);
     const double reach = square / (along + std::sqrt(along * along + 2 * (1 - cosine) * square));
-    const Planar tip_in = biarc.from + biarc.tangent_in * reach;
-    const Planar tip_out = biarc.to - biarc.tangent_out * reach;
+    const PlanePoint tip_in = biarc.from + biarc.tangent_in * reach;
+    const PlanePoint tip_out = biarc.to - biarc.tangent_out * reach;
     biarc.joint = interpolated(tip_in, tip_out, 0.5);
     biarc.tangent_joint = tip_out - tip_in;
     biarc.radius[0] = arc_through(biarc.from, biarc.tangent_in, biarc.joint - biarc.from, biarc.centre[0]);
@@ -148,12 +148,12 @@ bool SplineMoves::fit(double from, double to, Biarc& biarc) const {
     return near(from, to, biarc);
 }
 
-bool SplineMoves::near(double from, double to, const Biarc& biarc) const {
+bool BiarcApproximator::near(double from, double to, const Biarc& biarc) const {
     for (int i = 1; i < samples; ++i) {
-        const Planar place = curve_.at(from + (to - from) * i / samples);
+        const PlanePoint place = curve_.at(from + (to - from) * i / samples);
         const std::size_t which = dot(place - biarc.joint, biarc.tangent_joint) < 0 ? 0 : 1;
-        const Planar begin = which == 0 ? biarc.from : biarc.joint;
-        const Planar chord = (which == 0 ? biarc.joint : biarc.to) - begin;
+        const PlanePoint begin = which == 0 ? biarc.from : biarc.joint;
+        const PlanePoint chord = (which == 0 ? biarc.joint : biarc.to) - begin;
         const double off = biarc.radius[which] != 0
                                ? length(place - biarc.centre[which]) - std::fabs(biarc.radius[which])
                                : cross(chord, place - begin) / length(chord);
@@ -162,9 +162,9 @@ bool SplineMoves::near(double from, double to, const Biarc& biarc) const {
     return true;
 }
 
-Move SplineMoves::half(std::size_t which) const {
+Move BiarcApproximator::half(std::size_t which) const {
     Move move = pattern_;
-    const Planar end = which == 0 ? biarc_.joint : biarc_.to;
+    const PlanePoint end = which == 0 ? biarc_.joint : biarc_.to;
     move.kind = biarc_.radius[which] == 0 ? MoveKind::feed : MoveKind::arc;
     if (move.kind == MoveKind::arc) {
         move.first = 0;

@@ -1,5 +1,5 @@
-// Cubic splines (G5, G5.1) as arcs: pairs of arcs that pass tangentially into each other, made one after the other in
-// constant memory.
+// CubicBezier splines (G5, G5.1) as arcs: pairs of arcs that pass tangentially into each other, made one after the
+// other in constant memory.
 //
 //      start ──► control ─ ─ ─ ─ ─ control ◄── end        the curve; each piece of it, from t to t':
 //
@@ -17,33 +17,33 @@ namespace motionrack::control::gcode {
 inline constexpr double spline_tolerance_mm = 0.001;
 
 /// Start, two control points, end; mm.
-struct Cubic {
-    std::array<Planar, 4> points;
+struct CubicBezier {
+    std::array<PlanePoint, 4> points;
 
-    Planar at(double t) const;  ///< 0 .. 1
+    PlanePoint at(double t) const;  ///< 0 .. 1
     /// Unit vector along the curve as it comes to t (`before`) or leaves it; they differ in a cusp. Not for four points
     /// in one place.
-    Planar tangent(double t, bool before) const;
+    PlanePoint tangent(double t, bool before) const;
     /// Least and greatest of one coordinate anywhere on the curve.
-    void range(double Planar::*coordinate, double& least, double& greatest) const;
+    void range(double PlanePoint::*coordinate, double& least, double& greatest) const;
     bool is_point() const;  ///< all four in one place
 };
 
 /// With a control point in common: the same curve as a cubic.
-Cubic quadratic(Planar start, Planar control, Planar end);
+CubicBezier quadratic(PlanePoint start, PlanePoint control, PlanePoint end);
 
-class SplineMoves {
+class BiarcApproximator {
   public:
     /// `pattern` gives all but kind, plane, turns, centre and the end in the plane of X and Y.
-    void begin(const Cubic& curve, const Move& pattern);
+    void begin(const CubicBezier& curve, const Move& pattern);
     /// The next arc or line; false: no more. The last one ends at the pattern's end.
     bool next(Move& move);
 
   private:
     struct Biarc {
-        Planar from, to, joint, tangent_in, tangent_out, tangent_joint;
+        PlanePoint from, to, joint, tangent_in, tangent_out, tangent_joint;
         std::array<double, 2> radius;  ///< > 0 counter-clockwise; 0: straight
-        std::array<Planar, 2> centre;
+        std::array<PlanePoint, 2> centre;
     };
 
     bool piece();
@@ -51,7 +51,7 @@ class SplineMoves {
     bool near(double from, double to, const Biarc& biarc) const;
     Move half(std::size_t which) const;
 
-    Cubic curve_;
+    CubicBezier curve_;
     Move pattern_;
     std::uint32_t at_ = 0;     ///< how much of the curve is done, in steps of the finest division
     std::uint32_t width_ = 0;  ///< of the piece tried last

@@ -7,7 +7,7 @@
 
 namespace motionrack::control::gcode {
 
-enum class StepKind : std::uint8_t {
+enum class CanonCallKind : std::uint8_t {
     move,            ///< `move`; it may end where it starts (length 0)
     comment,         ///< `text`
     message,         ///< `text`, of (MSG,text): to be shown to the operator
@@ -43,9 +43,9 @@ constexpr bool probe_must(Probe probe) {
 }
 
 struct Step {
-    StepKind kind = StepKind::move;
-    Probe probe =
-        Probe::none;  ///< of a move; the lines after it begin where the machine stands then: Interpreter::probed()
+    CanonCallKind kind = CanonCallKind::move;
+    Probe probe = Probe::none;  ///< of a move; the lines after it begin where the machine stands then:
+                                ///< Interpreter::set_probe_result()
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
@@ -63,9 +63,10 @@ struct Step {
 };
 
 /// Whether the machine stands still for it.
-constexpr bool needs_rest(const Step& step) {
-    return step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end ||
-           step.kind == StepKind::input || (step.kind == StepKind::output && !step.with_motion);
+constexpr bool needs_standstill(const Step& step) {
+    return step.kind == CanonCallKind::tool_change || step.kind == CanonCallKind::pause ||
+           step.kind == CanonCallKind::end || step.kind == CanonCallKind::input ||
+           (step.kind == CanonCallKind::output && !step.with_motion);
 }
 
 }  // namespace motionrack::control::gcode

@@ -20,14 +20,14 @@ enum class Part : std::uint8_t { whole, without_pockets, pockets };
 /// The moves, in the plane as it is; what leads nowhere is left out.
 class Path {
   public:
-    Path(const TurningView& view, Planar at, std::vector<TurningMove>& moves)
+    Path(const CuttingOrientation& view, PlanePoint at, std::vector<LatheMove>& moves)
         : view_(view), at_(view.in(at)), moves_(moves) {}
 
-    Planar at() const { return at_; }
+    PlanePoint at() const { return at_; }
     bool full() const { return moves_.size() > most_turning_moves; }
-    void rapid(Planar to) { add(MoveKind::traverse, to, {}, 0); }
+    void rapid(PlanePoint to) { add(MoveKind::traverse, to, {}, 0); }
     /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
-    void over(double highest, Planar to) {
+    void over(double highest, PlanePoint to) {
         if (std::min(at_.second, to.second) < highest - same_mm) {
             const double clear = std::max(to.second, highest);
             rapid({at_.first, clear});
@@ -37,14 +37,14 @@ class Path {
     }
     /// To the start, and where that lies behind the contour's begin along it and up there to above the begin: not
     /// aslant through the work piece, nor through a part of it that is higher than the start.
-    Planar before(Planar start, Planar begin, double highest) {
+    PlanePoint before(PlanePoint start, PlanePoint begin, double highest) {
         rapid(start);
         if (begin.first < start.first) over(highest, {begin.first, start.second});
         return at_;
     }
-    void feed(Planar to) { add(MoveKind::feed, to, {}, 0); }
+    void feed(PlanePoint to) { add(MoveKind::feed, to, {}, 0); }
     /// Along a piece, up to a place on it. `on`: it goes on along the arc that the move before was on.
-    void along(const ContourPiece& piece, Planar to, bool on) {
+    void along(const ContourSegment& piece, PlanePoint to, bool on) {
         if (!piece.arc()) return feed(to);
         if (on && !moves_.empty() && moves_.back().kind == MoveKind::arc &&
             length(view_.in(moves_.back().centre) - piece.centre) < same_mm)
@@ -53,19 +53,19 @@ class Path {
     }
 
   private:
-    void add(MoveKind kind, Planar to, Planar centre, std::int32_t turns) {
+    void add(MoveKind kind, PlanePoint to, PlanePoint centre, std::int32_t turns) {
         if (length(to - at_) < same_mm) return;
         at_ = to;
         if (!full()) moves_.push_back({kind, view_.out(to), view_.out(centre), view_.turns(turns)});
     }
 
-    const TurningView& view_;
-    Planar at_;
-    std::vector<TurningMove>& moves_;
+    const CuttingOrientation& view_;
+    PlanePoint at_;
+    std::vector<LatheMove>& moves_;
 };
 
 /// Where a piece that rises or falls is at a height.
-Planar at_height(const ContourPiece& piece, double height) {
+PlanePoint at_height(const ContourSegment& piece, double height) {
     if (std::fabs(height - piece.to.second) <= same_mm) return piece.to;
     if (!piece.arc()) {
         const double share = (height - piece.from.second) / (piece.to.second - piece.from.second);
@@ -77,9 +77,9 @@ Planar at_height(const ContourPiece& piece, double height) {
     return {std::clamp(piece.centre.first + side, piece.from.first, piece.to.first), height};
 }
 
-double highest_of(const std::vector<ContourPiece>& contour) {
+double highest_of(const std::vector<ContourSegment>& contour) {
     double highest = contour.front().from.second;
-    for (const ContourPiece& piece : contour) {
+    for (const ContourSegment& piece : contour) {
         highest = std::max(highest, piece.to.second);
         if (piece.arc() && extremes_passed(piece.from - piece.centre, piece.to - piece.centre, piece.turns > 0)[1])
             highest = std::max(highest, piece.centre.second + length(piece.from - piece.centre));
@@ -90,7 +90,7 @@ double highest_of(const std::vector<ContourPiece>& contour) {
 /// Roughing along a contour that goes one way, seen in its view.
 class Rougher {
   public:
-    Rougher(const TurningPlan& plan, Part part, Planar start, const std::vector<ContourPiece>& contour, Path& path)
+    Rougher(const LatheCycle& plan, Part part, PlanePoint start, const std::vector<ContourSegment>& contour, Path& path)
         : plan_(plan),
           part_(part),
           start_(start),
@@ -104,7 +104,7 @@ class Rougher {
     /// A place on the contour.
     struct On {
         std::size_t piece;
-        Planar at;
+        PlanePoint at;
     };
 
     double level(std::int64_t k) const { return top_ - static_cast<double>(k) * plan_.depth; }
@@ -114,14 +114,14 @@ class Rougher {
     void pocket(std::size_t& piece);
     void pass_over(std::size_t& piece);
     void follow(On& from, On to, bool on);
-    bool cut_level(Planar from, const On& behind, bool outside);
+    bool cut_level(PlanePoint from, const On& behind, bool outside);
     bool exit_of(double height, std::size_t from, On& exit) const;
 
-    const TurningPlan& plan_;
+    const LatheCycle& plan_;
     Part part_;
-    Planar start_;
+    PlanePoint start_;
     double top_;  ///< where the levels begin: at the start, or at the highest pocket so far where only pockets are cut
-    const std::vector<ContourPiece>& contour_;
+    const std::vector<ContourSegment>& contour_;
     Path& path_;
     bool goes_on_ = false;  ///< the next piece may lengthen the last move's arc
 };
@@ -143,12 +143,12 @@ void Rougher::cut() {
 
 /// From the start down to where the contour begins; there is nothing yet of the work piece.
 void Rougher::enter() {
-    const Planar begin = contour_.front().from;
+    const PlanePoint begin = contour_.front().from;
     start_ = path_.before(start_, begin, highest_of(contour_));
     if (part_ != Part::pockets) {
         for (std::int64_t k = 0; level(k) > begin.second + same_mm && !path_.full(); ++k) {
             const double share = (start_.second - level(k)) / (start_.second - begin.second);
-            const Planar from = {start_.first + (begin.first - start_.first) * share, level(k)};
+            const PlanePoint from = {start_.first + (begin.first - start_.first) * share, level(k)};
             path_.rapid(from);
             if (!cut_level(from, {0, begin}, true)) break;
         }
@@ -157,7 +157,7 @@ void Rougher::enter() {
 }
 
 /// One level from `from` to the contour, and back. False: the contour never comes up to it.
-bool Rougher::cut_level(Planar from, const On& behind, bool outside) {
+bool Rougher::cut_level(PlanePoint from, const On& behind, bool outside) {
     On exit{};
     if (!exit_of(from.second, behind.piece, exit)) return false;
     const double way = exit.at.first - from.first;
@@ -176,7 +176,7 @@ bool Rougher::cut_level(Planar from, const On& behind, bool outside) {
 /// Where the contour, having been below a height, comes up to it.
 bool Rougher::exit_of(double height, std::size_t from, On& exit) const {
     for (std::size_t i = from; i < contour_.size(); ++i) {
-        const ContourPiece& piece = contour_[i];
+        const ContourSegment& piece = contour_[i];
         if (!rises(i) || piece.to.second < height - same_mm || piece.from.second >= height - same_mm) continue;
         exit = {i, at_height(piece, std::min(height, piece.to.second))};
         return true;
@@ -190,7 +190,7 @@ void Rougher::pocket(std::size_t& piece) {
     std::size_t bottom = piece;
     for (std::size_t i = piece; i < contour_.size() && !rises(i); ++i)
         if (falls(i)) bottom = i;
-    const Planar lowest = contour_[bottom].to;
+    const PlanePoint lowest = contour_[bottom].to;
     if (part_ == Part::pockets) top_ = std::max(top_, at.at.second);
     auto k = static_cast<std::int64_t>(std::ceil((top_ - at.at.second - same_mm) / plan_.depth));
     for (k = std::max<std::int64_t>(k, 0); level(k) > lowest.second + same_mm && !path_.full(); ++k) {
@@ -207,7 +207,7 @@ void Rougher::pocket(std::size_t& piece) {
 
 /// Straight on to where the contour is as high again; or along it where it never is.
 void Rougher::pass_over(std::size_t& piece) {
-    const Planar top = contour_[piece].from;
+    const PlanePoint top = contour_[piece].from;
     On exit{};
     if (!exit_of(top.second, piece, exit)) {
         path_.along(contour_[piece], contour_[piece].to, false);
@@ -226,24 +226,25 @@ void Rougher::follow(On& from, On to, bool on) {
 }
 
 /// The last piece leads up to the height of the start.
-void close(std::vector<ContourPiece>& contour, double height) {
-    const ContourPiece& last = contour.back();
+void close(std::vector<ContourSegment>& contour, double height) {
+    const ContourSegment& last = contour.back();
     if (last.to.second >= height - same_mm) return;
-    ContourPiece up;
+    ContourSegment up;
     up.from = last.to;
     up.to = {last.to.first, height};
     up.line = last.line;
     contour.push_back(up);
 }
 
-bool find_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour, bool swapped, TurningView& view) {
+bool find_view(const LatheCycle& plan, const std::vector<ContourSegment>& contour, bool swapped,
+               CuttingOrientation& view) {
     view = {};
     view.swapped = swapped;
     const double along = view.in(contour.back().to).first - view.in(contour.front().from).first;
     if (std::fabs(along) < same_mm) return false;
     view.along = along > 0 ? 1 : -1;
     double highest = lowest_ever;
-    for (const ContourPiece& piece : contour)
+    for (const ContourSegment& piece : contour)
         highest = std::max({highest, view.in(piece.from).second, view.in(piece.to).second});
     const double start = view.in(plan.start).second, begin = view.in(contour.front().from).second;
     const bool above = start > begin + same_mm || (start > begin - same_mm && start >= highest - same_mm);
@@ -251,9 +252,9 @@ bool find_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour
     return true;
 }
 
-std::vector<ContourPiece> seen(const std::vector<ContourPiece>& contour, const TurningView& view) {
-    std::vector<ContourPiece> out = contour;
-    for (ContourPiece& piece : out) {
+std::vector<ContourSegment> seen(const std::vector<ContourSegment>& contour, const CuttingOrientation& view) {
+    std::vector<ContourSegment> out = contour;
+    for (ContourSegment& piece : out) {
         piece.from = view.in(piece.from);
         piece.to = view.in(piece.to);
         piece.centre = view.in(piece.centre);
@@ -264,26 +265,26 @@ std::vector<ContourPiece> seen(const std::vector<ContourPiece>& contour, const T
 
 /// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part
 /// that is higher than one of the two.
-std::string finish(const TurningPlan& plan, const TurningView& view, const std::vector<ContourPiece>& contour,
+std::string finish(const LatheCycle& plan, const CuttingOrientation& view, const std::vector<ContourSegment>& contour,
                    Path& path) {
-    Planar start = view.in(plan.start);
+    PlanePoint start = view.in(plan.start);
     double highest = lowest_ever;
     for (std::int32_t left = plan.passes - 1; left >= 0 && !path.full(); --left) {
-        std::vector<ContourPiece> beside;
+        std::vector<ContourSegment> beside;
         const double distance = plan.end_distance + (plan.distance - plan.end_distance) * left / plan.passes;
-        if (std::string fault = beside_contour(contour, distance, beside); !fault.empty()) return fault;
+        if (std::string fault = offset_contour(contour, distance, beside); !fault.empty()) return fault;
         path.over(highest, start);
         highest = std::max(highest, highest_of(beside));
         start = path.before(start, beside.front().from, highest);
         path.rapid(beside.front().from);
-        for (const ContourPiece& piece : beside) path.along(piece, piece.to, false);
+        for (const ContourSegment& piece : beside) path.along(piece, piece.to, false);
     }
     return {};
 }
 
 /// The contour in the view in which it goes one way; G70 takes either.
-std::string in_its_view(const TurningPlan& plan, const std::vector<ContourPiece>& contour, TurningView& view,
-                        std::vector<ContourPiece>& out) {
+std::string in_its_view(const LatheCycle& plan, const std::vector<ContourSegment>& contour, CuttingOrientation& view,
+                        std::vector<ContourSegment>& out) {
     std::string fault;
     for (const bool swapped : {false, true}) {
         const bool wanted = plan.code == 700 || swapped == (plan.code >= 720);
@@ -304,21 +305,21 @@ std::string in_its_view(const TurningPlan& plan, const std::vector<ContourPiece>
 
 }  // namespace
 
-std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Planar from,
-                 std::vector<TurningMove>& moves) {
+std::string turn(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
+                 std::vector<LatheMove>& moves) {
     moves.clear();
     if (std::string fault = round_corners(contour); !fault.empty()) return fault;
-    TurningView view;
-    std::vector<ContourPiece> pieces, beside;
+    CuttingOrientation view;
+    std::vector<ContourSegment> pieces, beside;
     if (std::string fault = in_its_view(plan, contour, view, pieces); !fault.empty()) return fault;
     Path path(view, from, moves);
     if (plan.code == 700) {
         if (std::string fault = finish(plan, view, seen(contour, view), path); !fault.empty()) return fault;
     } else {
-        if (std::string fault = beside_contour(seen(contour, view), plan.distance, beside); !fault.empty())
+        if (std::string fault = offset_contour(seen(contour, view), plan.distance, beside); !fault.empty())
             return fault;
         if (std::string fault = make_monotone(beside, plan.code >= 720 ? 'X' : 'Z'); !fault.empty()) return fault;
-        const Planar start = view.in(plan.start);
+        const PlanePoint start = view.in(plan.start);
         close(beside, start.second);
         constexpr Part parts[] = {Part::whole, Part::without_pockets, Part::pockets};
         Rougher(plan, parts[plan.code % 10], start, beside, path).cut();

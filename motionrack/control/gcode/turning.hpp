@@ -10,7 +10,7 @@
 //            └─<─┐ ┌─<──┘     └──<───────── begin
 //                └─┘ a pocket: its levels when the contour goes down into it (G71.1: passed over; G71.2: only these)
 //
-// All lengths are mm. In Planar `first` is Z, `second` is X (G18).
+// All lengths are mm. In PlanePoint `first` is Z, `second` is X (G18).
 #pragma once
 
 #include <cstdint>
@@ -27,10 +27,10 @@ constexpr bool is_turning(std::int16_t code) {
 }
 
 /// A line or an arc of at most one turn.
-struct ContourPiece {
-    Planar from, to;
+struct ContourSegment {
+    PlanePoint from, to;
     std::int32_t turns = 0;  ///< arc: 1 counter-clockwise, -1 clockwise, as Move::turns of G18; 0: line
-    Planar centre;           ///< arc
+    PlanePoint centre;       ///< arc
     double corner =
         0;  ///< at its end: radius of a fillet (A), or of the fillet whose chord is a chamfer (C); 0: neither
     bool chamfer = false;
@@ -38,9 +38,9 @@ struct ContourPiece {
     bool arc() const { return turns != 0; }
 };
 
-struct TurningPlan {
+struct LatheCycle {
     std::int16_t code = 710;  ///< in tenths: 700, 710 711 712, 720 721 722
-    Planar start;             ///< from where it cuts
+    PlanePoint start;         ///< from where it cuts
     double distance =
         0;  ///< D: what is left on the contour; of G70 that of the first pass would be, were there one more
     double end_distance = 0;  ///< E of G70: of the last pass
@@ -49,10 +49,10 @@ struct TurningPlan {
     double retract = 0.5;     ///< R: up and back after a cut, >= 0
 };
 
-struct TurningMove {
+struct LatheMove {
     MoveKind kind = MoveKind::feed;  ///< traverse, feed or arc
-    Planar to;
-    Planar centre;
+    PlanePoint to;
+    PlanePoint centre;
     std::int32_t turns = 0;
 };
 
@@ -61,34 +61,34 @@ inline constexpr std::size_t most_turning_moves = 1'000'000;
 
 /// `contour`: one piece or more, each from the end of the one before; the machine stands at `from`. Gives the moves; a
 /// sentence if there are none, and nothing is of use then.
-std::string turn(const TurningPlan& plan, std::vector<ContourPiece> contour, Planar from,
-                 std::vector<TurningMove>& moves);
+std::string turn(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
+                 std::vector<LatheMove>& moves);
 
 // ---- what it is made of
 
 /// The plane as the cycle sees it: `first` along the cut, `second` away from the work piece.
-struct TurningView {
+struct CuttingOrientation {
     bool swapped = false;  ///< along X
     double along = 1;      ///< or -1
     double away = 1;
 
-    Planar in(Planar p) const {
-        return swapped ? Planar{p.second * along, p.first * away} : Planar{p.first * along, p.second * away};
+    PlanePoint in(PlanePoint p) const {
+        return swapped ? PlanePoint{p.second * along, p.first * away} : PlanePoint{p.first * along, p.second * away};
     }
-    Planar out(Planar p) const {
-        return swapped ? Planar{p.second * away, p.first * along} : Planar{p.first * along, p.second * away};
+    PlanePoint out(PlanePoint p) const {
+        return swapped ? PlanePoint{p.second * away, p.first * along} : PlanePoint{p.first * along, p.second * away};
     }
     std::int32_t turns(std::int32_t seen) const { return (along * away > 0) != swapped ? seen : -seen; }
 };
 
 /// Puts in the fillets and chamfers; from there on pieces have none.
-std::string round_corners(std::vector<ContourPiece>& contour);
+std::string round_corners(std::vector<ContourSegment>& contour);
 
 /// Cuts arcs where they are highest or lowest (`second`). A sentence if the contour goes back along `first` anywhere.
-std::string make_monotone(std::vector<ContourPiece>& contour, char axis);
+std::string make_monotone(std::vector<ContourSegment>& contour, char axis);
 
 /// The contour at a distance >= 0 left of it: with arcs about corners that it turns away from.
-std::string beside_contour(const std::vector<ContourPiece>& contour, double distance,
-                           std::vector<ContourPiece>& beside);
+std::string offset_contour(const std::vector<ContourSegment>& contour, double distance,
+                           std::vector<ContourSegment>& beside);
 
 }  // namespace motionrack::control::gcode

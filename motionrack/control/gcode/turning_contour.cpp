@@ -16,18 +16,18 @@ constexpr double same_place = 1e-6;
 /// Sine of an angle below which there is no corner.
 constexpr double no_corner = 1e-6;
 
-CutterPath path_of(const ContourPiece& piece, double distance, bool& fits) {
+CutterPath path_of(const ContourSegment& piece, double distance, bool& fits) {
     CutterPath path;
     fits = true;
     if (piece.arc())
-        fits = beside_arc(piece.from, piece.to, piece.centre, piece.turns, distance, path);
+        fits = offset_arc(piece.from, piece.to, piece.centre, piece.turns, distance, path);
     else
-        path = beside_line(piece.from, piece.to, distance);
+        path = offset_line(piece.from, piece.to, distance);
     return path;
 }
 
-ContourPiece piece_of(const CutterPath& path, std::int32_t line) {
-    ContourPiece piece;
+ContourSegment piece_of(const CutterPath& path, std::int32_t line) {
+    ContourSegment piece;
     piece.from = path.start;
     piece.to = path.end;
     piece.turns = path.turns;
@@ -37,7 +37,7 @@ ContourPiece piece_of(const CutterPath& path, std::int32_t line) {
 }
 
 /// The fillet between two pieces: it touches both. Its centre lies on the parallels of both at its radius.
-std::string round_corner(ContourPiece& before, ContourPiece& after, ContourPiece& fillet) {
+std::string round_corner(ContourSegment& before, ContourSegment& after, ContourSegment& fillet) {
     std::string too_large =
         fmt::format("the corner at the end of line {} has no room for its {} of {:.6g}; make that smaller", before.line,
                     before.chamfer ? "chamfer" : "fillet", before.corner);
@@ -50,13 +50,13 @@ std::string round_corner(ContourPiece& before, ContourPiece& after, ContourPiece
     const double side = sine > 0 ? before.corner : -before.corner;
     CutterPath left = path_of(before, side, fits_before), right = path_of(after, side, fits_after);
     if (!fits_before || !fits_after) return too_large;
-    const JointPlace joint = joint_of(left, right, before.to, side);
-    if (joint.kind != CutterJoint::meeting) return too_large;
+    const CornerJoinPoint joint = join_corner(left, right, before.to, side);
+    if (joint.kind != CornerJoin::meeting) return too_large;
     const auto foot = [&](const CutterPath& path, const CutterPath& plain) {
         if (path.arc) return path.centre + (joint.at - path.centre) * (plain.radius_in / path.radius_in);
         return joint.at - left_of(path.direction_in) * side;
     };
-    const Planar from = foot(left, plain_before), to = foot(right, plain_after);
+    const PlanePoint from = foot(left, plain_before), to = foot(right, plain_after);
     CutterPath shorter_before = plain_before, shorter_after = plain_after;
     if (!trim(shorter_before, before.from, from) || !trim(shorter_after, to, after.to)) return too_large;
     fillet = {};
@@ -74,14 +74,14 @@ std::string round_corner(ContourPiece& before, ContourPiece& after, ContourPiece
 
 }  // namespace
 
-std::string round_corners(std::vector<ContourPiece>& contour) {
-    std::vector<ContourPiece> out;
+std::string round_corners(std::vector<ContourSegment>& contour) {
+    std::vector<ContourSegment> out;
     for (std::size_t i = 0; i < contour.size(); ++i) {
-        ContourPiece& piece = contour[i];
+        ContourSegment& piece = contour[i];
         if (piece.corner > 0 && i + 1 == contour.size())
             return fmt::format(
                 "line {} is the contour's last one: it ends in no corner, so A and C have no place there", piece.line);
-        ContourPiece fillet;
+        ContourSegment fillet;
         if (piece.corner > 0)
             if (std::string fault = round_corner(piece, contour[i + 1], fillet); !fault.empty()) return fault;
         const bool rounded = piece.corner > 0;
@@ -93,9 +93,9 @@ std::string round_corners(std::vector<ContourPiece>& contour) {
     return {};
 }
 
-std::string make_monotone(std::vector<ContourPiece>& contour, char axis) {
-    std::vector<ContourPiece> out;
-    for (const ContourPiece& piece : contour) {
+std::string make_monotone(std::vector<ContourSegment>& contour, char axis) {
+    std::vector<ContourSegment> out;
+    for (const ContourSegment& piece : contour) {
         const auto goes_back = [&] {
             return fmt::format(
                 "the contour goes back along {} in line {}, but it must go one way; split it, or cut this part by "
@@ -107,15 +107,16 @@ std::string make_monotone(std::vector<ContourPiece>& contour, char axis) {
             out.push_back(piece);
             continue;
         }
-        const Planar a = piece.from - piece.centre, b = piece.to - piece.centre;
+        const PlanePoint a = piece.from - piece.centre, b = piece.to - piece.centre;
         const double radius = length(a);
         const std::array<bool, 4> passed = extremes_passed(a, b, piece.turns > 0);
-        const std::array<Planar, 4> at = {Planar{radius, 0}, Planar{0, radius}, Planar{-radius, 0}, Planar{0, -radius}};
+        const std::array<PlanePoint, 4> at = {PlanePoint{radius, 0}, PlanePoint{0, radius}, PlanePoint{-radius, 0},
+                                              PlanePoint{0, -radius}};
         const auto inside = [&](std::size_t i) {
             return passed[i] && length(at[i] - a) > same_place && length(at[i] - b) > same_place;
         };
         if (length(a - b) < same_place || inside(0) || inside(2)) return goes_back();
-        ContourPiece part = piece;
+        ContourSegment part = piece;
         for (const std::size_t i : {1u, 3u}) {
             if (!inside(i)) continue;
             part.to = piece.centre + at[i];
@@ -129,37 +130,37 @@ std::string make_monotone(std::vector<ContourPiece>& contour, char axis) {
     return {};
 }
 
-std::string beside_contour(const std::vector<ContourPiece>& contour, double distance,
-                           std::vector<ContourPiece>& beside) {
+std::string offset_contour(const std::vector<ContourSegment>& contour, double distance,
+                           std::vector<ContourSegment>& beside) {
     beside.clear();
     if (distance == 0) {
         beside = contour;
         return {};
     }
-    const auto no_room = [&](const ContourPiece& piece) {
+    const auto no_room = [&](const ContourSegment& piece) {
         return fmt::format(
             "at {:.6g} beside the contour there is no room in line {}; make the distance smaller, or the contour wider "
             "there",
             distance, piece.line);
     };
     std::vector<CutterPath> paths;
-    for (const ContourPiece& piece : contour) {
+    for (const ContourSegment& piece : contour) {
         bool fits = false;
         paths.push_back(path_of(piece, distance, fits));
         if (!fits) return no_room(piece);
     }
-    Planar from = paths.front().start;
+    PlanePoint from = paths.front().start;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const bool last = i + 1 == paths.size();
-        const JointPlace joint = last ? JointPlace{CutterJoint::straight_on, paths[i].end}
-                                      : joint_of(paths[i], paths[i + 1], contour[i].to, distance);
-        if (joint.kind == CutterJoint::none) return no_room(contour[i]);
-        const Planar to = joint.kind == CutterJoint::around ? paths[i].end : joint.at;
+        const CornerJoinPoint joint = last ? CornerJoinPoint{CornerJoin::straight_on, paths[i].end}
+                                           : join_corner(paths[i], paths[i + 1], contour[i].to, distance);
+        if (joint.kind == CornerJoin::none) return no_room(contour[i]);
+        const PlanePoint to = joint.kind == CornerJoin::around ? paths[i].end : joint.at;
         if (!trim(paths[i], from, to)) return no_room(contour[i]);
         beside.push_back(piece_of(paths[i], contour[i].line));
         from = to;
-        if (joint.kind != CutterJoint::around) continue;
-        ContourPiece around;
+        if (joint.kind != CornerJoin::around) continue;
+        ContourSegment around;
         around.from = to;
         around.to = from = paths[i + 1].start;
         around.centre = contour[i].to;

@@ -158,13 +158,13 @@ TEST(GcodeCutter, EventsStayInOrderWithTheMoves) {
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     std::string order;
     for (const Step& step : program.steps) {
-        if (step.kind == StepKind::move)
+        if (step.kind == CanonCallKind::move)
             order += step.move.kind == MoveKind::dwell ? 'd' : step.move.kind == MoveKind::arc ? 'a' : 'm';
         else
-            order += step.kind == StepKind::coolant ? 'c'
-                     : step.kind == StepKind::pause ? 'p'
-                     : step.kind == StepKind::end   ? 'e'
-                                                    : 's';
+            order += step.kind == CanonCallKind::coolant ? 'c'
+                     : step.kind == CanonCallKind::pause ? 'p'
+                     : step.kind == CanonCallKind::end   ? 'e'
+                                                         : 's';
     }
     EXPECT_EQ(order, "mmcdmpamse");
 }

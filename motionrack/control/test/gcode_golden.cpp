@@ -36,7 +36,7 @@ TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
         ProgramFlow walk(text, settings_of(name), name);
         for (std::string_view line; walk.next(line);) {
             ASSERT_TRUE(interpreter.line(line, walk.number(), Language::program)) << name << ": " << line;
-            ASSERT_TRUE(walk.took(interpreter));
+            ASSERT_TRUE(walk.line_accepted(interpreter));
             const Block& block = interpreter.block();
             for (int i = 0; i < g_group_count; ++i)
                 if (block.has_g(static_cast<GroupG>(i))) g.insert(block.g[static_cast<std::size_t>(i)]);

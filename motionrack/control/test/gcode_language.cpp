@@ -90,7 +90,7 @@ TEST(GcodeExpressions, GiveWordsOfAllKindsTheirValues) {
     EXPECT_EQ(moves[1].kind, MoveKind::traverse);
     EXPECT_EQ(moves[1].path, PathControl::exact_stop);
     EXPECT_EQ(moves[1].end[0], 1);
-    EXPECT_EQ(good.steps.back().kind, StepKind::spindle);
+    EXPECT_EQ(good.steps.back().kind, CanonCallKind::spindle);
 }
 
 TEST(GcodeParameters, AreSetAfterTheWholeLineIsRead) {
@@ -184,10 +184,10 @@ TEST(GcodeParameters, AreShownByDebugAndPrint) {
                       testing::machine());
     ASSERT_TRUE(read.problems.empty());
     ASSERT_EQ(read.steps.size(), 4u);
-    EXPECT_EQ(read.steps[0].kind, StepKind::message);
-    EXPECT_EQ(read.steps[2].kind, StepKind::message);
+    EXPECT_EQ(read.steps[0].kind, CanonCallKind::message);
+    EXPECT_EQ(read.steps[2].kind, CanonCallKind::message);
     EXPECT_EQ(read.steps[2].text, "#1");
-    EXPECT_EQ(read.steps[3].kind, StepKind::comment);
+    EXPECT_EQ(read.steps[3].kind, CanonCallKind::comment);
     std::string out;
     const auto done = print_canon("#1=2.5 #<hole>=7\n(DEBUG, at #1 and #<hole>, #<none>)\n(PRINT,%d#1 %.2f#1)\n",
                                   testing::machine(), {}, [&](std::string_view line) { out += line; });

@@ -77,10 +77,11 @@ TEST(GcodeReader, PathControlGoesWithEachMove) {
 
 TEST(GcodeReader, TellsEventsInTheOrderInWhichTheyTakeEffect) {
     const auto program = read("G0 X1 M0 T4 M6 S500 M3 M7 M8 (hello) (MSG,look) G4 P2\nM9 M5\nM1\nM30\nG0 X9");
-    const StepKind kinds[] = {
-        StepKind::comment, StepKind::message, StepKind::spindle_speed,  StepKind::tool_select, StepKind::tool_change,
-        StepKind::spindle, StepKind::coolant, StepKind::move,           StepKind::move,        StepKind::pause,
-        StepKind::spindle, StepKind::coolant, StepKind::optional_pause, StepKind::end};
+    const CanonCallKind kinds[] = {
+        CanonCallKind::comment,        CanonCallKind::message, CanonCallKind::spindle_speed, CanonCallKind::tool_select,
+        CanonCallKind::tool_change,    CanonCallKind::spindle, CanonCallKind::coolant,       CanonCallKind::move,
+        CanonCallKind::move,           CanonCallKind::pause,   CanonCallKind::spindle,       CanonCallKind::coolant,
+        CanonCallKind::optional_pause, CanonCallKind::end};
     ASSERT_TRUE(program.problems.empty());
     ASSERT_EQ(program.steps.size(), std::size(kinds));
     for (std::size_t i = 0; i < std::size(kinds); ++i) EXPECT_EQ(program.steps[i].kind, kinds[i]) << i;
@@ -230,7 +231,7 @@ TEST(GcodeProbing, TheNextLineBeginsWhereTheMachineStands) {
     Interpreter interpreter(testing::machine());
     ASSERT_TRUE(interpreter.line("G91 F60 G38.2 Z-10", 1));
     ASSERT_EQ(interpreter.pull()->probe, Probe::contact);
-    interpreter.probed(true, {0, 0, -3, 0, 0, 0}, {0, 0, -3.125, 0, 0, 0});
+    interpreter.set_probe_result(true, {0, 0, -3, 0, 0, 0}, {0, 0, -3.125, 0, 0, 0});
     EXPECT_TRUE(interpreter.frame().probe_hit);
     EXPECT_EQ(interpreter.frame().probe[2], -3);
     ASSERT_TRUE(interpreter.line("G0 Z1", 2));

@@ -24,9 +24,9 @@ std::vector<std::string> told(const std::string& program) {
     };
     for (const Step& step : read.steps) {
         const std::string port = (step.analog ? " E" : " P") + std::to_string(step.port) + ' ' + number(step.value);
-        if (step.kind == StepKind::output) out.push_back("out" + port + (step.with_motion ? " moving" : ""));
-        if (step.kind == StepKind::input) out.push_back("in" + port);
-        if (step.kind == StepKind::move)
+        if (step.kind == CanonCallKind::output) out.push_back("out" + port + (step.with_motion ? " moving" : ""));
+        if (step.kind == CanonCallKind::input) out.push_back("in" + port);
+        if (step.kind == CanonCallKind::move)
             out.push_back(step.move.kind == MoveKind::dwell
                               ? "wait " + number(step.move.seconds)
                               : "X" + number(step.move.end[0]) + (step.overridable ? "" : " as written"));
@@ -63,7 +63,7 @@ TEST(GcodePorts, SayWhetherTheMachineStandsStillForThem) {
     const auto read = testing::read("M62 P1\nM67 E1 Q1\nM3 S1\nM49\nM64 P1\nM68 E1 Q1\nM66 P1\n");
     ASSERT_EQ(read.problems.size(), 0u);
     std::string rests;
-    for (const Step& step : read.steps) rests += needs_rest(step) ? 'r' : '-';
+    for (const Step& step : read.steps) rests += needs_standstill(step) ? 'r' : '-';
     EXPECT_EQ(rests, "-----rrr");
 }
 

@@ -32,7 +32,7 @@ struct Program {
     std::vector<Move> moves() const {
         std::vector<Move> out;
         for (const Step& step : steps) {
-            if (step.kind == StepKind::move) out.push_back(step.move);
+            if (step.kind == CanonCallKind::move) out.push_back(step.move);
         }
         return out;
     }

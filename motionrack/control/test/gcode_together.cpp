@@ -21,7 +21,7 @@ std::vector<Point> probing_at(std::string_view text, double edge) {
         const auto step = reader.next();
         EXPECT_TRUE(step) << step.error().text();
         if (!step || *step == nullptr) return ends;
-        if ((*step)->kind != StepKind::move) continue;
+        if ((*step)->kind != CanonCallKind::move) continue;
         ends.push_back((*step)->move.end);
         if ((*step)->probe == Probe::none) continue;
         Point at = ends.back(), stands = at;
@@ -30,7 +30,7 @@ std::vector<Point> probing_at(std::string_view text, double edge) {
             at[2] = edge;
             stands[2] = edge - 0.1;
         }
-        reader.probed(hit, at, stands);
+        reader.set_probe_result(hit, at, stands);
     }
 }
 

@@ -19,12 +19,12 @@ constexpr double near = 1e-6;
 constexpr double rough = cutter_tolerance_mm + near;
 
 /// A contour in the view of a cycle: `first` along the cut, `second` away from the work piece.
-std::vector<ContourPiece> random_contour(bool arcs, double widest) {
-    std::vector<ContourPiece> out;
-    Planar at = {0, *rc::gen::inRange(0, 40) * 1.0};
+std::vector<ContourSegment> random_contour(bool arcs, double widest) {
+    std::vector<ContourSegment> out;
+    PlanePoint at = {0, *rc::gen::inRange(0, 40) * 1.0};
     const int count = *rc::gen::inRange(1, 8);
     for (int i = 0; i < count; ++i) {
-        ContourPiece piece;
+        ContourSegment piece;
         piece.from = at;
         piece.line = i + 1;
         const bool after_upright = !out.empty() && out.back().to.first == out.back().from.first;
@@ -44,7 +44,7 @@ std::vector<ContourPiece> random_contour(bool arcs, double widest) {
         at = piece.to;
     }
     if (out.empty() || out.back().to.first - out.front().from.first < 1) {
-        ContourPiece piece;
+        ContourSegment piece;
         piece.from = at;
         piece.to = {at.first + 20, at.second};
         piece.line = 99;
@@ -54,7 +54,7 @@ std::vector<ContourPiece> random_contour(bool arcs, double widest) {
 }
 
 /// The height of a move or of a piece of contour at a place along the cut; nothing where it is not there, or upright.
-std::optional<double> height_at(Planar from, Planar to, std::int32_t turns, Planar centre, double along) {
+std::optional<double> height_at(PlanePoint from, PlanePoint to, std::int32_t turns, PlanePoint centre, double along) {
     const double least = std::min(from.first, to.first), greatest = std::max(from.first, to.first);
     if (along < least || along > greatest || greatest - least < near) return std::nullopt;
     if (turns == 0) return from.second + (to.second - from.second) * (along - from.first) / (to.first - from.first);
@@ -63,21 +63,21 @@ std::optional<double> height_at(Planar from, Planar to, std::int32_t turns, Plan
     return (turns < 0) == (to.first > from.first) ? centre.second + half : centre.second - half;
 }
 
-double contour_at(const std::vector<ContourPiece>& contour, double along) {
+double contour_at(const std::vector<ContourSegment>& contour, double along) {
     double height = -1e9;
-    for (const ContourPiece& piece : contour)
+    for (const ContourSegment& piece : contour)
         if (const auto here = height_at(piece.from, piece.to, piece.turns, piece.centre, along))
             height = std::max(height, *here);
     return height;
 }
 
-double contour_distance_to(const ContourPiece& piece, Planar p) {
+double contour_distance_to(const ContourSegment& piece, PlanePoint p) {
     if (piece.turns == 0) {
-        const Planar way = piece.to - piece.from;
+        const PlanePoint way = piece.to - piece.from;
         const double share = std::clamp(dot(p - piece.from, way) / dot(way, way), 0.0, 1.0);
         return length(p - (piece.from + way * share));
     }
-    const Planar out = p - piece.centre;
+    const PlanePoint out = p - piece.centre;
     const double radius = length(piece.from - piece.centre);
     const double sense = piece.turns;
     const bool beside =
@@ -86,46 +86,47 @@ double contour_distance_to(const ContourPiece& piece, Planar p) {
     return std::min(length(p - piece.from), length(p - piece.to));
 }
 
-double contour_distance_to(const std::vector<ContourPiece>& contour, Planar p) {
+double contour_distance_to(const std::vector<ContourSegment>& contour, PlanePoint p) {
     double nearest = 1e9;
-    for (const ContourPiece& piece : contour) nearest = std::min(nearest, contour_distance_to(piece, p));
+    for (const ContourSegment& piece : contour) nearest = std::min(nearest, contour_distance_to(piece, p));
     return nearest;
 }
 
 /// Above the contour or on it. Where it is upright, its lower side counts: a tool may stand there.
-bool is_above(const std::vector<ContourPiece>& contour, Planar p) {
+bool is_above(const std::vector<ContourSegment>& contour, PlanePoint p) {
     return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - near ||
            contour_distance_to(contour, p) <= rough;
 }
 
 struct Moved {
-    Planar from;
-    TurningMove move;  ///< in the view
+    PlanePoint from;
+    LatheMove move;  ///< in the view
 
-    Planar at(double share) const {
+    PlanePoint at(double share) const {
         if (move.turns == 0) return from + (move.to - from) * share;
-        const Planar a = from - move.centre, b = move.to - move.centre;
+        const PlanePoint a = from - move.centre, b = move.to - move.centre;
         const double angle = std::atan2(cross(a, b), dot(a, b)) * share, c = std::cos(angle), s = std::sin(angle);
-        return move.centre + Planar{a.first * c - a.second * s, a.first * s + a.second * c};
+        return move.centre + PlanePoint{a.first * c - a.second * s, a.first * s + a.second * c};
     }
 };
 
 /// Does a cycle on a contour given in its view, in one of the eight ways in which that can lie in X and Z.
-std::string cut(const TurningView& view, TurningPlan plan, std::vector<ContourPiece> contour, std::vector<Moved>& out) {
-    for (ContourPiece& piece : contour) {
+std::string cut(const CuttingOrientation& view, LatheCycle plan, std::vector<ContourSegment> contour,
+                std::vector<Moved>& out) {
+    for (ContourSegment& piece : contour) {
         piece.from = view.out(piece.from);
         piece.to = view.out(piece.to);
         piece.centre = view.out(piece.centre);
         piece.turns = view.turns(piece.turns);
     }
-    const Planar start = plan.start;
+    const PlanePoint start = plan.start;
     plan.start = view.out(start);
     if (view.swapped && plan.code != 700) plan.code = static_cast<std::int16_t>(plan.code + 10);
-    std::vector<TurningMove> moves;
+    std::vector<LatheMove> moves;
     std::string fault = turn(plan, contour, plan.start, moves);
-    Planar at = start;
+    PlanePoint at = start;
     out.clear();
-    for (TurningMove move : moves) {
+    for (LatheMove move : moves) {
         move.to = view.in(move.to);
         move.centre = view.in(move.centre);
         move.turns = view.turns(move.turns);
@@ -135,8 +136,8 @@ std::string cut(const TurningView& view, TurningPlan plan, std::vector<ContourPi
     return fault;
 }
 
-TurningView random_view() {
-    TurningView view;
+CuttingOrientation random_view() {
+    CuttingOrientation view;
     view.swapped = *rc::gen::arbitrary<bool>();
     view.along = *rc::gen::arbitrary<bool>() ? 1 : -1;
     view.away = *rc::gen::arbitrary<bool>() ? 1 : -1;
@@ -159,7 +160,7 @@ double left_at(const std::vector<Moved>& moves, std::size_t count, double along)
 
 RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnceAndNeverRapidsThroughThePiece, ()) {
     const auto contour = random_contour(true, 30);
-    TurningPlan plan;
+    LatheCycle plan;
     plan.start = {-2, top};
     plan.distance = *rc::gen::inRange(0, 3) == 0 ? 0 : *rc::gen::inRange(1, 15) / 10.0;
     plan.depth = *rc::gen::inRange(5, 90) / 10.0;
@@ -171,14 +172,14 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
     const double begin = contour.front().from.first + plan.distance, end = contour.back().to.first - plan.distance;
     // The levels begin on the line from the start to where the path beside the contour begins. Where the contour goes
     // down at once, that lies past its first corner, and the line leads over the corner at less than D.
-    std::vector<ContourPiece> beside;
-    RC_ASSERT(beside_contour(contour, plan.distance, beside) == "");
-    ContourPiece way_in;
+    std::vector<ContourSegment> beside;
+    RC_ASSERT(offset_contour(contour, plan.distance, beside) == "");
+    ContourSegment way_in;
     way_in.from = plan.start, way_in.to = beside.front().from;
     const double over_corner = std::min(plan.distance, contour_distance_to(way_in, contour.front().from));
     for (std::size_t i = 0; i < moves.size(); ++i) {
         for (int k = 0; k <= 12; ++k) {
-            const Planar p = moves[i].at((k + 0.37) / 13);
+            const PlanePoint p = moves[i].at((k + 0.37) / 13);
             RC_ASSERT(contour_distance_to(contour, p) >=
                       (p.first < way_in.to.first ? over_corner : plan.distance) - rough);
             RC_ASSERT(is_above(contour, p));
@@ -196,13 +197,13 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
 
 RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
     const auto contour = random_contour(true, 30);
-    TurningPlan plan;
+    LatheCycle plan;
     plan.start = {-2, top};
     plan.depth = *rc::gen::inRange(5, 90) / 10.0;
-    const TurningView view = random_view();
+    const CuttingOrientation view = random_view();
     std::vector<Moved> moves;
     RC_ASSERT(cut(view, plan, contour, moves) == "");
-    for (const ContourPiece& piece : contour)
+    for (const ContourSegment& piece : contour)
         for (const double share : {0.21, 0.5, 0.83}) {
             const double along = piece.from.first + (piece.to.first - piece.from.first) * share;
             if (piece.to.first - piece.from.first < near) continue;
@@ -225,21 +226,21 @@ RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
 
 RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     const auto contour = random_contour(true, 30);
-    TurningPlan plan;
+    LatheCycle plan;
     plan.code = 700;
     plan.start = {-2, top};
     plan.distance = *rc::gen::inRange(0, 20) / 10.0;
     plan.end_distance = *rc::gen::inRange(0, 10) / 10.0;
     plan.passes = *rc::gen::inRange(1, 4);
     std::vector<Moved> moves;
-    TurningView view;  // not across: a contour that goes one way along both is taken along Z
+    CuttingOrientation view;  // not across: a contour that goes one way along both is taken along Z
     view.along = *rc::gen::arbitrary<bool>() ? 1 : -1;
     view.away = *rc::gen::arbitrary<bool>() ? 1 : -1;
     if (!cut(view, plan, contour, moves).empty()) RC_DISCARD("no room");
     double nearest = 1e9;
     for (const Moved& one : moves)
         for (int k = 0; k <= 12; ++k) {
-            const Planar p = one.at(k / 12.0);
+            const PlanePoint p = one.at(k / 12.0);
             nearest = std::min(nearest, contour_distance_to(contour, p));
             RC_ASSERT(is_above(contour, p));
         }
@@ -249,7 +250,7 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
 
 RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStarts, ()) {
     const auto contour = random_contour(true, 30);
-    TurningPlan plan;
+    LatheCycle plan;
     plan.code = *rc::gen::element<std::int16_t>(700, 710, 711, 712);
     plan.start = {*rc::gen::inRange(-5, 60) * 1.0, contour.front().from.second + *rc::gen::inRange(1, 60)};
     plan.distance = *rc::gen::inRange(0, 20) / 10.0;
@@ -257,7 +258,7 @@ RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStart
     plan.passes = *rc::gen::inRange(1, 4);
     plan.depth = *rc::gen::inRange(5, 90) / 10.0;
     plan.retract = *rc::gen::inRange(0, 20) / 10.0;
-    TurningView view;
+    CuttingOrientation view;
     view.along = *rc::gen::arbitrary<bool>() ? 1 : -1;
     view.away = *rc::gen::arbitrary<bool>() ? 1 : -1;
     std::vector<Moved> moves;
@@ -267,9 +268,9 @@ RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStart
 }
 
 /// G70 in two passes along a contour that is given in its view.
-void expect_finished_above(const std::vector<ContourPiece>& contour, Planar start, double distance,
+void expect_finished_above(const std::vector<ContourSegment>& contour, PlanePoint start, double distance,
                            double end_distance) {
-    TurningPlan plan;
+    LatheCycle plan;
     plan.code = 700;
     plan.start = start;
     plan.distance = distance;

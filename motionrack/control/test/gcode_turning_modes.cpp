@@ -14,7 +14,7 @@ using testing::Refused;
 
 TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     const auto pieces = [](double radius, bool chamfer) {
-        std::vector<ContourPiece> contour(2);
+        std::vector<ContourSegment> contour(2);
         contour[0] = {{0, 10}, {-10, 10}, 0, {}, radius, chamfer, 1};
         contour[1] = {{-10, 10}, {-10, 20}, 0, {}, 0, false, 2};
         EXPECT_EQ(round_corners(contour), "");
@@ -29,7 +29,7 @@ TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     EXPECT_EQ(chamfer[1].turns, 0);
     EXPECT_NEAR(chamfer[1].from.first, -8, 1e-12);
     EXPECT_NEAR(chamfer[1].to.second, 12, 1e-12);
-    std::vector<ContourPiece> straight(2);
+    std::vector<ContourSegment> straight(2);
     straight[0] = {{0, 10}, {-10, 10}, 0, {}, 2, false, 1};
     straight[1] = {{-10, 10}, {-20, 10}, 0, {}, 0, false, 2};
     EXPECT_THAT(round_corners(straight), ::testing::HasSubstr("does not turn at the end of line 1"));
@@ -45,8 +45,8 @@ TEST(GcodeTurning, TheMachineStandsAtTheEndAndModesAreThoseOfTheProgram) {
     EXPECT_EQ(moves.back().end[2], -30);
     int events = 0;
     for (const Step& step : read.steps) {
-        events += step.kind != StepKind::move;
-        if (step.kind == StepKind::move && step.move.kind == MoveKind::feed) {
+        events += step.kind != CanonCallKind::move;
+        if (step.kind == CanonCallKind::move && step.move.kind == MoveKind::feed) {
             EXPECT_EQ(step.move.feed, 10);
         }
     }

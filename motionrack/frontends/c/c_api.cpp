@@ -18,7 +18,7 @@ constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
 constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";
 constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
-constexpr const char* no_place = "There is no place for the rack: it is a null pointer. Nothing was done.";
+constexpr const char* no_location = "There is no place for the rack: it is a null pointer. Nothing was done.";
 
 template <class Word>
 constexpr int bits_of = 8 * static_cast<int>(sizeof(Word));
@@ -42,7 +42,7 @@ int write(mr_rack* rack, const char* card, std::uint32_t address, Word value) {
 int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
     if (out != nullptr) *out = nullptr;
     bool wrong_text = false;
-    const int code = guarded({{toml_path_or_text, no_text}, {out, no_place}}, [&]() -> Result<void> {
+    const int code = guarded({{toml_path_or_text, no_text}, {out, no_location}}, [&]() -> Result<void> {
         auto session = Session::open(toml_path_or_text, Session::Programs::yes);
         if (!session) {
             wrong_text = session.error().trouble == Trouble::bad_input;
@@ -134,7 +134,7 @@ int mr_fault(mr_rack* rack, const char* fault, const char* target) {
 
 int mr_snapshot(mr_rack* rack, mr_rack** copy) {
     if (copy != nullptr) *copy = nullptr;
-    return guarded({{rack, no_rack}, {copy, no_place}}, [&]() -> Result<void> {
+    return guarded({{rack, no_rack}, {copy, no_location}}, [&]() -> Result<void> {
         MOTIONRACK_TRY(std::unique_ptr<Session> made, rack->session->copy());
         *copy = new mr_rack{std::move(made)};
         return {};

@@ -68,7 +68,7 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     if (!text) return report(text.error());
     const auto settings = program_settings(*config, path, options.reading, code);
     if (!settings) return code;
-    const control::gcode::ProgramCheck check = control::gcode::check_program(*text, *settings, most_problems, path);
+    const control::gcode::ProgramCheck check = control::gcode::check_program(*text, *settings, max_problems, path);
     if (json) {
         nlohmann::json entry = {{"file", path},           {"ok", check.problems.empty()},
                                 {"lines", check.lines},   {"moves", check.moves},

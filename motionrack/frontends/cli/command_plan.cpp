@@ -169,14 +169,14 @@ int plan(const PlanOptions& options) {
     note_subprograms(*reading, program->name, inputs);
     const control::gcode::Settings& settings = *reading;
     if (const int bad = print_problems(
-            control::gcode::check_program(program->text, settings, most_problems, program->name), program->name);
+            control::gcode::check_program(program->text, settings, max_problems, program->name), program->name);
         bad != exit_done)
         return bad;
     if (!may_write(inputs, {options.picture})) return exit_refused;
     std::vector<Move> moves;
     control::gcode::ProgramReader reader(program->text, settings, program->name);
     for (auto step = reader.next(); step && *step != nullptr; step = reader.next())
-        if ((*step)->kind == control::gcode::StepKind::move) moves.push_back((*step)->move);
+        if ((*step)->kind == control::gcode::CanonCallKind::move) moves.push_back((*step)->move);
     stop_on_signals();
     const control::MachineLimits limits = config->limits();
     const Plans plans{program->name, moves.size(), by_trapezoids(moves, limits, settings.start, true),

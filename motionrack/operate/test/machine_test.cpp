@@ -23,7 +23,7 @@ TEST(AMachine, DrivesAProgramToItsEnd) {
     EXPECT_NEAR(o.y(), 10, 0.5 / 640);
     EXPECT_NEAR(o.machine->status().axes[0].actual, 40, 1.0 / 640);
     EXPECT_EQ(o.machine->status().line, 5);
-    EXPECT_THAT(o.events, testing::Contains(control::gcode::StepKind::end));
+    EXPECT_THAT(o.events, testing::Contains(control::gcode::CanonCallKind::end));
 }
 
 TEST(AMachine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {

@@ -61,7 +61,7 @@ class Operated {
     std::unique_ptr<Machine> machine;
     std::optional<test::MachineWatch> watch;
     std::vector<std::string> states;  ///< as they followed each other
-    std::vector<control::gcode::StepKind> events;
+    std::vector<control::gcode::CanonCallKind> events;
     double top_speed = 0, stood_since = 0;
 
   private:

@@ -37,7 +37,7 @@ JobOutcome run_probe(const std::string& rack_text, const std::string& program) {
 }
 
 /// The events of the program that tell of the probe.
-std::vector<std::string> probed(const JobOutcome& out) {
+std::vector<std::string> set_probe_result(const JobOutcome& out) {
     std::vector<std::string> texts;
     for (const control::ProgramEvent& event : out.run.events)
         if (event.text.find("probe") == 0) texts.push_back(event.text);
@@ -62,7 +62,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
         const double edge = feed < 10 ? 0.321 : 187.123;
         const JobOutcome out = run_probe(rack_text("x_from_mm = " + std::to_string(edge) + "\n"), program);
         ASSERT_TRUE(out.ended) << out.ended.error().message;
-        EXPECT_EQ(probed(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
+        EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
         // It comes to rest behind the edge, by no more than the way to brake and a little.
         const double speed = feed / 60.0, way = out.axes[0].real_end - whole(edge);
         EXPECT_GE(way, 0);
@@ -76,7 +76,7 @@ TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
         run_probe(rack_text("x_from_mm = 41.7\ny_from_mm = 0\ny_to_mm = 100\nz_from_mm = 0\nz_to_mm = 75\n"),
                   "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
-    const auto texts = probed(out);
+    const auto texts = set_probe_result(out);
     ASSERT_EQ(texts.size(), 1u);
     double x = 0, y = 0, z = 0;
     ASSERT_EQ(std::sscanf(texts[0].c_str(), "probe touched at X %lf Y %lf Z %lf", &x, &y, &z), 3) << texts[0];
@@ -92,8 +92,8 @@ TEST(Probing, LeavesAndTouchesWithinOneProgram) {
                   "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
-    EXPECT_EQ(probed(out), (std::vector{at("touched", 0, 0, edge), at("left", 0, 0, edge + 1 / pulses_per_mm),
-                                        at("touched", 0, 0, edge)}));
+    EXPECT_EQ(set_probe_result(out), (std::vector{at("touched", 0, 0, edge), at("left", 0, 0, edge + 1 / pulses_per_mm),
+                                                  at("touched", 0, 0, edge)}));
     EXPECT_NEAR(out.axes[2].real_end, edge + 5, 0.01);
     EXPECT_EQ(out.axes[0].real_end, 10);
     EXPECT_EQ(out.run.moves, 5);
@@ -150,7 +150,7 @@ TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
     const JobOutcome out =
         run_probe(rack_text("x_from_mm = 100\nx_to_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
-    EXPECT_EQ(probed(out), std::vector{at("touched", 100, 0, 80)});
+    EXPECT_EQ(set_probe_result(out), std::vector{at("touched", 100, 0, 80)});
     EXPECT_EQ(out.axes[0].real_end, 120);
 }
 
@@ -158,7 +158,7 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     const std::string rack = rack_text("x_from_mm = 200\n");
     const JobOutcome may = run_probe(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
-    EXPECT_EQ(probed(may),
+    EXPECT_EQ(set_probe_result(may),
               std::vector<std::string>{"probe did not touch on its way, which ended at X 50.0000 Y 0.0000 Z 80.0000"});
     EXPECT_EQ(may.axes[0].real_end, 60);
     const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
@@ -182,7 +182,7 @@ TEST(Probing, GoesWithLimitedJerkToo) {
     const JobOutcome out = run_probe(rack_text("x_from_mm = 187.123\n", "[controller]\nprofile = \"jerk_limited\"\n"),
                                      "G21 G90\nG1 X20 Y20 F3000\nG38.2 X250 F3000\nG91 G1 Y-5\nX-10\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
-    EXPECT_EQ(probed(out), std::vector{at("touched", whole(187.123), 20, 80)});
+    EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(187.123), 20, 80)});
     EXPECT_NEAR(out.axes[1].real_end, 15, 0.002);
 }
 

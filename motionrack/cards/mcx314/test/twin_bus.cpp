@@ -259,8 +259,8 @@ bool Twin::any_busy(const Segment& segment) const {
 void Twin::path_command(int code) {
     path_interrupt_ = false;
     const Segment segment = captured(code);
-    const bool no_place = chain_ != 0 && (queued_ || path_.is_pattern() || segment.kind == Segment::Kind::pattern);
-    if (segment.names_an_axis_twice() || any_busy(segment) || no_place) {
+    const bool no_location = chain_ != 0 && (queued_ || path_.is_pattern() || segment.kind == Segment::Kind::pattern);
+    if (segment.names_an_axis_twice() || any_busy(segment) || no_location) {
         ++conditions_;
     } else if (chain_ != 0) {
         queued_ = true;

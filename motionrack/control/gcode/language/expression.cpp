@@ -11,7 +11,7 @@
 
 namespace motionrack::control::gcode {
 
-enum class ExpressionReader::Operator : unsigned char {
+enum class ExpressionParser::Operator : unsigned char {
     none,
     power,
     times,
@@ -115,22 +115,22 @@ const char* domain_of(Function function) {
 
 }  // namespace
 
-void ExpressionReader::skip(const char*& at) const {
+void ExpressionParser::skip(const char*& at) const {
     while (at < end_ && is_blank(*at)) ++at;
 }
 
-bool ExpressionReader::fail(const char* at, std::string message) {
+bool ExpressionParser::fail(const char* at, std::string message) {
     fault_at_ = static_cast<std::size_t>(at - text_.data());
     fault_ = std::move(message);
     return false;
 }
 
-bool ExpressionReader::finite(const char* at, double value) {
+bool ExpressionParser::finite(const char* at, double value) {
     if (std::isfinite(value)) return true;
     return fail(at, "this comes out larger than any number; take a look at the values in it");
 }
 
-bool ExpressionReader::begins(const char* at) const {
+bool ExpressionParser::begins(const char* at) const {
     skip(at);
     while (at < end_ && (*at == '-' || *at == '+')) {
         ++at;
@@ -141,7 +141,7 @@ bool ExpressionReader::begins(const char* at) const {
     return *at == '#' || *at == '[' || function_at(at, end_, bracket) != Function::none;
 }
 
-bool ExpressionReader::value(const char*& at, double& value) {
+bool ExpressionParser::value(const char*& at, double& value) {
     skip(at);
     if (at == end_) return fail(at, "a value is missing here: a number, #1, #<name> or [ ]");
     const char* begin = at;
@@ -189,7 +189,7 @@ bool ExpressionReader::value(const char*& at, double& value) {
     return good && finite(begin, value);
 }
 
-bool ExpressionReader::bracket(const char*& at, double& value) {
+bool ExpressionParser::bracket(const char*& at, double& value) {
     const char* open = at++;
     if (!operation(at, 0, value)) return false;
     if (at < end_ && *at == ']') {
@@ -200,7 +200,7 @@ bool ExpressionReader::bracket(const char*& at, double& value) {
     return fail(at, "an operator or ']' is expected here; operators are ** * / MOD + - EQ NE GT GE LT LE AND OR XOR");
 }
 
-ExpressionReader::Operator ExpressionReader::operator_at(const char* at, const char*& after) const {
+ExpressionParser::Operator ExpressionParser::operator_at(const char* at, const char*& after) const {
     struct Sign {
         std::string_view text;
         Operator what;
@@ -219,7 +219,7 @@ ExpressionReader::Operator ExpressionReader::operator_at(const char* at, const c
 }
 
 /// A value and all operators behind it that are not weaker than `weakest`.
-bool ExpressionReader::operation(const char*& at, int weakest, double& value) {
+bool ExpressionParser::operation(const char*& at, int weakest, double& value) {
     if (!this->value(at, value)) return false;
     for (;;) {
         const char* after = at;
@@ -233,7 +233,7 @@ bool ExpressionReader::operation(const char*& at, int weakest, double& value) {
     }
 }
 
-bool ExpressionReader::apply(const char* at, Operator what, double& left, double right) {
+bool ExpressionParser::apply(const char* at, Operator what, double& left, double right) {
     switch (what) {
         case Operator::power:
             if (left < 0 && right != std::floor(right))
@@ -292,7 +292,7 @@ bool ExpressionReader::apply(const char* at, Operator what, double& left, double
     return finite(at, left);
 }
 
-bool ExpressionReader::unary(const char*& at, double& value) {
+bool ExpressionParser::unary(const char*& at, double& value) {
     const char* begin = at;
     const char* open = at;
     const Function function = function_at(at, end_, open);
@@ -308,7 +308,7 @@ bool ExpressionReader::unary(const char*& at, double& value) {
                                    x, domain_of(function)));
 }
 
-bool ExpressionReader::arc_tangent(const char*& at, double over, double& value) {
+bool ExpressionParser::arc_tangent(const char*& at, double over, double& value) {
     skip(at);
     if (at == end_ || *at != '/')
         return fail(at, "ATAN takes two sides of a triangle: '/' and a second bracket are missing, e.g. ATAN[1]/[2]");
@@ -322,7 +322,7 @@ bool ExpressionReader::arc_tangent(const char*& at, double over, double& value) 
     return true;
 }
 
-bool ExpressionReader::exists(const char*& at, double& value) {
+bool ExpressionParser::exists(const char*& at, double& value) {
     const char* open = at++;
     skip(at);
     if (at == end_ || *at != '#') return fail(at, "EXISTS asks for a parameter, e.g. EXISTS[#<depth>]");
@@ -335,7 +335,7 @@ bool ExpressionReader::exists(const char*& at, double& value) {
     return true;
 }
 
-bool ExpressionReader::parameter(const char*& at, ParameterName& name) {
+bool ExpressionParser::parameter(const char*& at, ParameterName& name) {
     const char* begin = at++;
     skip(at);
     if (at < end_ && *at == '<') {

@@ -36,9 +36,9 @@ struct ParameterName {
 };
 
 /// Reads values out of a line. After a method gave false, `fault_at` (from 0) and `fault` say what is wrong.
-class ExpressionReader {
+class ExpressionParser {
   public:
-    ExpressionReader(std::string_view text, const ParameterSource& source)
+    ExpressionParser(std::string_view text, const ParameterSource& source)
         : text_(text), end_(text.data() + text.size()), source_(source) {}
 
     /// Whether a value that is not a plain number begins at `at`: '#', '[', a function, or one of these after a sign.

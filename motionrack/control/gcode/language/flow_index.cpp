@@ -9,38 +9,38 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr std::size_t most_problems = 100;
+constexpr std::size_t max_problems = 100;
 
 class Indexer {
   public:
-    explicit Indexer(FlowIndex& index) : index_(index) {}
+    explicit Indexer(OWordIndex& index) : index_(index) {}
 
     void line(std::string_view text, std::size_t column, const ProgramLines& before, const ProgramLines& after);
     void finish();
 
   private:
-    FlowPlace& open_place() { return index_.places[static_cast<std::size_t>(open_.back())]; }
-    std::string what(const FlowPlace& place) const {
+    OWordLocation& open_place() { return index_.places[static_cast<std::size_t>(open_.back())]; }
+    std::string what(const OWordLocation& place) const {
         return fmt::format("o{} {}", labels_[static_cast<std::size_t>(place.label)], name_of(place.word));
     }
-    void fail(const FlowPlace& place, std::string message);
+    void fail(const OWordLocation& place, std::string message);
     void pair(std::int32_t at);
     void begin_sub(std::int32_t at, const std::string& label);
     void begin_program(std::int32_t at, const std::string& label);
     void branch(std::int32_t at);
-    void close(std::int32_t at, FlowWord opener);
+    void close(std::int32_t at, OWord opener);
     void inside(std::int32_t at);
-    bool fits(std::int32_t at, FlowWord opener);
+    bool fits(std::int32_t at, OWord opener);
     std::int32_t label_number(const std::string& label);
 
-    FlowIndex& index_;
+    OWordIndex& index_;
     std::vector<std::int32_t> open_;
     std::map<std::string, std::int32_t> label_numbers_;
     std::vector<std::string> labels_;
 };
 
-bool is_loop(FlowWord word) {
-    return word == FlowWord::while_true || word == FlowWord::do_once || word == FlowWord::repeat;
+bool is_loop(OWord word) {
+    return word == OWord::while_true || word == OWord::do_once || word == OWord::repeat;
 }
 
 std::int32_t Indexer::label_number(const std::string& label) {
@@ -49,8 +49,8 @@ std::int32_t Indexer::label_number(const std::string& label) {
     return found->second;
 }
 
-void Indexer::fail(const FlowPlace& place, std::string message) {
-    if (index_.problems.size() >= most_problems) return;
+void Indexer::fail(const OWordLocation& place, std::string message) {
+    if (index_.problems.size() >= max_problems) return;
     Problem problem;
     set_problem(problem, place.text, place.column, GrblStatus::unsupported, std::move(message));
     problem.place.line = place.line;
@@ -58,14 +58,14 @@ void Indexer::fail(const FlowPlace& place, std::string message) {
 }
 
 void Indexer::line(std::string_view text, std::size_t column, const ProgramLines& before, const ProgramLines& after) {
-    FlowLine words;
+    OWordStatement words;
     Problem problem;
-    if (!read_flow(text, column, words, problem)) {
+    if (!parse_oword(text, column, words, problem)) {
         problem.place.line = after.number();
-        if (index_.problems.size() < most_problems) index_.problems.push_back(std::move(problem));
+        if (index_.problems.size() < max_problems) index_.problems.push_back(std::move(problem));
         return;
     }
-    FlowPlace& place = index_.places.emplace_back(before, after);
+    OWordLocation& place = index_.places.emplace_back(before, after);
     place.word = words.word;
     place.column = words.column;
     place.rest = words.rest;
@@ -73,22 +73,22 @@ void Indexer::line(std::string_view text, std::size_t column, const ProgramLines
     place.label = label_number(words.label);
     place.text = text;
     const auto at = static_cast<std::int32_t>(index_.places.size() - 1);
-    const bool takes_values = place.word == FlowWord::call || place.word == FlowWord::endsub ||
-                              place.word == FlowWord::give_back || place.word == FlowWord::if_true ||
-                              place.word == FlowWord::else_if || place.word == FlowWord::while_true ||
-                              place.word == FlowWord::repeat;
+    const bool takes_values = place.word == OWord::call || place.word == OWord::endsub ||
+                              place.word == OWord::give_back || place.word == OWord::if_true ||
+                              place.word == OWord::else_if || place.word == OWord::while_true ||
+                              place.word == OWord::repeat;
     if (!takes_values && !is_rest_empty(text, place.rest))
         fail(place, fmt::format("{}: nothing but a comment may stand behind it", what(place)));
-    if (place.word == FlowWord::sub)
+    if (place.word == OWord::sub)
         begin_sub(at, words.label);
-    else if (place.word == FlowWord::numbered)
+    else if (place.word == OWord::numbered)
         begin_program(at, words.label);
     else
         pair(at);
 }
 
 void Indexer::begin_sub(std::int32_t at, const std::string& label) {
-    const FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
+    const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     if (!open_.empty())
         return fail(place, fmt::format("{}: a sub stands by itself, but {} of line {} is open here; end that first",
                                        what(place), what(open_place()), open_place().line));
@@ -103,7 +103,7 @@ void Indexer::begin_sub(std::int32_t at, const std::string& label) {
 
 /// O100: what follows, up to M99 or the end of the program, is program 100.
 void Indexer::begin_program(std::int32_t at, const std::string& label) {
-    const FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
+    const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     if (!open_.empty())
         return fail(
             place,
@@ -116,32 +116,32 @@ void Indexer::begin_program(std::int32_t at, const std::string& label) {
 }
 
 void Indexer::pair(std::int32_t at) {
-    FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
+    OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     switch (place.word) {
-        case FlowWord::while_true:
-            if (!open_.empty() && open_place().word == FlowWord::do_once && open_place().label == place.label)
-                return close(at, FlowWord::do_once);
+        case OWord::while_true:
+            if (!open_.empty() && open_place().word == OWord::do_once && open_place().label == place.label)
+                return close(at, OWord::do_once);
             [[fallthrough]];
-        case FlowWord::if_true:
-        case FlowWord::do_once:
-        case FlowWord::repeat:
+        case OWord::if_true:
+        case OWord::do_once:
+        case OWord::repeat:
             place.begin = at;
             open_.push_back(at);
             return;
-        case FlowWord::endsub:
-            return close(at, FlowWord::sub);
-        case FlowWord::endif:
-            return close(at, FlowWord::if_true);
-        case FlowWord::endwhile:
-            return close(at, FlowWord::while_true);
-        case FlowWord::endrepeat:
-            return close(at, FlowWord::repeat);
-        case FlowWord::else_if:
-        case FlowWord::else_branch:
+        case OWord::endsub:
+            return close(at, OWord::sub);
+        case OWord::endif:
+            return close(at, OWord::if_true);
+        case OWord::endwhile:
+            return close(at, OWord::while_true);
+        case OWord::endrepeat:
+            return close(at, OWord::repeat);
+        case OWord::else_if:
+        case OWord::else_branch:
             return branch(at);
-        case FlowWord::leave:
-        case FlowWord::go_on:
-        case FlowWord::give_back:
+        case OWord::leave:
+        case OWord::go_on:
+        case OWord::give_back:
             return inside(at);
         default:
             return;
@@ -149,11 +149,11 @@ void Indexer::pair(std::int32_t at) {
 }
 
 /// Whether what is open last is `opener` with the label of the place.
-bool Indexer::fits(std::int32_t at, FlowWord opener) {
-    const FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
+bool Indexer::fits(std::int32_t at, OWord opener) {
+    const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     const auto opens = [&](std::int32_t one) {
-        const FlowPlace& other = index_.places[static_cast<std::size_t>(one)];
-        const FlowPlace& first = index_.places[static_cast<std::size_t>(other.begin)];
+        const OWordLocation& other = index_.places[static_cast<std::size_t>(one)];
+        const OWordLocation& first = index_.places[static_cast<std::size_t>(other.begin)];
         return first.word == opener && first.label == place.label;
     };
     if (!open_.empty() && opens(open_.back())) return true;
@@ -165,25 +165,25 @@ bool Indexer::fits(std::int32_t at, FlowWord opener) {
         fail(place,
              fmt::format("{}: no o{} {} is open here; {} it with that, or leave it out", what(place),
                          labels_[static_cast<std::size_t>(place.label)], name_of(opener),
-                         place.word == FlowWord::else_if || place.word == FlowWord::else_branch ? "precede" : "begin"));
+                         place.word == OWord::else_if || place.word == OWord::else_branch ? "precede" : "begin"));
     }
     return false;
 }
 
 void Indexer::branch(std::int32_t at) {
-    if (!fits(at, FlowWord::if_true)) return;
-    FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
-    FlowPlace& before = open_place();
-    if (before.word == FlowWord::else_branch)
+    if (!fits(at, OWord::if_true)) return;
+    OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
+    OWordLocation& before = open_place();
+    if (before.word == OWord::else_branch)
         return fail(place, fmt::format("{}: the else of line {} is the last branch", what(place), before.line));
     before.branch = at;
     place.begin = before.begin;
     open_.back() = at;
 }
 
-void Indexer::close(std::int32_t at, FlowWord opener) {
+void Indexer::close(std::int32_t at, OWord opener) {
     if (!fits(at, opener)) return;
-    FlowPlace& last = open_place();
+    OWordLocation& last = open_place();
     last.branch = at;
     const std::int32_t begin = last.begin;
     for (std::int32_t one = begin; one != at; one = index_.places[static_cast<std::size_t>(one)].branch)
@@ -195,11 +195,11 @@ void Indexer::close(std::int32_t at, FlowWord opener) {
 
 /// break, continue and return stand within their loop or sub.
 void Indexer::inside(std::int32_t at) {
-    FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
-    const bool returns = place.word == FlowWord::give_back;
+    OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
+    const bool returns = place.word == OWord::give_back;
     for (auto one = open_.rbegin(); one != open_.rend(); ++one) {
-        const FlowPlace& other = index_.places[static_cast<std::size_t>(*one)];
-        if ((returns ? other.word == FlowWord::sub : is_loop(other.word)) && other.label == place.label) {
+        const OWordLocation& other = index_.places[static_cast<std::size_t>(*one)];
+        if ((returns ? other.word == OWord::sub : is_loop(other.word)) && other.label == place.label) {
             place.begin = *one;
             return;
         }
@@ -210,13 +210,13 @@ void Indexer::inside(std::int32_t at) {
 
 void Indexer::finish() {
     for (const std::int32_t one : open_) {
-        const FlowPlace& place = index_.places[static_cast<std::size_t>(one)];
-        const FlowPlace& first = index_.places[static_cast<std::size_t>(place.begin)];
-        const FlowWord end = first.word == FlowWord::sub          ? FlowWord::endsub
-                             : first.word == FlowWord::if_true    ? FlowWord::endif
-                             : first.word == FlowWord::while_true ? FlowWord::endwhile
-                             : first.word == FlowWord::repeat     ? FlowWord::endrepeat
-                                                                  : FlowWord::while_true;
+        const OWordLocation& place = index_.places[static_cast<std::size_t>(one)];
+        const OWordLocation& first = index_.places[static_cast<std::size_t>(place.begin)];
+        const OWord end = first.word == OWord::sub          ? OWord::endsub
+                          : first.word == OWord::if_true    ? OWord::endif
+                          : first.word == OWord::while_true ? OWord::endwhile
+                          : first.word == OWord::repeat     ? OWord::endrepeat
+                                                            : OWord::while_true;
         fail(first, fmt::format("{}: its o{} {} is missing", what(first),
                                 labels_[static_cast<std::size_t>(first.label)], name_of(end)));
     }
@@ -226,22 +226,23 @@ void Indexer::finish() {
 
 }  // namespace
 
-std::int32_t FlowIndex::at_line(std::int32_t line) const {
+std::int32_t OWordIndex::at_line(std::int32_t line) const {
     const auto found =
         std::lower_bound(places.begin(), places.end(), line,
-                         [](const FlowPlace& place, std::int32_t wanted) { return place.line < wanted; });
-    return found != places.end() && found->line == line ? static_cast<std::int32_t>(found - places.begin()) : no_place;
+                         [](const OWordLocation& place, std::int32_t wanted) { return place.line < wanted; });
+    return found != places.end() && found->line == line ? static_cast<std::int32_t>(found - places.begin())
+                                                        : no_location;
 }
 
-FlowIndex index_flow(std::string_view text, bool block_delete) {
-    FlowIndex index;
+OWordIndex index_owords(std::string_view text, bool block_delete) {
+    OWordIndex index;
     Indexer indexer(index);
     ProgramLines lines(text);
     ProgramLines before = lines;
-    ProgramEnd end(block_delete);
+    ProgramEndDetector end(block_delete);
     for (std::string_view line; lines.next(line); before = lines) {
         if (end.is_at(line)) break;
-        const std::size_t column = find_flow(line, block_delete);
+        const std::size_t column = find_oword(line, block_delete);
         if (column != std::string_view::npos && line.size() <= longest_line) indexer.line(line, column, before, lines);
     }
     indexer.finish();

@@ -13,7 +13,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// In the order of FlowWord.
+/// In the order of OWord.
 constexpr std::array<std::string_view, 16> names = {
     "sub",   "endsub",   "call", "return", "if",        "elseif", "else",     "endif",
     "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
@@ -57,7 +57,7 @@ std::size_t end_of_value(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string_view name_of(FlowWord word) {
+std::string_view name_of(OWord word) {
     return names[static_cast<std::size_t>(word)];
 }
 
@@ -66,13 +66,13 @@ bool is_rest_empty(std::string_view text, std::size_t at) {
     return at == text.size() || text[at] == ';';
 }
 
-bool ProgramEnd::is_at(std::string_view line) {
+bool ProgramEndDetector::is_at(std::string_view line) {
     const std::size_t at = find_first(line, block_delete_);
     if (at >= line.size() || line[at] == ';') return false;
     return std::exchange(begun_, true) && line[at] == '%';
 }
 
-std::size_t find_flow(std::string_view text, bool block_delete) {
+std::size_t find_oword(std::string_view text, bool block_delete) {
     std::size_t at = find_first(text, block_delete);
     if (at < text.size() && upper(text[at]) == 'N') {
         for (++at; at < text.size() && (is_digit(text[at]) || is_blank(text[at])); ++at) continue;
@@ -81,7 +81,7 @@ std::size_t find_flow(std::string_view text, bool block_delete) {
     return at < text.size() && upper(text[at]) == 'O' ? at : std::string_view::npos;
 }
 
-bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Problem& problem) {
+bool parse_oword(std::string_view text, std::size_t column, OWordStatement& line, Problem& problem) {
     const auto fail = [&](std::size_t at, std::string message) {
         set_problem(problem, text, at, GrblStatus::unsupported, std::move(message));
         return false;
@@ -119,9 +119,9 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
                                          : fmt::format("'{}' does not go with an O word; known are {}", word,
                                                        fmt::join(words, " ")));
     }
-    line.word = numbered ? FlowWord::numbered : static_cast<FlowWord>(found - words.begin());
+    line.word = numbered ? OWord::numbered : static_cast<OWord>(found - words.begin());
     line.rest = static_cast<std::uint16_t>(at);
-    if (line.computed && line.word != FlowWord::call)
+    if (line.computed && line.word != OWord::call)
         return fail(column, fmt::format("only a call may compute its O number; {} needs a number or a name",
                                         name_of(line.word)));
     return true;

@@ -111,24 +111,24 @@ const Known* find(std::string_view name) {
 
 }  // namespace
 
-bool KnownValues::is_of_machine(int number) {
+bool MachineParameters::is_read_only(int number) {
     return between(number, 5161, 5390) || between(number, 5400, 5428);
 }
 
-bool KnownValues::is_of_machine(std::string_view name) {
+bool MachineParameters::is_read_only(std::string_view name) {
     return find(name) != nullptr;
 }
 
-double KnownValues::numbered(int number) const {
-    if (!is_of_machine(number)) return interpreter_.parameters().numbered(number);
+double MachineParameters::numbered(int number) const {
+    if (!is_read_only(number)) return interpreter_.parameters().numbered(number);
     const Frame& frame = interpreter_.frame();
     const Modes& modes = interpreter_.modes();
     if (between(number, 5161, 5169)) return of_axis(frame.g28, number - 5161);
     if (between(number, 5181, 5189)) return of_axis(frame.g30, number - 5181);
     if (number == 5210) return frame.g92 != Point{} ? 1 : 0;
-    if (between(number, 5211, 5219)) return of_axis(frame.g92_kept, number - 5211);
+    if (between(number, 5211, 5219)) return of_axis(frame.g92_saved, number - 5211);
     if (number == 5220) return modes.system + 1;
-    if (between(number, first_system, first_system + (work_system_count - 1) * system_size + turn_place)) {
+    if (between(number, first_system, first_system + (work_offset_count - 1) * system_size + turn_place)) {
         const auto system = static_cast<std::size_t>((number - first_system) / system_size);
         const int place = (number - first_system) % system_size;
         return place == turn_place ? frame.turn[system] : of_axis(frame.work[system], place);
@@ -149,7 +149,7 @@ double KnownValues::numbered(int number) const {
     return 0;
 }
 
-std::optional<double> KnownValues::named(std::string_view name) const {
+std::optional<double> MachineParameters::named(std::string_view name) const {
     if (const Known* one = find(name)) return one->read(interpreter_);
     return interpreter_.parameters().named(name);
 }

@@ -17,15 +17,15 @@ namespace motionrack::control::gcode {
 class Interpreter;
 
 /// Looks at an interpreter as it is after its last line.
-class KnownValues final : public ParameterSource {
+class MachineParameters final : public ParameterSource {
   public:
-    explicit KnownValues(const Interpreter& interpreter) : interpreter_(interpreter) {}
+    explicit MachineParameters(const Interpreter& interpreter) : interpreter_(interpreter) {}
     double numbered(int number) const override;
     std::optional<double> named(std::string_view name) const override;
 
     /// Whether the machine sets a parameter, so that a program cannot.
-    static bool is_of_machine(int number);
-    static bool is_of_machine(std::string_view name);
+    static bool is_read_only(int number);
+    static bool is_read_only(std::string_view name);
 
   private:
     const Interpreter& interpreter_;

@@ -26,7 +26,7 @@ bool begins_with(std::string_view text, std::string_view word) {
 bool Scanner::word_of_language(char letter, std::size_t column, const Number& plain) {
     if (options_.language == Language::words || plain.fault != NumberFault::no_digits)
         return bad_number(plain, letter, column);
-    ExpressionReader reader(text_, *options_.parameters);
+    ExpressionParser reader(text_, *options_.parameters);
     if (!reader.begins(at_)) return bad_number(plain, letter, column);
     double value = 0;
     if (!reader.value(at_, value)) return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
@@ -47,7 +47,7 @@ bool Scanner::word_of_language(char letter, std::size_t column, const Number& pl
 /// #1 = 2: kept until the whole line has been read, so that values on the line are those before it.
 bool Scanner::assignment() {
     const std::size_t column = here();
-    ExpressionReader reader(text_, *options_.parameters);
+    ExpressionParser reader(text_, *options_.parameters);
     Assignment found;
     if (!reader.parameter(at_, found.parameter))
         return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
@@ -58,7 +58,7 @@ bool Scanner::assignment() {
     ++at_;
     if (!reader.value(at_, found.value)) return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
     const ParameterName& name = found.parameter;
-    if (name.number > 0 ? KnownValues::is_of_machine(name.number) : KnownValues::is_of_machine(name.name)) {
+    if (name.number > 0 ? MachineParameters::is_read_only(name.number) : MachineParameters::is_read_only(name.name)) {
         return fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{} tells of the machine and cannot be set; offsets are set by G10 and G92, reference points "

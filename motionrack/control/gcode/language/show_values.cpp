@@ -44,12 +44,12 @@ std::size_t end_of_parameter(std::string_view text) {
 void Interpreter::show_values() {
     shown_.clear();
     for (const Comment& comment : block_.comments)
-        shown_.push_back(comment.values ? with_values(comment.text) : std::string());
+        shown_.push_back(comment.values ? substitute_values(comment.text) : std::string());
 }
 
 /// A parameter that has no value is shown as ######, as LinuxCNC does.
-std::string Interpreter::with_values(std::string_view text) const {
-    const KnownValues known(*this);
+std::string Interpreter::substitute_values(std::string_view text) const {
+    const MachineParameters known(*this);
     std::string out;
     int decimals = 6;
     while (!text.empty()) {
@@ -57,7 +57,7 @@ std::string Interpreter::with_values(std::string_view text) const {
         if (length == 0 && text[0] == '#') {
             length = end_of_parameter(text);
             const std::string_view name = text.substr(0, length);
-            ExpressionReader reader(name, known);
+            ExpressionParser reader(name, known);
             const char* at = name.data();
             double value = 0;
             out += reader.value(at, value) ? fmt::format("{:.{}f}", value, decimals) : "######";

@@ -46,7 +46,7 @@ Problem ProgramFlow::take_fault() {
     return first;
 }
 
-bool ProgramFlow::fail(const FlowPlace& place, std::size_t column, std::string message) {
+bool ProgramFlow::fail(const OWordLocation& place, std::size_t column, std::string message) {
     set_problem(problem_, place.text, column, GrblStatus::unsupported, std::move(message));
     problem_.place.line = place.line;
     problem_.file = source_->file;
@@ -54,7 +54,7 @@ bool ProgramFlow::fail(const FlowPlace& place, std::size_t column, std::string m
 }
 
 bool ProgramFlow::make_index(Source& source) {
-    source.index = index_flow(source.text, block_delete_);
+    source.index = index_owords(source.text, block_delete_);
     for (Problem& problem : source.index->problems) {
         problem.file = source.file;
         faults_.push_back(std::move(problem));
@@ -66,21 +66,21 @@ bool ProgramFlow::make_index(Source& source) {
 Outcome<void> ProgramFlow::follow(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const std::int32_t at = source_->index->at_line(lines_.number());
-    if (at == no_place) {
+    if (at == no_location) {
         const Block& block = interpreter.block();
         set_problem(problem_, block.text, block.flow_column, GrblStatus::unsupported,
                     "this O word was not found when the program was looked through; put it first on its line");
         place(problem_);
         return tl::unexpected<Problem>(problem_);
     }
-    const FlowPlace place = place_at(at);
+    const OWordLocation place = place_at(at);
     if (!within_budget(place) || !execute(place, at, interpreter)) return tl::unexpected<Problem>(problem_);
     return {};
 }
 
 /// Loops and calls go through a program more often than it has lines.
-bool ProgramFlow::within_budget(const FlowPlace& place) {
-    furthest_ = furthest();
+bool ProgramFlow::within_budget(const OWordLocation& place) {
+    furthest_ = highest_line();
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
     const Source& main = *sources_.front();
@@ -92,55 +92,55 @@ bool ProgramFlow::within_budget(const FlowPlace& place) {
                             walked_));
 }
 
-void ProgramFlow::jump(const FlowPlace& place) {
+void ProgramFlow::jump(const OWordLocation& place) {
     lines_ = place.after;
     counted_from_ = place.line;
 }
 
-bool ProgramFlow::execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
+bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpreter& interpreter) {
     switch (place.word) {
-        case FlowWord::sub:
+        case OWord::sub:
             jump(place_at(place.end));
             return true;
-        case FlowWord::call:
+        case OWord::call:
             return call(place, interpreter);
-        case FlowWord::endsub:
-        case FlowWord::give_back:
+        case OWord::endsub:
+        case OWord::give_back:
             return give_back(place, interpreter);
-        case FlowWord::if_true:
+        case OWord::if_true:
             return choose(at, interpreter);
-        case FlowWord::else_if:
-        case FlowWord::else_branch:
+        case OWord::else_if:
+        case OWord::else_branch:
             jump(place_at(place.end));
             return true;
-        case FlowWord::while_true: {
+        case OWord::while_true: {
             double value = 0;
             const bool good = evaluate(place, interpreter, value);
-            const FlowPlace& begin = place_at(place.begin);
-            if (begin.word == FlowWord::do_once) {
+            const OWordLocation& begin = place_at(place.begin);
+            if (begin.word == OWord::do_once) {
                 if (good && value != 0) jump(begin);
             } else if (!good || value == 0) {
                 jump(place_at(place.end));
             }
             return good;
         }
-        case FlowWord::endwhile:
+        case OWord::endwhile:
             go_on(place_at(place.begin));
             return true;
-        case FlowWord::repeat:
+        case OWord::repeat:
             return begin_repeat(place, at, interpreter);
-        case FlowWord::endrepeat:
+        case OWord::endrepeat:
             end_repeat(place);
             return true;
-        case FlowWord::leave:
+        case OWord::leave:
             leave_loop(place_at(place.begin));
             return true;
-        case FlowWord::go_on:
+        case OWord::go_on:
             go_on(place_at(place.begin));
             return true;
-        case FlowWord::endif:
-        case FlowWord::do_once:
-        case FlowWord::numbered:
+        case OWord::endif:
+        case OWord::do_once:
+        case OWord::numbered:
             return true;
     }
     return true;
@@ -149,8 +149,8 @@ bool ProgramFlow::execute(const FlowPlace& place, std::int32_t at, Interpreter& 
 /// Goes behind the first branch whose condition holds, or behind the endif.
 bool ProgramFlow::choose(std::int32_t at, Interpreter& interpreter) {
     for (;;) {
-        const FlowPlace& place = place_at(at);
-        if (place.word == FlowWord::else_branch || place.word == FlowWord::endif) {
+        const OWordLocation& place = place_at(at);
+        if (place.word == OWord::else_branch || place.word == OWord::endif) {
             jump(place);
             return true;
         }
@@ -168,7 +168,7 @@ bool ProgramFlow::choose(std::int32_t at, Interpreter& interpreter) {
     }
 }
 
-bool ProgramFlow::begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
+bool ProgramFlow::begin_repeat(const OWordLocation& place, std::int32_t at, Interpreter& interpreter) {
     double times = 0;
     const bool good = evaluate(place, interpreter, times);
     times = std::floor(std::min(times, max_loop_repeats) + 0.5);
@@ -180,7 +180,7 @@ bool ProgramFlow::begin_repeat(const FlowPlace& place, std::int32_t at, Interpre
     return true;
 }
 
-void ProgramFlow::end_repeat(const FlowPlace& place) {
+void ProgramFlow::end_repeat(const OWordLocation& place) {
     if (repeats_.empty() || repeats_.back().place != place.begin) return;
     if (--repeats_.back().left > 0)
         jump(place_at(place.begin));
@@ -195,15 +195,15 @@ void ProgramFlow::forget_repeats(std::int32_t first, std::int32_t last) {
         repeats_.pop_back();
 }
 
-void ProgramFlow::leave_loop(const FlowPlace& loop) {
+void ProgramFlow::leave_loop(const OWordLocation& loop) {
     forget_repeats(loop.begin, loop.end);
     jump(place_at(loop.end));
 }
 
 /// The next round of a loop, or its end.
-void ProgramFlow::go_on(const FlowPlace& loop) {
+void ProgramFlow::go_on(const OWordLocation& loop) {
     forget_repeats(loop.begin + 1, loop.end);
-    const FlowPlace& decides = loop.word == FlowWord::while_true ? loop : place_at(loop.end);
+    const OWordLocation& decides = loop.word == OWord::while_true ? loop : place_at(loop.end);
     // That line is walked again: back to the end of the line before it.
     lines_ = decides.before;
     counted_from_ = decides.line - 1;

@@ -29,7 +29,7 @@ class ProgramFlow {
     bool next(std::string_view& line) { return !over_ && (lines_.next(line) || text_ended()); }
     /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word
     /// cannot be done; then it is passed over.
-    Outcome<void> took(Interpreter& interpreter) {
+    Outcome<void> line_accepted(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         if (block.percent || !end_.begun()) see_end(block.text);
         if (block.flow) return follow(interpreter);
@@ -45,7 +45,7 @@ class ProgramFlow {
     /// Line of the program; in another file the line that called it.
     std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
     /// The greatest number() so far.
-    std::int32_t furthest() const { return std::max(furthest_, number()); }
+    std::int32_t highest_line() const { return std::max(furthest_, number()); }
     const std::string& file() const { return sources_.front()->file; }  ///< of the program
     bool at_end() const { return lines_.at_end(); }
     /// The last line was refused: fills in where the problem is, and sees whether the program is over.
@@ -61,15 +61,15 @@ class ProgramFlow {
         std::string kept;  ///< what text is of, unless it is the program's
         std::string_view text;
         std::string file;
-        std::optional<FlowIndex> index;
+        std::optional<OWordIndex> index;
     };
     struct Frame {
         ProgramLines back;
         Source* source = nullptr;
         std::size_t repeats = 0;
         std::int32_t called_at = 0;
-        std::int32_t program = no_place;  ///< of a numbered program: where it begins
-        std::int64_t left = 0;            ///< times that it is still to run
+        std::int32_t program = no_location;  ///< of a numbered program: where it begins
+        std::int64_t left = 0;               ///< times that it is still to run
     };
     /// A repeat loop that runs.
     struct Repeat {
@@ -84,43 +84,45 @@ class ProgramFlow {
     Outcome<void> follow(Interpreter& interpreter);
     Outcome<void> follow_program(Interpreter& interpreter);
     Outcome<void> follow_contour(Interpreter& interpreter);
-    bool read_contour(Interpreter& reader, std::vector<ContourPiece>& contour);
-    bool add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at,
+    bool read_contour(Interpreter& reader, std::vector<ContourSegment>& contour);
+    bool add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour, Point& at,
                      bool& begun);
-    FlowPlace this_line(const Block& block, std::size_t column) const;
-    bool call_program(const FlowPlace& place, Interpreter& interpreter);
-    bool leave_program(const FlowPlace& place, Interpreter& interpreter);
-    bool leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned);
+    OWordLocation this_line(const Block& block, std::size_t column) const;
+    bool call_program(const OWordLocation& place, Interpreter& interpreter);
+    bool leave_program(const OWordLocation& place, Interpreter& interpreter);
+    bool end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned);
     bool text_ended();
     void enter(const Target& target, std::int32_t program, std::int64_t times);
     void back_to_caller();
     void see_end(std::string_view line);
     void place(Problem& problem) const;
     bool make_index(Source& source);
-    bool within_budget(const FlowPlace& place);
-    bool execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter);
+    bool within_budget(const OWordLocation& place);
+    bool execute(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
     bool choose(std::int32_t at, Interpreter& interpreter);
-    bool begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter);
-    void end_repeat(const FlowPlace& place);
-    void leave_loop(const FlowPlace& loop);
-    void go_on(const FlowPlace& loop);
-    bool call(const FlowPlace& place, Interpreter& interpreter);
-    bool give_back(const FlowPlace& place, Interpreter& interpreter);
-    bool find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target);
+    bool begin_repeat(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
+    void end_repeat(const OWordLocation& place);
+    void leave_loop(const OWordLocation& loop);
+    void go_on(const OWordLocation& loop);
+    bool call(const OWordLocation& place, Interpreter& interpreter);
+    bool give_back(const OWordLocation& place, Interpreter& interpreter);
+    bool find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
     bool look_for(const std::string& label, bool numbered, Target& target);
-    bool load(const FlowPlace& place, const std::string& label, bool numbered, Target& target);
-    bool evaluate(const FlowPlace& place, Interpreter& interpreter, double& value);
-    bool arguments(const FlowPlace& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values);
-    bool label_of_call(const FlowPlace& place, Interpreter& interpreter, std::string& label);
-    void jump(const FlowPlace& place);
+    bool load(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
+    bool evaluate(const OWordLocation& place, Interpreter& interpreter, double& value);
+    bool arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values);
+    bool label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label);
+    void jump(const OWordLocation& place);
     void forget_repeats(std::int32_t first, std::int32_t last);
-    const FlowPlace& place_at(std::int32_t at) const { return source_->index->places[static_cast<std::size_t>(at)]; }
-    bool fail(const FlowPlace& place, std::size_t column, std::string message);
+    const OWordLocation& place_at(std::int32_t at) const {
+        return source_->index->places[static_cast<std::size_t>(at)];
+    }
+    bool fail(const OWordLocation& place, std::size_t column, std::string message);
 
     ProgramLines lines_;
     bool over_ = false;
     bool block_delete_;
-    ProgramEnd end_;  ///< of the program's own text
+    ProgramEndDetector end_;  ///< of the program's own text
     std::int32_t called_at_ = 0;
     std::int32_t furthest_ = 0;
     std::int64_t most_lines_;

@@ -39,10 +39,10 @@ std::string too_deep(const std::string& asks) {
 }  // namespace
 
 /// Values in brackets up to the end of the line.
-bool ProgramFlow::arguments(const FlowPlace& place, std::size_t most, Interpreter& interpreter,
+bool ProgramFlow::arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter,
                             std::vector<double>& values) {
-    const KnownValues known(interpreter);
-    ExpressionReader reader(place.text, known);
+    const MachineParameters known(interpreter);
+    ExpressionParser reader(place.text, known);
     const char* at = place.text.data() + place.rest;
     const char* end = place.text.data() + place.text.size();
     for (;;) {
@@ -65,7 +65,7 @@ bool ProgramFlow::arguments(const FlowPlace& place, std::size_t most, Interprete
 }
 
 /// The one value of a condition.
-bool ProgramFlow::evaluate(const FlowPlace& place, Interpreter& interpreter, double& value) {
+bool ProgramFlow::evaluate(const OWordLocation& place, Interpreter& interpreter, double& value) {
     std::vector<double> values;
     if (!arguments(place, 1, interpreter, values)) return false;
     if (values.empty())
@@ -76,13 +76,13 @@ bool ProgramFlow::evaluate(const FlowPlace& place, Interpreter& interpreter, dou
 }
 
 /// The label of a call that computes it is a number.
-bool ProgramFlow::label_of_call(const FlowPlace& place, Interpreter& interpreter, std::string& label) {
-    FlowLine words;
-    if (!read_flow(place.text, place.column, words, problem_)) return false;
+bool ProgramFlow::label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label) {
+    OWordStatement words;
+    if (!parse_oword(place.text, place.column, words, problem_)) return false;
     label = words.label;
     if (!words.computed) return true;
-    const KnownValues known(interpreter);
-    ExpressionReader reader(place.text, known);
+    const MachineParameters known(interpreter);
+    ExpressionParser reader(place.text, known);
     const char* at = place.text.data() + place.column + 1;
     double value = 0;
     if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());
@@ -92,7 +92,7 @@ bool ProgramFlow::label_of_call(const FlowPlace& place, Interpreter& interpreter
     return true;
 }
 
-bool ProgramFlow::call(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::call(const OWordLocation& place, Interpreter& interpreter) {
     std::string label;
     Target target{};
     std::vector<double> values;
@@ -101,7 +101,7 @@ bool ProgramFlow::call(const FlowPlace& place, Interpreter& interpreter) {
         return false;
     if (!interpreter.parameters().enter(values)) return fail(place, place.column, too_deep(asks_for(label, false)));
     interpreter.parameters().forget_returned();
-    enter(target, no_place, 0);
+    enter(target, no_location, 0);
     return true;
 }
 
@@ -126,7 +126,7 @@ bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& targ
 }
 
 /// A sub or a numbered program of the same text, of one read before, or of a file of its own.
-bool ProgramFlow::find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
     if (look_for(label, numbered, target)) return true;
     if (look_for(label, !numbered, target)) {
         return fail(place, place.column,
@@ -136,7 +136,7 @@ bool ProgramFlow::find_sub(const FlowPlace& place, const std::string& label, boo
     return load(place, label, numbered, target);
 }
 
-bool ProgramFlow::load(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::load(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
     const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
         return fail(place, place.column,
@@ -177,18 +177,17 @@ bool ProgramFlow::load(const FlowPlace& place, const std::string& label, bool nu
     return true;
 }
 
-bool ProgramFlow::give_back(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::give_back(const OWordLocation& place, Interpreter& interpreter) {
     std::vector<double> values;
     bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;
-    good =
-        leave_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
+    good = end_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
     back_to_caller();
     return good;
 }
 
-bool ProgramFlow::leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned) {
-    if (interpreter.leave_call(returned)) return true;
+bool ProgramFlow::end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned) {
+    if (interpreter.end_call(returned)) return true;
     return fail(place, place.column,
                 "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter "
                 "compensation is on; "
@@ -211,22 +210,22 @@ void ProgramFlow::back_to_caller() {
 Outcome<void> ProgramFlow::follow_program(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
-    const FlowPlace place = this_line(block, block.m_column[m_program]);
+    const OWordLocation place = this_line(block, block.m_column[m_program]);
     if (!within_budget(place) ||
         !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
         return tl::unexpected<Problem>(problem_);
     return {};
 }
 
-FlowPlace ProgramFlow::this_line(const Block& block, std::size_t column) const {
-    FlowPlace place(lines_, lines_);
+OWordLocation ProgramFlow::this_line(const Block& block, std::size_t column) const {
+    OWordLocation place(lines_, lines_);
     place.text = block.text;
     place.column = static_cast<std::uint16_t>(column);
     place.line = lines_.number();
     return place;
 }
 
-bool ProgramFlow::call_program(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::call_program(const OWordLocation& place, Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const auto times = block.has('L') ? static_cast<std::int64_t>(block['L']) : 1;
     const std::string label = fmt::format("{:.0f}", block['P']);
@@ -240,16 +239,16 @@ bool ProgramFlow::call_program(const FlowPlace& place, Interpreter& interpreter)
 }
 
 /// Once more, or back. In the main program it is over.
-bool ProgramFlow::leave_program(const FlowPlace& place, Interpreter& interpreter) {
+bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpreter) {
     if (frames_.empty()) {
         over_ = true;
         return true;
     }
-    if (frames_.back().program == no_place)
+    if (frames_.back().program == no_location)
         return fail(place, place.column,
                     "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return "
                     "leaves it before that");
-    const bool good = leave_call(place, interpreter, std::nullopt);
+    const bool good = end_call(place, interpreter, std::nullopt);
     Frame& frame = frames_.back();
     if (--frame.left == 0) {
         back_to_caller();
@@ -263,9 +262,9 @@ bool ProgramFlow::leave_program(const FlowPlace& place, Interpreter& interpreter
 
 /// A text is over; of a numbered program without M99 that is told.
 bool ProgramFlow::text_ended() {
-    if (frames_.empty() || frames_.back().program == no_place || !faults_.empty()) return false;
+    if (frames_.empty() || frames_.back().program == no_location || !faults_.empty()) return false;
     over_ = true;
-    const FlowPlace& begin = place_at(frames_.back().program);
+    const OWordLocation& begin = place_at(frames_.back().program);
     fail(begin, begin.column, "the text ends in this numbered program, which M98 has called; end it with M99");
     faults_.push_back(problem_);
     return false;

@@ -14,7 +14,7 @@ constexpr std::size_t most_pieces = 10'000;
 /// A move that is shorter is none, mm.
 constexpr double shortest = 1e-6;
 
-Planar plane_of(const Point& at) {
+PlanePoint plane_of(const Point& at) {
     return {at[2], at[0]};
 }
 
@@ -22,7 +22,7 @@ Planar plane_of(const Point& at) {
 
 Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     const Block& block = interpreter.block();
-    const FlowPlace here = this_line(block, block.g_column[g_motion]);
+    const OWordLocation here = this_line(block, block.g_column[g_motion]);
     const auto failed = [&]() -> Outcome<void> { return tl::unexpected<Problem>(problem_); };
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     Target target{};
@@ -34,9 +34,9 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
                          deepest_call));
         return failed();
     }
-    std::vector<ContourPiece> contour;
+    std::vector<ContourSegment> contour;
     const std::size_t depth = frames_.size();
-    enter(target, no_place, 0);
+    enter(target, no_location, 0);
     const bool good = read_contour(reader, contour);
     while (frames_.size() > depth) back_to_caller();
     over_ = !faults_.empty();
@@ -56,7 +56,7 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
 }
 
 /// Walks through the sub with a reader of its own.
-bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourPiece>& contour) {
+bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourSegment>& contour) {
     const std::size_t depth = frames_.size();
     Point at = {};
     bool begun = false;
@@ -67,12 +67,12 @@ bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourPiece>& c
             return false;
         }
         const Block& block = reader.block();
-        const FlowPlace here = this_line(block, 0);
+        const OWordLocation here = this_line(block, 0);
         if (reader.turns())
             return fail(here, block.g_column[g_motion],
                         fmt::format("{} stands within the contour of another cycle; end that first",
                                     name_of_g(block.g[g_motion])));
-        if (auto taken = took(reader); !taken) {
+        if (auto taken = line_accepted(reader); !taken) {
             problem_ = taken.error();
             return false;
         }
@@ -82,11 +82,11 @@ bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourPiece>& c
 }
 
 /// What the last line moves; the first move leads to where the contour begins.
-bool ProgramFlow::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at,
-                              bool& begun) {
+bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour,
+                              Point& at, bool& begun) {
     while (const Step* step = reader.pull()) {
         const Move& move = step->move;
-        if (step->kind != StepKind::move || move.kind == MoveKind::dwell) continue;
+        if (step->kind != CanonCallKind::move || move.kind == MoveKind::dwell) continue;
         if (contour.size() >= most_pieces)
             return fail(here, 0, fmt::format("a contour has at most {} moves; this is one more", most_pieces));
         const bool arc = move.kind == MoveKind::arc;
@@ -98,7 +98,7 @@ bool ProgramFlow::add_contour(Interpreter& reader, const FlowPlace& here, std::v
         if (begun && move.end[1] != at[1]) return fail(here, 0, "a contour goes along X and Z only; leave Y out");
         const Point from = at;
         at = move.end;
-        ContourPiece piece;
+        ContourSegment piece;
         piece.line = here.line;
         piece.from = plane_of(from);
         piece.to = plane_of(at);
