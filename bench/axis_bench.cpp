@@ -53,7 +53,7 @@ void count_pulses(benchmark::State& state, const Move& move, std::int64_t made) 
 void drive(benchmark::State& state, const Move& move, bool heard) {
     Stage stage(false);
     Pulses pulses;
-    if (heard) stage.host.chip.pulses(0).listen_edges(&pulses);
+    if (heard) stage.host.chip.pulses(0).set_edge_listener(&pulses);
     prepare(stage.host, move, axis_x);
     stage.host.advance(milliseconds(1));
     bool plus = true;
@@ -62,7 +62,7 @@ void drive(benchmark::State& state, const Move& move, bool heard) {
         stage.finish();
         plus = !plus;
     }
-    stage.host.chip.pulses(0).hand_over_edges();
+    stage.host.chip.pulses(0).deliver_edges();
     count_pulses(state, move, heard ? pulses.made() : stage.pulses());
 }
 BENCHMARK_CAPTURE(drive, servo, servo, false);
@@ -117,11 +117,11 @@ class Clocked {
 bool alike(const Move& move) {
     Pulses of_chip, of_clocked;
     Stage stage(false);
-    stage.host.chip.pulses(0).listen_edges(&of_chip);
+    stage.host.chip.pulses(0).set_edge_listener(&of_chip);
     prepare(stage.host, move, axis_x);
     drive_fixed(stage.host, move.pulses, true, axis_x);
     stage.finish();
-    stage.host.chip.pulses(0).hand_over_edges();
+    stage.host.chip.pulses(0).deliver_edges();
     Clocked(move).drive(of_clocked);
     return of_chip.made() == move.pulses && of_chip == of_clocked;
 }

@@ -64,8 +64,8 @@ void prepare(Host& host, const Move& move, unsigned mask = all_axes) {
 }
 
 /// Motors that follow any pulses, with an encoder count for each.
-inline parts::AxisMachineSettings machine_settings() {
-    parts::AxisMachineSettings settings;
+inline parts::AxisMechanicsSettings machine_settings() {
+    parts::AxisMechanicsSettings settings;
     settings.motor.start_stop_hz = settings.motor.pull_out_hz = 1e8;
     settings.encoder.counts_per_rev = settings.motor.pulses_per_rev();
     return settings;
@@ -76,14 +76,14 @@ class Machines {
   public:
     Machines(sim::Kernel& kernel, const std::string& prefix, mcx314::Chip& chip) {
         for (int a = 0; a < 4; ++a) {
-            all_[a] = std::make_unique<parts::AxisMachine>(kernel, prefix + "xyzu"[a], machine_settings());
+            all_[a] = std::make_unique<parts::AxisMechanics>(kernel, prefix + "xyzu"[a], machine_settings());
             all_[a]->connect(chip.pulses(a));
         }
     }
     sim::Motion& encoder(int axis) { return all_[axis]->encoder(); }
 
   private:
-    std::array<std::unique_ptr<parts::AxisMachine>, 4> all_;
+    std::array<std::unique_ptr<parts::AxisMechanics>, 4> all_;
 };
 
 /// A chip with an axis machine on each axis, if `machines`.
@@ -93,7 +93,7 @@ class Stage {
         if (machines) machines_.emplace(host.kernel, "", host.chip);
         host.start();
     }
-    void listen(int axis, sim::EdgeListener& listener) { machines_->encoder(axis).listen_edges(&listener); }
+    void listen(int axis, sim::EdgeListener& listener) { machines_->encoder(axis).set_edge_listener(&listener); }
 
     /// Runs until nothing drives, looking every 10 ms.
     void finish() {

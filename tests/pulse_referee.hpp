@@ -58,10 +58,10 @@ class PulseLog final : public sim::EdgeListener {
 class PulseReferee {
   public:
     explicit PulseReferee(rack::Rack& rack) : rack_(rack), logs_(rack.axes().size()) {
-        for (std::size_t i = 0; i < logs_.size(); ++i) rack.axes()[i].turned_by().listen_edges(&logs_[i]);
+        for (std::size_t i = 0; i < logs_.size(); ++i) rack.axes()[i].turned_by().set_edge_listener(&logs_[i]);
     }
     ~PulseReferee() {
-        for (rack::RunningAxis& axis : rack_.axes()) axis.turned_by().listen_edges(nullptr);
+        for (rack::RunningAxis& axis : rack_.axes()) axis.turned_by().set_edge_listener(nullptr);
     }
     PulseReferee(const PulseReferee&) = delete;
     PulseReferee& operator=(const PulseReferee&) = delete;
@@ -77,7 +77,7 @@ class PulseReferee {
         Verdict worst;
         for (std::size_t i = 0; i < logs_.size(); ++i) {
             const rack::RackAxis& axis = rack_.axes()[i].config;
-            rack_.axes()[i].turned_by().hand_over_edges();
+            rack_.axes()[i].turned_by().deliver_edges();
             const double pulses = axis.pulses_per_unit();
             for (const double window : {0.002, 0.004}) {
                 SpeedJump jump = logs_[i].greatest_jump(window, accel_parts * axis.max_accel * pulses);

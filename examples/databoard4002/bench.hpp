@@ -50,7 +50,7 @@ class Bench {
     parts::DcMotor motor_;
     databoard4002::Card card_;
     databoard4002::Bus bus_{kernel_, "bus"};
-    sim::Junctions junctions_{kernel_};
+    sim::WireConnections junctions_{kernel_};
     sim::VirtualBytePort port_;
     databoard4002::Driver driver_;
     Record record_;

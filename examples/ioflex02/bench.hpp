@@ -38,7 +38,7 @@ class Bench {
     sim::Kernel kernel_;
     Card card_{kernel_, "p1", {.loaded = true}};
     ioflex02::Bus bus_{kernel_, "bus"};
-    sim::Junctions junctions_{kernel_};
+    sim::WireConnections junctions_{kernel_};
     sim::VirtualPort port_;
     Flex2Pos flex_;
     std::array<std::unique_ptr<parts::DcMotor>, axis_count> motors_;

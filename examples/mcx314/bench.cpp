@@ -7,7 +7,7 @@ namespace howto {
 Bench::Bench() : port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), nanoseconds(250)), driver_(port_, port_) {
     for (int axis = 0; axis < 4; ++axis) chip_.pulses(axis).listen(pens_[static_cast<std::size_t>(axis)]);
     kernel_.start();
-    for (int axis = 0; axis < 4; ++axis) chip_.pulses(axis).listen_edges(&pens_[static_cast<std::size_t>(axis)]);
+    for (int axis = 0; axis < 4; ++axis) chip_.pulses(axis).set_edge_listener(&pens_[static_cast<std::size_t>(axis)]);
     driver_.initialise();
 }
 
@@ -38,7 +38,7 @@ std::string Bench::speeds(const std::string& title, unsigned axes) {
 }
 
 std::string Bench::path(const std::string& title) {
-    for (int axis = 0; axis < 2; ++axis) chip_.pulses(axis).hand_over_edges();
+    for (int axis = 0; axis < 2; ++axis) chip_.pulses(axis).deliver_edges();
     const auto &x = pens_[0].pulses, &y = pens_[1].pulses;
     trace::ReportData data;
     data.title = title;

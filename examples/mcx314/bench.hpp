@@ -30,7 +30,7 @@ class Bench {
 
   private:
     /// Writes down how fast an axis is, step by step, and each of its pulses.
-    struct Pen final : sim::MotionListener, sim::EdgeListener {
+    struct Pen final : sim::PositionListener, sim::EdgeListener {
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
         void edges(const sim::EdgeBatch& batch) override;

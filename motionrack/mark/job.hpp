@@ -99,9 +99,9 @@ struct Job {
     Belt belt;
     FlySettings fly;
     std::optional<PartsSettings> parts;  ///< none: one part, and the job begins by itself
-    parts::SenderSettings sender;
+    parts::SerialPositionSettings sender;
 
-    parts::TrackSettings track() const;
+    parts::ConveyorSettings track() const;
     /// 1 or -1: where the belt goes, seen from its direction.
     double sense() const;
 };

@@ -93,9 +93,9 @@ inline constexpr std::array<Field, 6> parts_fields = {
     field<&PartsSettings::number_step>("number_step", -1e9, 1e9, "", "from one marked part to the next"),
 };
 inline constexpr std::array<Field, 3> sender_fields = {
-    field<&parts::SenderSettings::bits_per_mm>("bits_per_unit", -1e9, 1e9, "", "resolution, a mm or degree"),
-    field<&parts::SenderSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
-    field<&parts::SenderSettings::delay_us>("delay_us", 0, 1e6, "us", "from a reading to its word"),
+    field<&parts::SerialPositionSettings::bits_per_mm>("bits_per_unit", -1e9, 1e9, "", "resolution, a mm or degree"),
+    field<&parts::SerialPositionSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
+    field<&parts::SerialPositionSettings::delay_us>("delay_us", 0, 1e6, "us", "from a reading to its word"),
 };
 /// A key that is no field: an array.
 struct ArrayKey {

@@ -33,7 +33,7 @@ void read_profile(const TomlNode& table, Belt& belt, rack::Problems& problems) {
     }
     if (table.find("speed_mm_s") != nullptr || table.find("speed_deg_s") != nullptr)
         problems.error(profile->key_place, "A speed and a 'profile' are both given; leave one out.");
-    if (const auto track = parts::Track::make({.profile = belt.profile}); !track)
+    if (const auto track = parts::Conveyor::make({.profile = belt.profile}); !track)
         problems.error(profile->value_place, track.error().message);
 }
 
@@ -99,8 +99,8 @@ class SectionReader {
 
 }  // namespace
 
-parts::TrackSettings Job::track() const {
-    parts::TrackSettings out;
+parts::ConveyorSettings Job::track() const {
+    parts::ConveyorSettings out;
     out.rotary = belt.rotary;
     out.direction_deg = belt.direction_deg;
     out.centre_mm = {belt.centre_x_mm, belt.centre_y_mm};

@@ -31,11 +31,11 @@ rtc5::Settings settings_of(const Job& job, const Prepared& prepared) {
 }  // namespace
 
 Result<Senses> Senses::make(const Job& job, const Following& following) {
-    const parts::TrackSettings& settings = following.track;
-    MOTIONRACK_TRY(parts::Track track, parts::Track::make(settings));
+    const parts::ConveyorSettings& settings = following.track;
+    MOTIONRACK_TRY(parts::Conveyor track, parts::Conveyor::make(settings));
     Senses out(std::move(track));
     if (following.mode == FlyMode::mcbsp) {
-        parts::SenderSettings sender = job.sender;
+        parts::SerialPositionSettings sender = job.sender;
         const double quarter = settings.direction_deg / 90;
         sender.two_axes = !settings.rotary && quarter != std::floor(quarter);
         out.sender_ = sender;
@@ -46,7 +46,7 @@ Result<Senses> Senses::make(const Job& job, const Following& following) {
 Result<void> Senses::begin(std::int64_t tick) {
     begin_ = tick;
     if (!sender_) return {};
-    MOTIONRACK_TRY(source_, parts::PositionSender::make(track_, *sender_));
+    MOTIONRACK_TRY(source_, parts::SerialPositionSource::make(track_, *sender_));
     return {};
 }
 

@@ -43,13 +43,13 @@ class Senses final : public rtc5::Inputs {
     Result<void> begin(std::int64_t tick);
     void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
     bool words(std::int64_t first, std::span<std::uint32_t> out) override;
-    const parts::Track& track() const { return track_; }
+    const parts::Conveyor& track() const { return track_; }
 
   private:
-    explicit Senses(parts::Track track) : track_(std::move(track)) {}
-    parts::Track track_;
-    std::optional<parts::SenderSettings> sender_;
-    std::optional<parts::PositionSender> source_;
+    explicit Senses(parts::Conveyor track) : track_(std::move(track)) {}
+    parts::Conveyor track_;
+    std::optional<parts::SerialPositionSettings> sender_;
+    std::optional<parts::SerialPositionSource> source_;
     std::int64_t begin_ = 0;
 };
 

@@ -32,7 +32,7 @@ class OverflowLog {
     static constexpr std::size_t most = 10'000;  ///< more are counted, not kept
 
     /// `track` must live as long.
-    OverflowLog(double bits_per_mm, const parts::Track& track) : k_(bits_per_mm), track_(track) {}
+    OverflowLog(double bits_per_mm, const parts::Conveyor& track) : k_(bits_per_mm), track_(track) {}
     void block(const rtc5::Samples& samples);
     /// Nothing comes after `tick`.
     void finish(std::int64_t tick);
@@ -51,7 +51,7 @@ class OverflowLog {
     void close(std::size_t edge, std::int64_t tick);
 
     double k_;
-    const parts::Track& track_;
+    const parts::Conveyor& track_;
     std::array<Open, 4> edges_{};
     std::vector<Overflow> all_;
     std::uint64_t lost_ = 0;

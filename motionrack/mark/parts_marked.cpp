@@ -29,7 +29,7 @@ PartFate fate_of(rtc5::StartFate fate) {
 }
 
 /// Where pictures have the part.
-Affine shown_place(const Job& job, const Prepared& prepared, const parts::Track& track, std::size_t part) {
+Affine shown_place(const Job& job, const Prepared& prepared, const parts::Conveyor& track, std::size_t part) {
     if (!job.parts || part == 0) return {};
     if (track.settings().rotary) {
         const double turn = (way_of(job, 0) - way_of(job, part)) * (pi / 180);
@@ -68,7 +68,7 @@ parts::Deviation together(const std::vector<PartMarked>& all) {
 
 }  // namespace
 
-void share_out(const Job& job, const Prepared& prepared, const std::vector<PartRun>& runs, const parts::Track& track,
+void share_out(const Job& job, const Prepared& prepared, const std::vector<PartRun>& runs, const parts::Conveyor& track,
                std::span<const parts::MarkedPoint> points, Marked& out) {
     const auto own_place = [&](Spot belt, double way) { return way == 0 ? belt : track.carried(belt, way); };
     PartMarked none;

@@ -63,7 +63,7 @@ struct Direction {
     double x = 0, y = 0;
 };
 /// A belt along an axis has no share of the other one, to the last bit.
-Direction direction_of(const parts::TrackSettings& track) {
+Direction direction_of(const parts::ConveyorSettings& track) {
     const SinCos d = sin_cos(track.direction_deg * (pi / 180));
     const auto clean = [](double v) { return std::fabs(v) < 1e-12 ? 0.0 : v; };
     return {clean(d.cos), clean(d.sin)};

@@ -35,7 +35,7 @@ Result<Prepared> prepare(const Job& job, const Load& load);
 
 /// The movement of the part and how the card follows it.
 struct Following {
-    parts::TrackSettings track;
+    parts::ConveyorSettings track;
     FlyMode mode = FlyMode::off;
     double simulated_speed = 0;  ///< mm/s or degrees/s that the simulated encoder stands for
     bool corrects = true;        ///< false: all is done but the correction

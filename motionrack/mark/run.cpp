@@ -171,7 +171,7 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     return out;
 }
 
-bool moves(const parts::TrackSettings& track) {
+bool moves(const parts::ConveyorSettings& track) {
     return std::any_of(track.profile.begin(), track.profile.end(),
                        [](const parts::SpeedPoint& p) { return p.speed != 0; });
 }

@@ -37,12 +37,13 @@ constexpr std::array<Field, 10> track_table = {
 };
 
 constexpr std::array<Field, 4> sender_table = {
-    field<&parts::SenderSettings::bits_per_mm>("bits_per_{u}", -1e9, 1e9, "", "resolution"),
-    field<&parts::SenderSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
-    field<&parts::SenderSettings::delay_us>("delay_us", 0, 1e6, "us",
-                                            "from a reading to its complete word; less than 255 periods"),
-    only_in(field<&parts::SenderSettings::two_axes>("two_axes", 0, 0, "", "X in the low and Y in the high 16 bits"),
-            "mm"),
+    field<&parts::SerialPositionSettings::bits_per_mm>("bits_per_{u}", -1e9, 1e9, "", "resolution"),
+    field<&parts::SerialPositionSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
+    field<&parts::SerialPositionSettings::delay_us>("delay_us", 0, 1e6, "us",
+                                                    "from a reading to its complete word; less than 255 periods"),
+    only_in(
+        field<&parts::SerialPositionSettings::two_axes>("two_axes", 0, 0, "", "X in the low and Y in the high 16 bits"),
+        "mm"),
 };
 
 constexpr std::array<Field, 3> passing_table = {
@@ -192,7 +193,7 @@ class MarkingReader {
     }
 
     void check(const RackTrack& track) {
-        if (const auto made = parts::Track::make(track.settings()); !made)
+        if (const auto made = parts::Conveyor::make(track.settings()); !made)
             return refuse(*node_, "profile", made.error().message + ".");
         if (track.card && check_card(*track.card)) check_pins(track);
         if (track.sender) check_sender(track);
@@ -229,18 +230,18 @@ class MarkingReader {
     }
 
     void check_sender(const RackTrack& track) {
-        const parts::SenderSettings& s = *track.sender;
+        const parts::SerialPositionSettings& s = *track.sender;
         const TomlNode& table = *node_->find("sender");
         if (s.bits_per_mm == 0)
             return refuse(table, with_unit("bits_per_{u}", unit_), "a sender with 0 bits measures nothing.");
-        const double most = static_cast<double>(parts::WordSource::most_under_way - 1) * s.period_us;
+        const double most = static_cast<double>(parts::SerialWordSource::most_under_way - 1) * s.period_us;
         if (!(s.delay_us < most))
             return refuse(
                 table, "delay_us",
                 fmt::format("a delay of {} us with a reading every {} us is too long; less than {} us is possible.",
                             number_text(s.delay_us), number_text(s.period_us), number_text(most)));
-        const parts::Track made = *parts::Track::make(track.settings());
-        if (const auto sender = parts::PositionSender::make(made, s); !sender)
+        const parts::Conveyor made = *parts::Conveyor::make(track.settings());
+        if (const auto sender = parts::SerialPositionSource::make(made, s); !sender)
             refuse(*node_, "sender", sender.error().message + ".");
     }
 

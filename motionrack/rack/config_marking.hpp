@@ -18,7 +18,7 @@ struct RackParts {
     double length = 10;  ///< of a part, less than `every`
 };
 
-/// What moves the part under a scan head: a belt (mm) or a rotary table (degrees); see parts::TrackSettings.
+/// What moves the part under a scan head: a belt (mm) or a rotary table (degrees); see parts::ConveyorSettings.
 struct RackTrack {
     std::string name;
     bool rotary = false;
@@ -32,13 +32,13 @@ struct RackTrack {
     double slip = 0;
     double jitter_us = 0;                    ///< greatest delay of an edge
     std::vector<parts::SpeedPoint> profile;  ///< instead of the speed, if not empty
-    std::optional<parts::SenderSettings> sender;
+    std::optional<parts::SerialPositionSettings> sender;
     std::optional<RackParts> passing;  ///< parts before a sensor
 
     /// "mm" or "deg".
     std::string_view unit() const { return rotary ? "deg" : "mm"; }
     bool has_encoder() const { return counts_per_unit != 0; }
-    parts::TrackSettings settings() const;
+    parts::ConveyorSettings settings() const;
     /// mm/s or degrees/s: quicker neither its encoder nor its sensor can be followed.
     double greatest_speed() const;
 };

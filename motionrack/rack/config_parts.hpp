@@ -27,7 +27,7 @@ std::span<const Field> stage_fields();        ///< [stage.NAME] into RackStage
 std::span<const Field> scale_fields();        ///< [stage.NAME.scale] into RackScale
 std::span<const Field> stage_servo_fields();  ///< [stage.NAME.servo] into RackStageServo
 std::span<const Field> track_fields();        ///< [belt.NAME], [table.NAME] into RackTrack
-std::span<const Field> sender_fields();       ///< [belt.NAME.sender] into parts::SenderSettings
+std::span<const Field> sender_fields();       ///< [belt.NAME.sender] into parts::SerialPositionSettings
 std::span<const Field> passing_fields();      ///< [belt.NAME.parts] into RackParts
 std::span<const Field> scanner_fields();      ///< [scanner.NAME] into RackScanner
 std::span<const Field> controller_fields();   ///< [controller] into RackController

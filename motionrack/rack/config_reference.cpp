@@ -139,7 +139,7 @@ std::string rack_file_reference() {
         "`motionrack run` and `mr_part_set` "
         "change the speed: fault `drive.speed`.\n\n" +
         fields_table(track_fields(), &belt, &turning);
-    const parts::SenderSettings sender;
+    const parts::SerialPositionSettings sender;
     out +=
         "## [belt.NAME.sender]\nWith the section, even an empty one, a position sender reads the place and gives the "
         "card's serial input words. In "

@@ -36,7 +36,7 @@ struct Found {
 
 /// Whether the machine has the part that the fault is of ("encoder.", "limit_plus." ...).
 bool has_part(const RunningAxis& axis, std::string_view fault) {
-    const parts::AxisMachine& machine = *axis.machine;
+    const parts::AxisMechanics& machine = *axis.machine;
     const std::string_view part = fault.substr(0, fault.find('.'));
     if (of_lines(fault)) return axis.lines != nullptr;
     if (part == "encoder") return machine.has_encoder();
@@ -46,7 +46,7 @@ bool has_part(const RunningAxis& axis, std::string_view fault) {
     const auto knows = [fault](std::span<const std::string_view> names) {
         return std::find(names.begin(), names.end(), fault) != names.end();
     };
-    return axis.servo ? knows(parts::DcMotor::fault_names()) : knows(parts::AxisMachine::fault_names());
+    return axis.servo ? knows(parts::DcMotor::fault_names()) : knows(parts::AxisMechanics::fault_names());
 }
 
 std::vector<std::string_view> names_of(const Found& found) {
@@ -121,7 +121,7 @@ sim::DeviceId device_of(const Found& found) {
 }  // namespace
 
 std::vector<std::string_view> fault_names() {
-    const auto machine = parts::AxisMachine::fault_names();
+    const auto machine = parts::AxisMechanics::fault_names();
     std::vector<std::string_view> out(machine.begin(), machine.end());
     for (const std::string_view name : parts::DcMotor::fault_names())
         if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);

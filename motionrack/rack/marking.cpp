@@ -27,8 +27,8 @@ bool begins_with(std::string_view text, std::string_view begin) {
 
 }  // namespace
 
-parts::TrackSettings RackTrack::settings() const {
-    parts::TrackSettings out;
+parts::ConveyorSettings RackTrack::settings() const {
+    parts::ConveyorSettings out;
     out.rotary = rotary;
     out.direction_deg = direction_deg;
     out.centre_mm = {centre_x_mm, centre_y_mm};
@@ -64,7 +64,7 @@ std::string RunningTrack::wire_name(std::string_view end) const {
 }
 
 std::vector<std::string_view> RunningTrack::fault_names() const {
-    const auto drive_names = parts::TrackDrive::fault_names(), sender_names = parts::WordSource::fault_names();
+    const auto drive_names = parts::ConveyorDrive::fault_names(), sender_names = parts::SerialWordSource::fault_names();
     std::vector<std::string_view> out(drive_names.begin(), drive_names.end());
     if (encoder) out.insert(out.end(), encoder_faults.begin(), encoder_faults.end());
     if (sender) out.insert(out.end(), sender_names.begin(), sender_names.end());
@@ -79,12 +79,12 @@ sim::DeviceId RunningTrack::device_of(std::string_view fault) const {
 RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
     RunningTrack out;
     out.config = config;
-    const Result<parts::Track> track = parts::Track::make(config.settings());
+    const Result<parts::Conveyor> track = parts::Conveyor::make(config.settings());
     MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked
-    out.drive = std::make_unique<parts::TrackDrive>(kernel, config.name, *track, config.greatest_speed());
+    out.drive = std::make_unique<parts::ConveyorDrive>(kernel, config.name, *track, config.greatest_speed());
     if (config.has_encoder()) {
-        out.counts = std::make_unique<parts::TrackMotion>(kernel, config.name + ".counts", out.track(),
-                                                          config.counts_per_unit * (1 - config.slip));
+        out.counts = std::make_unique<parts::ConveyorPosition>(kernel, config.name + ".counts", out.track(),
+                                                               config.counts_per_unit * (1 - config.slip));
         out.drive->add(*out.counts);
         parts::LineEncoderSettings lines;
         lines.index = false;
@@ -93,12 +93,14 @@ RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
         if (config.jitter_us > 0) out.encoder->fault("jitter", config.jitter_us * 1e-6, Instant{0});
     }
     if (config.sender) {
-        const Result<parts::PositionSender> sender = parts::PositionSender::make(out.track(), *config.sender);
+        const Result<parts::SerialPositionSource> sender =
+            parts::SerialPositionSource::make(out.track(), *config.sender);
         MOTIONRACK_ASSERT(sender.has_value());
-        out.sender = std::make_unique<parts::WordSource>(kernel, config.name + ".sender", config.name, *sender);
+        out.sender = std::make_unique<parts::SerialWordSource>(kernel, config.name + ".sender", config.name, *sender);
     }
     if (config.passing) {
-        out.place = std::make_unique<parts::TrackMotion>(kernel, config.name + ".place", out.track(), places_per_unit);
+        out.place =
+            std::make_unique<parts::ConveyorPosition>(kernel, config.name + ".place", out.track(), places_per_unit);
         out.drive->add(*out.place);
         const parts::PartSensorSettings sensor{places(config.passing->first), places(config.passing->every),
                                                places(config.passing->length)};
@@ -108,7 +110,7 @@ RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
     return out;
 }
 
-RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Track* track) {
+RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Conveyor* track) {
     Result<parts::MarkingStation> station = parts::MarkingStation::make(config.settings(), track);
     MOTIONRACK_ASSERT(station.has_value());  // read_rack has looked
     const auto wire = [&](const char* pin) { return kernel.find_wire(config.card + "." + pin); };

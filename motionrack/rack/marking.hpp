@@ -21,14 +21,14 @@ namespace motionrack::rack {
 /// One belt or rotary table of the running machine.
 struct RunningTrack {
     RackTrack config;
-    std::unique_ptr<parts::TrackDrive> drive;
-    std::unique_ptr<parts::TrackMotion> counts;  ///< what its encoder sees; this and the encoder may be nullptr
+    std::unique_ptr<parts::ConveyorDrive> drive;
+    std::unique_ptr<parts::ConveyorPosition> counts;  ///< what its encoder sees; this and the encoder may be nullptr
     std::unique_ptr<parts::LineEncoder> encoder;
-    std::unique_ptr<parts::WordSource> sender;  ///< may be nullptr
-    std::unique_ptr<parts::TrackMotion> place;  ///< of the parts; this and the sensor may be nullptr
+    std::unique_ptr<parts::SerialWordSource> sender;  ///< may be nullptr
+    std::unique_ptr<parts::ConveyorPosition> place;   ///< of the parts; this and the sensor may be nullptr
     std::unique_ptr<parts::PartSensor> sensor;
 
-    const parts::Track& track() const { return drive->track(); }
+    const parts::Conveyor& track() const { return drive->track(); }
     /// The kernel's wire of an end.
     std::string wire_name(std::string_view end) const;
     /// Faults that it can have: of the drive, the encoder and the sender; and the device that takes one.
@@ -49,6 +49,6 @@ struct RunningScanner {
 /// Adds its parts and wires to the kernel, before it starts. The config must come from read_rack.
 RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config);
 /// After its card. `track`: what its part is on, or nullptr.
-RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Track* track);
+RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Conveyor* track);
 
 }  // namespace motionrack::rack

@@ -121,7 +121,7 @@ class Monitor final : public sim::Device {
 
   private:
     /// Hears of each change of one axis' pulse rate.
-    class Ear final : public sim::MotionListener {
+    class Ear final : public sim::PositionListener {
       public:
         Ear(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
         void crossed(Instant) override {}

@@ -9,14 +9,14 @@ void MirroredMotion::watch(int slot, std::int64_t below, std::int64_t above) {
               below == sim::unwatched_below ? sim::unwatched_above : -below);
 }
 
-int MirroredMotion::listen(sim::MotionListener& listener) {
+int MirroredMotion::listen(sim::PositionListener& listener) {
     ears_.push_back(std::make_unique<Ear>(listener));
     return of_.listen(*ears_.back());
 }
 
-void MirroredMotion::listen_edges(sim::EdgeListener* listener) {
+void MirroredMotion::set_edge_listener(sim::EdgeListener* listener) {
     edge_listener_ = listener;
-    of_.listen_edges(listener != nullptr ? this : nullptr);
+    of_.set_edge_listener(listener != nullptr ? this : nullptr);
 }
 
 void MirroredMotion::edges(const sim::EdgeBatch& batch) {

@@ -1,6 +1,6 @@
 // Motions between cards and parts: one that never moves, and one seen backwards.
 //
-//   open step input   ──► StillMotion ──► AxisMachine
+//   open step input   ──► StillMotion ──► AxisMechanics
 //   encoder ──► MirroredMotion (tracks A and B crossed over: count -> -count) ──► card
 #pragma once
 
@@ -16,9 +16,9 @@ class StillMotion final : public sim::Motion {
     std::int64_t count(Instant) const override { return 0; }
     double rate(Instant) const override { return 0; }
     void watch(int, std::int64_t, std::int64_t) override {}
-    int listen(sim::MotionListener&) override { return listeners_++; }
-    void listen_edges(sim::EdgeListener*) override {}
-    void hand_over_edges() override {}
+    int listen(sim::PositionListener&) override { return listeners_++; }
+    void set_edge_listener(sim::EdgeListener*) override {}
+    void deliver_edges() override {}
 
   private:
     int listeners_ = 0;
@@ -33,19 +33,19 @@ class MirroredMotion final : public sim::Motion, private sim::EdgeListener {
     std::int64_t count(Instant t) const override { return -of_.count(t); }
     double rate(Instant t) const override { return -of_.rate(t); }
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::MotionListener& listener) override;
-    void listen_edges(sim::EdgeListener* listener) override;
-    void hand_over_edges() override { of_.hand_over_edges(); }
+    int listen(sim::PositionListener& listener) override;
+    void set_edge_listener(sim::EdgeListener* listener) override;
+    void deliver_edges() override { of_.deliver_edges(); }
 
   private:
-    class Ear final : public sim::MotionListener {
+    class Ear final : public sim::PositionListener {
       public:
-        explicit Ear(sim::MotionListener& to) : to_(to) {}
+        explicit Ear(sim::PositionListener& to) : to_(to) {}
         void crossed(Instant now) override { to_.crossed(now); }
         void rate_changed(double before, double rate, Instant now) override { to_.rate_changed(-before, -rate, now); }
 
       private:
-        sim::MotionListener& to_;
+        sim::PositionListener& to_;
     };
     void edges(const sim::EdgeBatch& batch) override;
 

@@ -151,7 +151,7 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
     if (!std::isfinite(value))
         return fail(Trouble::refused,
                     fmt::format("{} cannot become {}: that is no number. Nothing was done.", name, value));
-    parts::AxisMachine& machine = *axis.machine;
+    parts::AxisMechanics& machine = *axis.machine;
     const double push = row->push(axis, value, rack.kernel().now());
     if (!(std::fabs(push) <= greatest_push))
         return fail(Trouble::refused,

@@ -94,7 +94,7 @@ void Rack::build_axes() {
 }
 
 void Rack::build_axis(const RackAxis& axis) {
-    parts::AxisMachineSettings settings;
+    parts::AxisMechanicsSettings settings;
     settings.motor = motor_settings(axis);
     settings.axle.travel_per_rev =
         axis.kind == AxisKind::linear ? parts::linear_travel(axis.lead_mm) : parts::rotary_travel(axis.gear_ratio);
@@ -117,11 +117,11 @@ void Rack::build_axis(const RackAxis& axis) {
     if (axis.servo)
         running.servo =
             std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
-    running.machine = std::make_unique<parts::AxisMachine>(kernel_, name, settings);
+    running.machine = std::make_unique<parts::AxisMechanics>(kernel_, name, settings);
     running.pulse_ears = std::make_unique<EdgeFork>(
         [machine = running.machine.get()](sim::EdgeListener* ear) { machine->listen_pulse_edges(ear); });
     running.encoder_ears = std::make_unique<EdgeFork>(
-        [machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().listen_edges(ear); });
+        [machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().set_edge_listener(ear); });
     axes_.push_back(std::move(running));
 }
 
@@ -185,7 +185,7 @@ std::string Rack::wire_name(const WireEnd& end) const {
 
 void Rack::build_wires() {
     kernel_.add_wire("estop", 1);
-    junctions_ = std::make_unique<sim::Junctions>(kernel_, "wiring");
+    junctions_ = std::make_unique<sim::WireConnections>(kernel_, "wiring");
     for (const RackWire& wire : config_.wires) {
         if (wire.link) continue;
         const sim::WireId from = output_wire(wire.from);

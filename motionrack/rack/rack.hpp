@@ -41,7 +41,7 @@ struct RunningAxis {
     MotionCard* card = nullptr;
     int channel = 0;                        ///< of the card
     std::unique_ptr<parts::DcMotor> servo;  ///< nullptr: a stepping motor, which is a part of the machine
-    std::unique_ptr<parts::AxisMachine> machine;
+    std::unique_ptr<parts::AxisMechanics> machine;
     std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
     std::unique_ptr<parts::LineEncoder>
         lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
@@ -127,7 +127,7 @@ class Rack {
     std::vector<RunningScanner> scanners_;
     StillMotion still_;  // what turns a motor whose step input is open
     std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
-    std::unique_ptr<sim::Junctions> junctions_;
+    std::unique_ptr<sim::WireConnections> junctions_;
     std::optional<control::PointToPointAxes> positioning_;
     std::unique_ptr<StopLatch> stop_latch_;
     bool started_ = false;

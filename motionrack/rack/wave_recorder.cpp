@@ -174,7 +174,7 @@ Duration WaveRecorder::coarsest_unit() const {
 void WaveRecorder::choose_axes() {
     for (RunningAxis& axis : rack_.axes()) {
         const std::string name(1, axis.config.letter);
-        parts::AxisMachine& machine = *axis.machine;
+        parts::AxisMechanics& machine = *axis.machine;
         const bool pulses = !axis.servo && (wanted(name + ".step") || wanted(name + ".dir"));
         const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
         if (pulses) {

@@ -7,7 +7,7 @@
 
 namespace motionrack::sim {
 
-class EdgeRow {
+class EdgeBatcher {
   public:
     /// An edge at `at`, not before the last one, that leads to `count`; `step` +1 or -1. What does not fit into the
     /// batch with it is handed over first.

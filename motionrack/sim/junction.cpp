@@ -4,10 +4,10 @@
 
 namespace motionrack::sim {
 
-Junctions::Junctions(Kernel& kernel, std::string name)
+WireConnections::WireConnections(Kernel& kernel, std::string name)
     : kernel_(kernel), id_(kernel.add(*this, Phase::wires, std::move(name))) {}
 
-void Junctions::join(WireId from, WireId to, bool inverted) {
+void WireConnections::join(WireId from, WireId to, bool inverted) {
     MOTIONRACK_ASSERT(from != to);
     const int pin = static_cast<int>(joints_.size());
     joints_.push_back({from, to, inverted, kernel_.lazy(from)});
@@ -18,22 +18,22 @@ void Junctions::join(WireId from, WireId to, bool inverted) {
         kernel_.schedule(id_, Instant{0});
 }
 
-void Junctions::act(Instant) {
+void WireConnections::act(Instant) {
     for (const Joint& joint : joints_)
         if (!joint.lazy) kernel_.set_wire(joint.to, joint.level(kernel_.level(joint.from)));
 }
 
-void Junctions::on_wire(int pin, int level, Instant) {
+void WireConnections::on_wire(int pin, int level, Instant) {
     const Joint& joint = joints_[static_cast<std::size_t>(pin)];
     if (!joint.lazy || kernel_.wanted(joint.to)) kernel_.set_wire(joint.to, joint.level(level));
 }
 
-int Junctions::level_at(int pin, Instant) const {
+int WireConnections::level_at(int pin, Instant) const {
     const Joint& joint = joints_[static_cast<std::size_t>(pin)];
     return joint.level(kernel_.level(joint.from));
 }
 
-void Junctions::wanted_changed(int pin, bool, Instant) {
+void WireConnections::wanted_changed(int pin, bool, Instant) {
     const WireId from = joints_[static_cast<std::size_t>(pin)].from;
     bool any = false;
     for (const Joint& joint : joints_) any = any || (joint.from == from && kernel_.wanted(joint.to));

@@ -1,6 +1,6 @@
 // Joins wires: the level of one (an output of a part) is that of another (an input of a card), at the same instant.
 //
-//   part ──► from ══ Junctions ══► to ──► card
+//   part ──► from ══ WireConnections ══► to ──► card
 //            from ◄── want ─────── to                    a lazily driven wire stays lazy through a junction
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace motionrack::sim {
 
 /// All junctions of a rack in one device. Any number may start at one wire; at most one may end at a wire.
-class Junctions final : public Device {
+class WireConnections final : public Device {
   public:
-    explicit Junctions(Kernel& kernel, std::string name = "junctions");
+    explicit WireConnections(Kernel& kernel, std::string name = "junctions");
 
     /// From now on `to` follows `from`; `inverted`: 0 becomes 1, all else 0. Before Kernel::start, and after `from`'s
     /// owner has said whether it drives it lazily. A `to` at another level than `from` changes at instant 0.

@@ -1,8 +1,8 @@
 // Who listens to a motion, for those that are one.
 //
 //   watch(slot, below, above) ──► Watches, in the owner's state: a snapshot has them
-//   the count moves           ──► tell_crossed: who watched a range that is left hears of it, once
-//   the law changes           ──► tell_rate: all hear of it
+//   the count moves           ──► notify_crossed: who watched a range that is left hears of it, once
+//   the law changes           ──► notify_rate: all hear of it
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@ class Listeners {
     using Watches = std::array<Range, Motion::max_listeners>;
 
     /// Before the kernel starts; the listener's slot.
-    int add(MotionListener& listener) {
+    int add(PositionListener& listener) {
         MOTIONRACK_ASSERT(size_ < Motion::max_listeners);
         all_[static_cast<std::size_t>(size_)] = &listener;
         return size_++;
     }
     int size() const { return size_; }
-    MotionListener& operator[](int slot) const { return *all_[static_cast<std::size_t>(slot)]; }
+    PositionListener& operator[](int slot) const { return *all_[static_cast<std::size_t>(slot)]; }
 
-    void tell_rate(double before, double after, Instant now) const {
+    void notify_rate(double before, double after, Instant now) const {
         for (int i = 0; i < size_; ++i) (*this)[i].rate_changed(before, after, now);
     }
     /// Whose range `count` has left hears of it, and watches nothing until it says so anew.
-    void tell_crossed(Watches& watches, std::int64_t count, Instant now) const {
+    void notify_crossed(Watches& watches, std::int64_t count, Instant now) const {
         for (int i = 0; i < size_; ++i) {
             Range& watch = watches[static_cast<std::size_t>(i)];
             if (!watch.left(count)) continue;
@@ -46,7 +46,7 @@ class Listeners {
     }
 
   private:
-    std::array<MotionListener*, Motion::max_listeners> all_{};
+    std::array<PositionListener*, Motion::max_listeners> all_{};
     int size_ = 0;
 };
 

@@ -34,9 +34,9 @@ class EdgeListener {
     virtual void edges(const EdgeBatch& batch) = 0;
 };
 
-class MotionListener {
+class PositionListener {
   public:
-    virtual ~MotionListener() = default;
+    virtual ~PositionListener() = default;
     /// The count left the range given to Motion::watch; the listener must set a new one.
     virtual void crossed(Instant now) = 0;
     /// The law of motion changed: the rate was `before` just before this instant (along a curve it changes between laws
@@ -59,14 +59,14 @@ class Motion {
     /// the next instant).
     virtual void watch(int slot, std::int64_t below, std::int64_t above) = 0;
     /// Adds a listener before the kernel starts; returns its slot (at most max_listeners).
-    virtual int listen(MotionListener& listener) = 0;
+    virtual int listen(PositionListener& listener) = 0;
     /// Before the start: listeners are also to hear rate_changed when |rate| passes `rate` (counts a second, >= 0)
     /// along a curve; at most max_listeners marks. A motion whose rate changes in steps has nothing to do for it.
-    virtual void mark_rate(double rate) { (void)rate; }
+    virtual void watch_rate(double rate) { (void)rate; }
     /// From now on (the owner's present instant) edges are made and handed over; nullptr: nobody listens.
-    virtual void listen_edges(EdgeListener* listener) = 0;
+    virtual void set_edge_listener(EdgeListener* listener) = 0;
     /// Hands over the edges up to the kernel's present instant now, if somebody listens.
-    virtual void hand_over_edges() = 0;
+    virtual void deliver_edges() = 0;
 
     static constexpr int max_listeners = 6;
 };

@@ -27,7 +27,7 @@ TEST(Calibration, ScaleFromTwoReadingsAndADistance) {
 
 TEST(Calibration, CentreAndCountsATurnFromThreeMarks) {
     const auto track =
-        parts::Track::make({.rotary = true, .centre_mm = {-30, 12}, .profile = {{0, 10}}, .counts_per_unit = 1000});
+        parts::Conveyor::make({.rotary = true, .centre_mm = {-30, 12}, .profile = {{0, 10}}, .counts_per_unit = 1000});
     ASSERT_TRUE(track);
     std::array<RotaryMark, 3> marks;
     for (std::size_t i = 0; i < 3; ++i)
@@ -45,7 +45,7 @@ TEST(Calibration, CentreAndCountsATurnFromThreeMarks) {
 }
 
 TEST(Calibration, UncertaintiesAreThoseOfRepeatedTrials) {
-    const auto track = *parts::Track::make({.rotary = true, .centre_mm = {-30, 0}, .profile = {{0, 10}}});
+    const auto track = *parts::Conveyor::make({.rotary = true, .centre_mm = {-30, 0}, .profile = {{0, 10}}});
     const double sigma = 0.02;
     double squares = 0, uncertainty = 0;
     constexpr int trials = 2000;

@@ -42,9 +42,9 @@ Engine card_with_a_list() {
 }
 
 TEST(OverflowLog, HasTheTicksInWhichTheFlagsAreSetAnew) {
-    parts::TrackSettings settings;
+    parts::ConveyorSettings settings;
     settings.profile = {{0, 0.6 * 1e6 / counts_per_bit}};
-    const parts::Track track = *parts::Track::make(settings);
+    const parts::Conveyor track = *parts::Conveyor::make(settings);
     OverflowLog log(counts_per_bit, track);
     LogSink sink(log);
     Engine card = card_with_a_list();

@@ -183,7 +183,7 @@ TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
 
 /// A comparison of the crossed encoder stops the drive where the count comes to -2000.
 TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
-    struct Ear final : sim::MotionListener {
+    struct Ear final : sim::PositionListener {
         void crossed(Instant) override { ++times; }
         void rate_changed(double, double rate, Instant) override { last_rate = rate; }
         int times = 0;

@@ -6,7 +6,7 @@
 namespace motionrack::sim {
 
 /// Does nothing but hold `bytes`, which must live as long and not move.
-class HeldState final : public Device {
+class SnapshotState final : public Device {
   public:
     void act(Instant) override {}
     std::span<std::byte> state() override { return bytes; }

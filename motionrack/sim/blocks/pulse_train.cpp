@@ -25,9 +25,9 @@ void PulseTrain::bring_to(Instant now) {
     state_.first = state_.then;
 }
 
-void PulseTrain::tell_rate(double before, Instant now) {
+void PulseTrain::notify_rate(double before, Instant now) {
     const double after = rate(now);
-    if (after != before) listeners_.tell_rate(before, after, now);
+    if (after != before) listeners_.notify_rate(before, after, now);
 }
 
 void PulseTrain::run(std::int64_t divisor, int direction, Instant now) {
@@ -43,7 +43,7 @@ void PulseTrain::run(std::int64_t divisor, int direction, Instant now) {
     }
     state_.direction = direction;
     state_.then = divisor;
-    tell_rate(before, now);
+    notify_rate(before, now);
 }
 
 void PulseTrain::stop(Instant now) {
@@ -52,7 +52,7 @@ void PulseTrain::stop(Instant now) {
     const double before = rate(now);
     bring_to(now);
     state_.first = state_.then = 0;
-    tell_rate(before, now);
+    notify_rate(before, now);
 }
 
 // ---- Motion
@@ -71,7 +71,7 @@ void PulseTrain::watch(int slot, std::int64_t below, std::int64_t above) {
     if (owner_) owner_->train_watched();
 }
 
-int PulseTrain::listen(MotionListener& listener) {
+int PulseTrain::listen(PositionListener& listener) {
     return listeners_.add(listener);
 }
 
@@ -85,7 +85,7 @@ Instant PulseTrain::next(Instant now) const {
 }
 
 void PulseTrain::act(Instant now) {
-    listeners_.tell_crossed(state_.watches, count(now), now);
+    listeners_.notify_crossed(state_.watches, count(now), now);
 }
 
 // ---- the line and its edges
@@ -105,12 +105,12 @@ Instant PulseTrain::next_edge(Instant now) const {
     return running() ? pulse_instant(n + 1) : never;
 }
 
-void PulseTrain::listen_edges(EdgeListener* listener) {
+void PulseTrain::set_edge_listener(EdgeListener* listener) {
     if (owner_) state_.handed = owner_->train_now();
     edges_ = listener;
 }
 
-void PulseTrain::hand_over_edges() {
+void PulseTrain::deliver_edges() {
     if (owner_) hand_over(owner_->train_now());
 }
 

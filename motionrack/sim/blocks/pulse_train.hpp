@@ -54,9 +54,9 @@ class PulseTrain final : public Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(MotionListener& listener) override;
-    void listen_edges(EdgeListener* listener) override;
-    void hand_over_edges() override;
+    int listen(PositionListener& listener) override;
+    void set_edge_listener(EdgeListener* listener) override;
+    void deliver_edges() override;
 
     /// Called when a watch is set, so that the owner schedules; and the present instant, for edges.
     class Owner {
@@ -75,7 +75,7 @@ class PulseTrain final : public Motion {
     Instant fall(std::int64_t n) const;
     Duration half(std::int64_t divisor) const { return Duration{((clock_ * divisor).count() + 1) / 2}; }
     void bring_to(Instant now);
-    void tell_rate(double before, Instant now);
+    void notify_rate(double before, Instant now);
 
     PulseTrainState& state_;
     Duration clock_;

@@ -32,7 +32,7 @@ std::int64_t whole(double value) {
 
 }  // namespace
 
-AxisMachine::AxisMachine(sim::Kernel& kernel, const std::string& name, const AxisMachineSettings& settings)
+AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings)
     : kernel_(kernel),
       settings_(settings),
       motor_(settings.motor, state_.motor),
@@ -41,7 +41,7 @@ AxisMachine::AxisMachine(sim::Kernel& kernel, const std::string& name, const Axi
       switches_{LimitSwitch(settings.limit_minus, axle_, state_.switches[0]),
                 LimitSwitch(settings.limit_plus, axle_, state_.switches[1]),
                 LimitSwitch(settings.home, axle_, state_.switches[2])},
-      faces_{FaceMotion(*this, rotor_face), FaceMotion(*this, encoder_face)},
+      faces_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
       maker_(std::make_unique<EdgeMaker>(state_.last_edge)) {
     id_ = kernel_.add(*this, sim::Phase::parts, name);
     for (std::size_t i = 0; i < switches_.size(); ++i)
@@ -52,22 +52,22 @@ AxisMachine::AxisMachine(sim::Kernel& kernel, const std::string& name, const Axi
     kernel_.drive_lazily(index_wire_, id_, index_pin);
 }
 
-AxisMachine::~AxisMachine() = default;
+AxisMechanics::~AxisMechanics() = default;
 
-void AxisMachine::connect(sim::Motion& pulses) {
+void AxisMechanics::connect(sim::Motion& pulses) {
     MOTIONRACK_ASSERT(pulses_ == nullptr);
     pulses_ = &pulses;
     slot_ = pulses.listen(*this);
     aim(kernel_.now());
 }
 
-std::span<const std::string_view> AxisMachine::fault_names() {
+std::span<const std::string_view> AxisMechanics::fault_names() {
     return axis_machine_faults;
 }
 
 // ---- What the pulses tell
 
-void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
+void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now) {
     // Along a ramp, whose steps the rotor follows as they come.
     const auto follow = [this](double to) {
         if (state_.strain.deadline == never) state_.strain.steady_hz += to - state_.motor.rate_hz;
@@ -88,11 +88,11 @@ void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
     motor_.note_rate(rate);
     const double speed = std::fabs(rate);
     if (speed > state_.top_hz) state_.top_hz = speed;
-    tell_rate(motor_.rotor_rate(before), now);
+    notify_rate(motor_.rotor_rate(before), now);
 }
 
 /// Time has passed at the present rate.
-void AxisMachine::feel(Instant now) {
+void AxisMechanics::feel(Instant now) {
     Strain& s = state_.strain;
     const double part = std::min(1.0, to_seconds(now - s.steady_at) * 1e3);
     s.steady_hz += (state_.motor.rate_hz - s.steady_hz) * part;
@@ -100,7 +100,7 @@ void AxisMachine::feel(Instant now) {
 }
 
 /// The motor is to follow `rate` and cannot; how long until it shows?
-void AxisMachine::strain(double rate, Instant now) {
+void AxisMechanics::strain(double rate, Instant now) {
     Strain& s = state_.strain;
     const double told = state_.motor.rate_hz;
     if (s.deadline == never) {
@@ -120,12 +120,12 @@ void AxisMachine::strain(double rate, Instant now) {
     }
     motor_.note_rate(rate);
     put_off();
-    tell_rate(told, now);
+    notify_rate(told, now);
 }
 
 /// A full step away from where it should be: out of step (or, if the rate is low enough, locked elsewhere), unless the
 /// pulses since then were not that fast on the whole.
-void AxisMachine::give_way(Instant now) {
+void AxisMechanics::give_way(Instant now) {
     Strain& s = state_.strain;
     s.deadline = never;
     const double mean = static_cast<double>(pulses_at(now) - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
@@ -134,7 +134,7 @@ void AxisMachine::give_way(Instant now) {
         s.steady_at = now;
         return;
     }
-    pulses_->hand_over_edges();  // those before the rotor is lost are still its own
+    pulses_->deliver_edges();  // those before the rotor is lost are still its own
     const double rate = state_.motor.rate_hz;
     motor_.note_rate(s.rate_hz);
     change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
@@ -142,15 +142,15 @@ void AxisMachine::give_way(Instant now) {
     s.steady_at = now;
 }
 
-void AxisMachine::tell_rate(double before, Instant now) {
+void AxisMechanics::notify_rate(double before, Instant now) {
     const double rate = motor_.rotor_rate(state_.motor.rate_hz);
-    listeners_[rotor_face].tell_rate(before, rate, now);
+    listeners_[rotor_face].notify_rate(before, rate, now);
     if (listeners_[encoder_face].size() == 0) return;
     const auto counts = [this](double rotor) { return encoder_.present() ? encoder_.rate(rotor) : 0; };
-    listeners_[encoder_face].tell_rate(counts(before), counts(rate), now);
+    listeners_[encoder_face].notify_rate(counts(before), counts(rate), now);
 }
 
-void AxisMachine::crossed(Instant now) {
+void AxisMechanics::crossed(Instant now) {
     state_.aimed = {1, -1};  // a watch that was told of is no more
     if (check_ends(now)) return;
     check(now);
@@ -159,7 +159,7 @@ void AxisMachine::crossed(Instant now) {
 // ---- The motor
 
 template <class Change>
-void AxisMachine::change_motor(Instant now, Change change) {
+void AxisMechanics::change_motor(Instant now, Change change) {
     const std::int64_t pulses = pulses_at(now);
     const StepperState before = state_.motor;
     const std::int64_t rotor_before = motor_.rotor(pulses);
@@ -175,10 +175,10 @@ void AxisMachine::change_motor(Instant now, Change change) {
     }
     check(now);
     const double told = before.hold == RotorHold::in_step ? before.rate_hz : 0;
-    if (motor_.rotor_rate(state_.motor.rate_hz) != told) tell_rate(told, now);
+    if (motor_.rotor_rate(state_.motor.rate_hz) != told) notify_rate(told, now);
 }
 
-void AxisMachine::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
+void AxisMechanics::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
     const StepperState& after = state_.motor;
     auto say = [&](AxisCondition code, std::int64_t a, std::int64_t b) {
         kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
@@ -191,7 +191,7 @@ void AxisMachine::report_change(const StepperState& before, std::int64_t rotor_b
         say(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
 }
 
-bool AxisMachine::check_ends(Instant now) {
+bool AxisMechanics::check_ends(Instant now) {
     const std::int64_t rotor = rotor_at(now);
     if (!axle_.travel().left(rotor)) return false;
     const int direction = rotor >= axle_.travel().above ? 1 : -1;
@@ -203,7 +203,7 @@ bool AxisMachine::check_ends(Instant now) {
 
 // ---- Crossings
 
-void AxisMachine::check(Instant now) {
+void AxisMechanics::check(Instant now) {
     if (checking_) return;
     checking_ = true;
     const std::int64_t rotor = rotor_at(now);
@@ -214,7 +214,7 @@ void AxisMachine::check(Instant now) {
     aim(now);
 }
 
-void AxisMachine::check_switches(std::int64_t rotor, Instant now) {
+void AxisMechanics::check_switches(std::int64_t rotor, Instant now) {
     const std::int64_t table = axle_.table(rotor);
     for (std::size_t i = 0; i < switches_.size(); ++i) {
         if (!switches_[i].range().left(table)) continue;
@@ -223,7 +223,7 @@ void AxisMachine::check_switches(std::int64_t rotor, Instant now) {
     }
 }
 
-void AxisMachine::check_index(std::int64_t rotor) {
+void AxisMechanics::check_index(std::int64_t rotor) {
     // The index may be passed within one microstep: the wire shows it all the same.
     const int level = encoder_.index(rotor);
     if (state_.index_level == level) kernel_.set_wire(index_wire_, 1 - level);
@@ -232,7 +232,7 @@ void AxisMachine::check_index(std::int64_t rotor) {
     state_.index = encoder_.index_range(rotor);
 }
 
-void AxisMachine::check_faces(std::int64_t rotor, Instant now) {
+void AxisMechanics::check_faces(std::int64_t rotor, Instant now) {
     for (int face = 0; face < face_count; ++face) {
         for (int i = 0; i < listeners_[face].size(); ++i) {
             Watch& w = state_.watches[face][i];
@@ -249,7 +249,7 @@ void AxisMachine::check_faces(std::int64_t rotor, Instant now) {
 }
 
 // Watches the nearest place of all where something happens.
-void AxisMachine::aim(Instant now) {
+void AxisMechanics::aim(Instant now) {
     if (checking_) return;
     const std::int64_t rotor = rotor_at(now);
     Range all = axle_.travel();
@@ -273,13 +273,13 @@ void AxisMachine::aim(Instant now) {
 }
 
 // Asks for the next instant at which something happens without a pulse.
-void AxisMachine::put_off() {
+void AxisMechanics::put_off() {
     Instant next = std::min(state_.pending, state_.strain.deadline);
     for (const LimitSwitch& s : switches_) next = std::min(next, s.next());
     kernel_.schedule(id_, next);
 }
 
-void AxisMachine::act(Instant now) {
+void AxisMechanics::act(Instant now) {
     for (std::size_t i = 0; i < switches_.size(); ++i) {
         if (switches_[i].next() > now) continue;
         switches_[i].act(now);
@@ -295,7 +295,7 @@ void AxisMachine::act(Instant now) {
 
 // ---- Faults
 
-bool AxisMachine::fault(std::string_view name, double value, Instant now) {
+bool AxisMechanics::fault(std::string_view name, double value, Instant now) {
     const std::size_t dot = name.find('.');
     if (dot == std::string_view::npos) return motor_fault(name, value, now) || encoder_fault(name, value, now);
     const std::string_view part = name.substr(0, dot);
@@ -307,7 +307,7 @@ bool AxisMachine::fault(std::string_view name, double value, Instant now) {
     return false;
 }
 
-bool AxisMachine::motor_fault(std::string_view name, double value, Instant now) {
+bool AxisMechanics::motor_fault(std::string_view name, double value, Instant now) {
     constexpr double most = 1e12;  // microsteps
     if (!(std::fabs(value) <= most)) return false;
     if (name == "stall") {
@@ -324,7 +324,7 @@ bool AxisMachine::motor_fault(std::string_view name, double value, Instant now) 
     return true;
 }
 
-bool AxisMachine::encoder_fault(std::string_view name, double value, Instant now) {
+bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant now) {
     const LineFault fault = name == "broken_a"   ? LineFault::broken_a
                             : name == "broken_b" ? LineFault::broken_b
                             : name == "swapped"  ? LineFault::swapped
@@ -341,11 +341,11 @@ bool AxisMachine::encoder_fault(std::string_view name, double value, Instant now
         w.rotor = encoder_.rotor_range(w.counts, rotor);
     }
     aim(now);
-    tell_rate(motor_.rotor_rate(state_.motor.rate_hz), now);
+    notify_rate(motor_.rotor_rate(state_.motor.rate_hz), now);
     return true;
 }
 
-bool AxisMachine::switch_fault(int i, std::string_view name, double value) {
+bool AxisMechanics::switch_fault(int i, std::string_view name, double value) {
     const auto at = static_cast<std::size_t>(i);
     const SwitchFault fault = name == "stuck_open"     ? SwitchFault::stuck_open
                               : name == "stuck_closed" ? SwitchFault::stuck_closed

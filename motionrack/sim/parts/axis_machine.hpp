@@ -1,6 +1,6 @@
 // One axis of a machine: motor, axle, encoder and switches behind the pulses of a card.
 //
-//   card's pulses ──Motion──► Stepper ──rotor()──► Axle ──► position(t) in mm or degrees
+//   card's pulses ──Motion──► Stepper ──rotor()──► Transmission ──► position(t) in mm or degrees
 //                               │                   └─► limit_plus, limit_minus, home   (wires)
 //                               └─► Encoder ──encoder() Motion──► card,  enc_z          (lazy wire)
 //
@@ -26,23 +26,23 @@
 namespace motionrack::parts {
 
 /// Positions are mm (linear) or degrees (rotary), as axle.travel_per_rev has it.
-struct AxisMachineSettings {
+struct AxisMechanicsSettings {
     StepperSettings motor;
-    AxleSettings axle;
+    TransmissionSettings axle;
     EncoderSettings encoder;
     LimitSwitchSettings limit_minus{.position = {}, .side = SwitchSide::at_and_below};
     LimitSwitchSettings limit_plus{.position = {}, .side = SwitchSide::at_and_above};
     LimitSwitchSettings home{.position = {}, .side = SwitchSide::at_and_below};
 };
 
-class AxisMachine final : public sim::Device, private sim::MotionListener, private sim::EdgeListener {
+class AxisMechanics final : public sim::Device, private sim::PositionListener, private sim::EdgeListener {
   public:
     /// Adds the device `name` and its wires to the kernel (before start): NAME.limit_minus, NAME.limit_plus, NAME.home
     /// where there is such a switch, NAME.enc_z (lazily driven) where there is an encoder.
-    AxisMachine(sim::Kernel& kernel, const std::string& name, const AxisMachineSettings& settings);
-    ~AxisMachine() override;
-    AxisMachine(const AxisMachine&) = delete;
-    AxisMachine& operator=(const AxisMachine&) = delete;
+    AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings);
+    ~AxisMechanics() override;
+    AxisMechanics(const AxisMechanics&) = delete;
+    AxisMechanics& operator=(const AxisMechanics&) = delete;
 
     /// The pulses that turn the motor; once, before Kernel::start. Their count is 0 where the machine stands at its
     /// start position and is that of the pulses on the wire: writing a card's position register must not change it.
@@ -78,7 +78,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     sim::WireId home_wire() const { return switch_wire_[2]; }
     sim::WireId index_wire() const { return index_wire_; }
     sim::DeviceId id() const { return id_; }
-    const AxisMachineSettings& settings() const { return settings_; }
+    const AxisMechanicsSettings& settings() const { return settings_; }
     const LimitSwitch& limit_minus() const { return switches_[0]; }
     const LimitSwitch& limit_plus() const { return switches_[1]; }
     const LimitSwitch& home() const { return switches_[2]; }
@@ -100,23 +100,23 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
   private:
     static constexpr int switch_count = 3;
     static constexpr int slots = sim::Motion::max_listeners;
-    enum Face : int { rotor_face, encoder_face, face_count };
+    enum MechanicsAdapter : int { rotor_face, encoder_face, face_count };
 
-    class FaceMotion final : public sim::Motion {
+    class MechanicsPosition final : public sim::Motion {
       public:
-        FaceMotion(AxisMachine& machine, Face face) : machine_(machine), face_(face) {}
+        MechanicsPosition(AxisMechanics& machine, MechanicsAdapter face) : machine_(machine), face_(face) {}
         std::int64_t count(Instant t) const override { return machine_.face_count_at(face_, t); }
         double rate(Instant t) const override { return machine_.face_rate(face_, t); }
         void watch(int slot, std::int64_t below, std::int64_t above) override {
             machine_.watch(face_, slot, {below, above});
         }
-        int listen(sim::MotionListener& listener) override { return machine_.listen(face_, listener); }
-        void listen_edges(sim::EdgeListener* listener) override { machine_.listen_edges(face_, listener); }
-        void hand_over_edges() override { machine_.pulses_->hand_over_edges(); }
+        int listen(sim::PositionListener& listener) override { return machine_.listen(face_, listener); }
+        void set_edge_listener(sim::EdgeListener* listener) override { machine_.set_edge_listener(face_, listener); }
+        void deliver_edges() override { machine_.pulses_->deliver_edges(); }
 
       private:
-        AxisMachine& machine_;
-        Face face_;
+        AxisMechanics& machine_;
+        MechanicsAdapter face_;
     };
     struct Watch {
         Range counts;  // what the listener asked for
@@ -137,7 +137,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     struct State {
         StepperState motor;
         Strain strain;
-        AxleState axle;
+        TransmissionState axle;
         EncoderState encoder;
         std::array<LimitSwitchState, switch_count> switches;
         std::array<std::array<Watch, slots>, face_count> watches;
@@ -157,11 +157,11 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
 
     std::int64_t pulses_at(Instant t) const { return pulses_ ? pulses_->count(t) : 0; }
     std::int64_t rotor_at(Instant t) const { return motor_.rotor(pulses_at(t)); }
-    std::int64_t face_count_at(Face face, Instant t) const;
-    double face_rate(Face face, Instant t) const;
-    void watch(Face face, int slot, Range counts);
-    int listen(Face face, sim::MotionListener& listener);
-    void listen_edges(Face face, sim::EdgeListener* listener);
+    std::int64_t face_count_at(MechanicsAdapter face, Instant t) const;
+    double face_rate(MechanicsAdapter face, Instant t) const;
+    void watch(MechanicsAdapter face, int slot, Range counts);
+    int listen(MechanicsAdapter face, sim::PositionListener& listener);
+    void set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener);
 
     /// Runs `change` of the motor, which may move the rotor or take it out of step, and lets everything know.
     template <class Change>
@@ -177,7 +177,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     void feel(Instant now);
     void strain(double rate, Instant now);
     void give_way(Instant now);
-    void tell_rate(double before, Instant now);
+    void notify_rate(double before, Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
     bool switch_fault(int i, std::string_view name, double value);
@@ -185,18 +185,18 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     class EdgeMaker;
 
     sim::Kernel& kernel_;
-    AxisMachineSettings settings_;
+    AxisMechanicsSettings settings_;
     sim::DeviceId id_{};
     State state_{};
     Stepper motor_;
-    Axle axle_;
+    Transmission axle_;
     Encoder encoder_;
     std::array<LimitSwitch, switch_count> switches_;
     std::array<sim::WireId, switch_count> switch_wire_{sim::WireId::none, sim::WireId::none, sim::WireId::none};
     sim::WireId index_wire_ = sim::WireId::none;
     sim::Motion* pulses_ = nullptr;
     int slot_ = 0;
-    std::array<FaceMotion, face_count> faces_;
+    std::array<MechanicsPosition, face_count> faces_;
     std::array<sim::Listeners, face_count> listeners_;
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};
     sim::EdgeListener* pulse_edges_ = nullptr;

@@ -5,28 +5,28 @@
 
 namespace motionrack::parts {
 
-sim::Motion& AxisMachine::rotor() {
+sim::Motion& AxisMechanics::rotor() {
     return faces_[rotor_face];
 }
-sim::Motion& AxisMachine::encoder() {
+sim::Motion& AxisMechanics::encoder() {
     return faces_[encoder_face];
 }
-std::int64_t AxisMachine::face_count_at(Face face, Instant t) const {
+std::int64_t AxisMechanics::face_count_at(MechanicsAdapter face, Instant t) const {
     if (face == rotor_face) return rotor_at(t);
     return encoder_.present() ? encoder_.count(rotor_at(t)) : 0;
 }
 
-double AxisMachine::face_rate(Face face, Instant t) const {
+double AxisMechanics::face_rate(MechanicsAdapter face, Instant t) const {
     const double rotor = pulses_ ? motor_.rotor_rate(pulses_->rate(t)) : 0;
     if (face == rotor_face) return rotor;
     return encoder_.present() ? encoder_.rate(rotor) : 0;
 }
 
-int AxisMachine::listen(Face face, sim::MotionListener& listener) {
+int AxisMechanics::listen(MechanicsAdapter face, sim::PositionListener& listener) {
     return listeners_[face].add(listener);
 }
 
-void AxisMachine::watch(Face face, int slot, Range counts) {
+void AxisMechanics::watch(MechanicsAdapter face, int slot, Range counts) {
     MOTIONRACK_ASSERT(slot >= 0 && slot < listeners_[face].size());
     Watch& w = state_.watches[face][static_cast<std::size_t>(slot)];
     const Instant now = kernel_.now();
@@ -40,11 +40,11 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
 
 // ---- The index wire
 
-int AxisMachine::level_at(int, Instant now) const {
+int AxisMechanics::level_at(int, Instant now) const {
     return encoder_.index(rotor_at(now));
 }
 
-void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
+void AxisMechanics::wanted_changed(int, bool wanted, Instant now) {
     const std::int64_t rotor = rotor_at(now);
     state_.index_wanted = wanted;
     state_.index_level = encoder_.index(rotor);
@@ -54,23 +54,23 @@ void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
 
 // ---- Edges
 
-void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
+void AxisMechanics::set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener) {
     MOTIONRACK_ASSERT(pulses_ != nullptr);
     const bool before = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
     edge_listeners_[face] = face == encoder_face && !encoder_.present() ? nullptr : listener;
     const bool after = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
     if (after && !before) state_.edges_until = rotor_at(kernel_.now());
-    pulses_->listen_edges(after || pulse_edges_ ? this : nullptr);
+    pulses_->set_edge_listener(after || pulse_edges_ ? this : nullptr);
 }
 
-void AxisMachine::listen_pulse_edges(sim::EdgeListener* listener) {
+void AxisMechanics::listen_pulse_edges(sim::EdgeListener* listener) {
     MOTIONRACK_ASSERT(pulses_ != nullptr);
     pulse_edges_ = listener;
-    pulses_->listen_edges(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
-                                                                                                       : nullptr);
+    pulses_->set_edge_listener(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
+                                                                                                            : nullptr);
 }
 
-void AxisMachine::edges(const sim::EdgeBatch& batch) {
+void AxisMechanics::edges(const sim::EdgeBatch& batch) {
     if (pulse_edges_) pulse_edges_->edges(batch);
     if (!edge_listeners_[rotor_face] && !edge_listeners_[encoder_face]) return;
     std::int64_t size = batch.size;

@@ -34,7 +34,7 @@ Ratio rotary_travel(double gear_ratio) {
     return reduced(360 * static_cast<std::int64_t>(nano), in_nano(gear_ratio));
 }
 
-Axle::Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState& state)
+Transmission::Transmission(const TransmissionSettings& settings, std::int64_t pulses_per_rev, TransmissionState& state)
     : settings_(settings), state_(state) {
     MOTIONRACK_ASSERT(settings.travel_per_rev.num > 0 && settings.travel_per_rev.den > 0 && pulses_per_rev > 0);
     MOTIONRACK_ASSERT(settings.backlash >= 0);
@@ -49,7 +49,7 @@ Axle::Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState&
     MOTIONRACK_ASSERT(!travel_.left(0));  // it starts within its travel
 }
 
-std::int64_t Axle::first_at_or_above(double position) const {
+std::int64_t Transmission::first_at_or_above(double position) const {
     const double guess = std::floor((position - settings_.start_position) / num_ * den_);
     auto table = static_cast<std::int64_t>(std::fmin(std::fmax(guess, -farthest_microsteps), farthest_microsteps));
     // The division may be off by a rounding; position_of is what counts.
@@ -58,7 +58,7 @@ std::int64_t Axle::first_at_or_above(double position) const {
     return table;
 }
 
-std::int64_t Axle::last_at_or_below(double position) const {
+std::int64_t Transmission::last_at_or_below(double position) const {
     const std::int64_t table = first_at_or_above(position);
     return position_of(table) <= position ? table : table - 1;
 }

@@ -23,7 +23,7 @@ Ratio linear_travel(double lead_mm);
 /// The degrees of one motor turn of a rotary axis with `gear_ratio` motor turns a turn (> 0, at most 1e6, to 1e-9).
 Ratio rotary_travel(double gear_ratio);
 
-struct AxleSettings {
+struct TransmissionSettings {
     Ratio travel_per_rev{5, 1};       ///< mm or degrees for one turn of the motor
     double start_position = 0;        ///< mm or degrees where it stands at the start
     double backlash = 0;              ///< mm or degrees of play, >= 0; taken to the nearest microstep
@@ -31,14 +31,14 @@ struct AxleSettings {
     std::optional<double> end_plus;
 };
 
-struct AxleState {
+struct TransmissionState {
     std::int64_t table = 0;  ///< the table at the last turn of the rotor, microsteps
 };
 
-class Axle {
+class Transmission {
   public:
     /// `pulses_per_rev`: microsteps of one turn of the rotor.
-    Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState& state);
+    Transmission(const TransmissionSettings& settings, std::int64_t pulses_per_rev, TransmissionState& state);
 
     /// The table in microsteps when the rotor is at `rotor` and has not turned back since turn().
     std::int64_t table(std::int64_t rotor) const {
@@ -66,11 +66,11 @@ class Axle {
     /// How far the rotor can turn: left when it would go beyond an end of travel.
     const Range& travel() const { return travel_; }
 
-    const AxleSettings& settings() const { return settings_; }
+    const TransmissionSettings& settings() const { return settings_; }
 
   private:
-    AxleSettings settings_;
-    AxleState& state_;
+    TransmissionSettings settings_;
+    TransmissionState& state_;
     double num_ = 1;  // units_per_pulse as two whole numbers
     double den_ = 1;
     std::int64_t play_ = 0;

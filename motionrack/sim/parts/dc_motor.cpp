@@ -25,18 +25,18 @@ int sign_of(double x) {
 
 // ---- one law
 
-double DcLaw::way(double seconds) const {
+double DcMotorModel::way(double seconds) const {
     const double s = std::min(seconds, end);
     if (lag == 0) return speed0 * s + aim * s * s * 0.5;
     return aim * s + (speed0 - aim) * lag * (1 - exponential(-s / lag));
 }
 
-double DcLaw::speed(double seconds) const {
+double DcMotorModel::speed(double seconds) const {
     if (seconds >= end) return after;
     return lag == 0 ? speed0 + aim * seconds : aim + (speed0 - aim) * exponential(-seconds / lag);
 }
 
-int DcLaw::direction() const {
+int DcMotorModel::direction() const {
     return speed0 != 0 ? sign_of(speed0) : sign_of(aim);
 }
 
@@ -47,19 +47,19 @@ double DcMotor::wanted_speed() const {
 }
 
 /// How it goes on from `speed` with the present voltage and load.
-DcLaw DcMotor::law_from(double speed) const {
+DcMotorModel DcMotor::law_from(double speed) const {
     const double inertia = 1 + state_.load;
     const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia,
                  lag = settings_.lag_s * inertia;
     const double wanted = wanted_speed(), error = wanted - speed;
     int direction = sign_of(speed);
     if (direction == 0) {
-        if (state_.held || wanted == 0 || state_.blocked == sign_of(wanted)) return {0, 0, 0, DcLaw::endless, 0};
+        if (state_.held || wanted == 0 || state_.blocked == sign_of(wanted)) return {0, 0, 0, DcMotorModel::endless, 0};
         const double push = std::clamp(wanted / lag, -limit, limit);
-        if (std::fabs(push) <= friction) return {0, 0, 0, DcLaw::endless, 0};
+        if (std::fabs(push) <= friction) return {0, 0, 0, DcMotorModel::endless, 0};
         direction = sign_of(push);
     }
-    DcLaw law{speed, 0, 0, DcLaw::endless, 0};
+    DcMotorModel law{speed, 0, 0, DcMotorModel::endless, 0};
     const double step = settings_.top_speed * telling;
     auto ends = [&law](double at, double after) {
         if (at < law.end) law.end = at, law.after = after;
@@ -96,7 +96,7 @@ DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSett
     MOTIONRACK_ASSERT(settings.end_minus.value_or(0) <= 0 && settings.end_plus.value_or(0) >= 0);
     kernel.listen(drive_, id_, 0);
     state_.load = settings.load;
-    state_.law.end = DcLaw::endless;
+    state_.law.end = DcMotorModel::endless;
 }
 
 /// Whole microseconds since the law began.
@@ -138,11 +138,11 @@ void DcMotor::tell(double before, Instant now) {
     const double after = rate(now);
     if (after == state_.told && before == after) return;
     state_.told = after;
-    listeners_.tell_rate(before, after, now);
+    listeners_.notify_rate(before, after, now);
 }
 
 Instant DcMotor::law_end() const {
-    if (state_.law.end >= DcLaw::endless) return never;
+    if (state_.law.end >= DcMotorModel::endless) return never;
     return state_.since + grid * static_cast<std::int64_t>(std::ceil(state_.law.end / grid_s));
 }
 
@@ -205,7 +205,7 @@ void DcMotor::act(Instant now) {
         begin_law(before, now);
         tell(before, now);
     }
-    listeners_.tell_crossed(state_.watches, count(now), now);
+    listeners_.notify_crossed(state_.watches, count(now), now);
     reschedule();
 }
 
@@ -240,11 +240,11 @@ void DcMotor::watch(int slot, std::int64_t below, std::int64_t above) {
     reschedule();
 }
 
-int DcMotor::listen(sim::MotionListener& listener) {
+int DcMotor::listen(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 
-void DcMotor::listen_edges(sim::EdgeListener* listener) {
+void DcMotor::set_edge_listener(sim::EdgeListener* listener) {
     state_.handed = kernel_.now();
     edges_ = listener;
 }

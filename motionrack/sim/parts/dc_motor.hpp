@@ -39,7 +39,7 @@ struct DcMotorSettings {
 };
 
 /// One stretch of motion, times in seconds from its beginning.
-struct DcLaw {
+struct DcMotorModel {
     double speed0 = 0;  ///< counts/s at the beginning
     double aim = 0;     ///< lag: the speed that it tends to; ramp: counts/s2
     double lag = 0;     ///< s; 0: a ramp
@@ -63,9 +63,9 @@ class DcMotor final : public sim::DeferringDevice, public sim::Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::MotionListener& listener) override;
-    void listen_edges(sim::EdgeListener* listener) override;
-    void hand_over_edges() override { hand_over(kernel_.now()); }
+    int listen(sim::PositionListener& listener) override;
+    void set_edge_listener(sim::EdgeListener* listener) override;
+    void deliver_edges() override { hand_over(kernel_.now()); }
 
     /// The rotor in counts, with its fraction.
     double position(Instant t) const;
@@ -92,7 +92,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::Motion {
         std::int64_t base = 0;  ///< counts at `since`
         double part = 0.5;      ///< of a count, at `since`
         Instant since{};
-        DcLaw law;
+        DcMotorModel law;
         double volts = 0;
         double load = 0;
         double told = 0;  ///< the rate that listeners know
@@ -104,7 +104,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::Motion {
 
     double seconds(Instant t) const;
     double wanted_speed() const;
-    DcLaw law_from(double speed) const;
+    DcMotorModel law_from(double speed) const;
     void begin_law(double speed, Instant now);
     void change(Instant now);
     void tell(double before, Instant now);

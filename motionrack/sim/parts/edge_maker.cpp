@@ -5,8 +5,8 @@
 
 namespace motionrack::parts {
 
-void AxisMachine::EdgeMaker::pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch,
-                                  std::int64_t first, std::uint32_t size) {
+void AxisMechanics::EdgeMaker::pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch,
+                                    std::int64_t first, std::uint32_t size) {
     const sim::EdgeBatch* rotor = &batch;
     if (first != batch.first_count || size != batch.size) {
         copy_.origin = batch.origin;
@@ -25,8 +25,8 @@ void AxisMachine::EdgeMaker::pass(const Encoder& encoder, const Listeners& liste
         turn(*listeners[encoder_face], encoder, *rotor, first, size);
 }
 
-void AxisMachine::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& encoder, const sim::EdgeBatch& batch,
-                                  std::int64_t first, std::uint32_t size) {
+void AxisMechanics::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& encoder, const sim::EdgeBatch& batch,
+                                    std::int64_t first, std::uint32_t size) {
     out_.size = 0;
     out_.tick = batch.tick;
     origin_ = batch.origin;
@@ -55,7 +55,7 @@ void AxisMachine::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& en
     flush(listener);
 }
 
-void AxisMachine::EdgeMaker::add(sim::EdgeListener& listener, std::int64_t at, std::int64_t count) {
+void AxisMechanics::EdgeMaker::add(sim::EdgeListener& listener, std::int64_t at, std::int64_t count) {
     const std::int64_t step = count - count_;
     if (step == 0) return;
     if (out_.size == out_.capacity ||
@@ -71,13 +71,13 @@ void AxisMachine::EdgeMaker::add(sim::EdgeListener& listener, std::int64_t at, s
     count_ = count;
 }
 
-void AxisMachine::EdgeMaker::flush(sim::EdgeListener& listener) {
+void AxisMechanics::EdgeMaker::flush(sim::EdgeListener& listener) {
     if (out_.size > 0) listener.edges(out_);
     out_.size = 0;
 }
 
-void AxisMachine::EdgeMaker::jump(const Encoder& encoder, const Listeners& listeners, Instant now, std::int64_t from,
-                                  std::int64_t to) {
+void AxisMechanics::EdgeMaker::jump(const Encoder& encoder, const Listeners& listeners, Instant now, std::int64_t from,
+                                    std::int64_t to) {
     while (from != to) {
         const int step = to > from ? 1 : -1;
         copy_.origin = now;
@@ -91,7 +91,8 @@ void AxisMachine::EdgeMaker::jump(const Encoder& encoder, const Listeners& liste
     }
 }
 
-void AxisMachine::EdgeMaker::count_jump(sim::EdgeListener& listener, Instant now, std::int64_t from, std::int64_t to) {
+void AxisMechanics::EdgeMaker::count_jump(sim::EdgeListener& listener, Instant now, std::int64_t from,
+                                          std::int64_t to) {
     out_.size = 0;
     out_.tick = Duration{1};
     origin_ = now;

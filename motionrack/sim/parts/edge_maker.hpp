@@ -10,7 +10,7 @@
 
 namespace motionrack::parts {
 
-class AxisMachine::EdgeMaker {
+class AxisMechanics::EdgeMaker {
   public:
     using Listeners = std::array<sim::EdgeListener*, face_count>;
 

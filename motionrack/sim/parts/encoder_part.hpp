@@ -16,7 +16,7 @@
 
 namespace motionrack::parts {
 
-class EncoderPart : public sim::Device, private sim::MotionListener {
+class EncoderPart : public sim::Device, private sim::PositionListener {
   public:
     sim::WireId a() const { return output_.a(); }
     sim::WireId b() const { return output_.b(); }

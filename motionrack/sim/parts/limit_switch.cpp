@@ -14,7 +14,7 @@ std::uint64_t mixed(std::uint64_t x) {
 
 }  // namespace
 
-LimitSwitch::LimitSwitch(const LimitSwitchSettings& settings, const Axle& axle, LimitSwitchState& state)
+LimitSwitch::LimitSwitch(const LimitSwitchSettings& settings, const Transmission& axle, LimitSwitchState& state)
     : settings_(settings), state_(state) {
     MOTIONRACK_ASSERT(settings.hysteresis >= 0 && settings.bounce >= Duration{0} &&
                       settings.bounce <= whole_seconds(1));

@@ -38,7 +38,7 @@ struct LimitSwitchState {
 
 class LimitSwitch {
   public:
-    LimitSwitch(const LimitSwitchSettings& settings, const Axle& axle, LimitSwitchState& state);
+    LimitSwitch(const LimitSwitchSettings& settings, const Transmission& axle, LimitSwitchState& state);
 
     bool present() const { return settings_.position.has_value(); }
     /// The place of the table (microsteps) at which it acts.

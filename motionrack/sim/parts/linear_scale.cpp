@@ -59,7 +59,7 @@ LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Moti
     set_ratio(0);
     dirt_at_ = grating(place_of(s.dirt_at_nm));
     index_at_ = s.index_nm ? grating(place_of(*s.index_nm)) : 0;
-    place.mark_rate(s.fastest / counts_per_place());
+    place.watch_rate(s.fastest / counts_per_place());
     constexpr const char* names[] = {".a", ".b", ".z"};
     for (std::size_t i = 0; i < wires_.size(); ++i) {
         wires_[i] = kernel.add_wire(name + names[i], level_at(static_cast<int>(i), Instant{0}));
@@ -132,7 +132,7 @@ Range LinearScale::place_range(const Range& counts) const {
 
 // ---- listeners
 
-int LinearScale::listen(sim::MotionListener& listener) {
+int LinearScale::listen(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 
@@ -145,7 +145,7 @@ void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
 void LinearScale::look(Instant now) {
     looking_ = true;
     if (live()) show(now);
-    listeners_.tell_crossed(state_.watches, count(now), now);
+    listeners_.notify_crossed(state_.watches, count(now), now);
     looking_ = false;
     aim(now);
 }
@@ -187,7 +187,7 @@ void LinearScale::rate_changed(double before, double rate, Instant now) {
         report(AxisCondition::scale_lost, gone, state_.lost);
     }
     const double factor = state_.direction * counts_per_place();
-    listeners_.tell_rate(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
+    listeners_.notify_rate(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
     if (was != fast) look(now);
 }
 
@@ -208,7 +208,7 @@ void LinearScale::wanted_changed(int pin, bool wanted, Instant now) {
     aim(now);
 }
 
-void LinearScale::listen_edges(sim::EdgeListener* listener) {
+void LinearScale::set_edge_listener(sim::EdgeListener* listener) {
     flush();
     if (!live()) state_.shown = count(kernel_.now());
     edges_ = listener;

@@ -47,7 +47,7 @@ struct LinearScaleSettings {
     std::int64_t places_nm = 1;           ///< ... are so many nm, 1 .. 1e9
 };
 
-class LinearScale final : public sim::DeferringDevice, public sim::Motion, private sim::MotionListener {
+class LinearScale final : public sim::DeferringDevice, public sim::Motion, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel, before it starts.
     LinearScale(sim::Kernel& kernel, const std::string& name, sim::Motion& place,
@@ -57,10 +57,10 @@ class LinearScale final : public sim::DeferringDevice, public sim::Motion, priva
     std::int64_t count(Instant t) const override { return counted(place_.count(t)); }
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::MotionListener& listener) override;
-    void mark_rate(double rate) override { place_.mark_rate(rate / counts_per_place()); }
-    void listen_edges(sim::EdgeListener* listener) override;
-    void hand_over_edges() override { flush(); }
+    int listen(sim::PositionListener& listener) override;
+    void watch_rate(double rate) override { place_.watch_rate(rate / counts_per_place()); }
+    void set_edge_listener(sim::EdgeListener* listener) override;
+    void deliver_edges() override { flush(); }
 
     double nm_per_count() const {
         return static_cast<double>(settings_.pitch_pm) / (1e3 * static_cast<double>(settings_.interpolation));
@@ -141,7 +141,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::Motion, priva
     State state_{};
     sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeRow row_;
+    sim::EdgeBatcher row_;
     bool looking_ = false;
 };
 

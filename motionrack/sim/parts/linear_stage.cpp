@@ -183,7 +183,7 @@ void LinearStage::tell(double before, Instant now) {
     const double after = rate(now);
     if (after == state_.told && before == after) return;
     state_.told = after;
-    listeners_.tell_rate(before, after, now);
+    listeners_.notify_rate(before, after, now);
 }
 
 // ---- when something happens
@@ -262,7 +262,7 @@ void LinearStage::act(Instant now) {
         begin_law();
         tell(before, now);
     }
-    listeners_.tell_crossed(state_.watches, count(now), now);
+    listeners_.notify_crossed(state_.watches, count(now), now);
     reschedule();
 }
 
@@ -299,18 +299,18 @@ void LinearStage::watch(int slot, std::int64_t below, std::int64_t above) {
     reschedule();
 }
 
-int LinearStage::listen(sim::MotionListener& listener) {
+int LinearStage::listen(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 
-void LinearStage::mark_rate(double rate) {
+void LinearStage::watch_rate(double rate) {
     MOTIONRACK_ASSERT(mark_count_ < slots && rate >= 0);
     const double limit = static_cast<double>(top_speed_);
     marks_[static_cast<std::size_t>(mark_count_++)] =
         static_cast<Wide>(std::min(rate / ticks_per_s * fine_per_count, limit));
 }
 
-void LinearStage::listen_edges(sim::EdgeListener* listener) {
+void LinearStage::set_edge_listener(sim::EdgeListener* listener) {
     state_.handed = kernel_.now();
     edges_ = listener;
 }

@@ -52,10 +52,10 @@ class LinearStage final : public sim::DeferringDevice, public sim::Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::MotionListener& listener) override;
-    void mark_rate(double rate) override;
-    void listen_edges(sim::EdgeListener* listener) override;
-    void hand_over_edges() override { hand_over(kernel_.now()); }
+    int listen(sim::PositionListener& listener) override;
+    void watch_rate(double rate) override;
+    void set_edge_listener(sim::EdgeListener* listener) override;
+    void deliver_edges() override { hand_over(kernel_.now()); }
 
     /// The place in nm with its fraction; m/s; m/s2.
     double position_nm(Instant t) const;
@@ -129,7 +129,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::Motion {
     std::array<Wide, slots> marks_{};
     int mark_count_ = 0;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeRow row_;
+    sim::EdgeBatcher row_;
 };
 
 }  // namespace motionrack::parts

@@ -12,7 +12,7 @@ constexpr double station_tick_s = 1e-5;
 
 }  // namespace
 
-Result<MarkingStation> MarkingStation::make(const StationSettings& settings, const Track* track) {
+Result<MarkingStation> MarkingStation::make(const StationSettings& settings, const Conveyor* track) {
     MOTIONRACK_CHECK(check(settings.galvo));
     if (settings.lens) MOTIONRACK_CHECK(sim::check(*settings.lens));
     if (!(settings.bits_per_mm >= 1 && settings.bits_per_mm <= 1e6))
@@ -20,7 +20,7 @@ Result<MarkingStation> MarkingStation::make(const StationSettings& settings, con
     if (!(settings.workpiece.tolerance_mm >= 0 && settings.workpiece.tolerance_mm <= 10))
         return fail(Trouble::refused,
                     fmt::format("a tolerance of {} mm: 0 to 10 are possible", settings.workpiece.tolerance_mm));
-    MOTIONRACK_TRY(Track own, Track::make(settings.track));
+    MOTIONRACK_TRY(Conveyor own, Conveyor::make(settings.track));
     MOTIONRACK_TRY(LaserGate gate, LaserGate::make(settings.laser));
     return MarkingStation(settings, std::move(own), track, gate);
 }

@@ -21,14 +21,14 @@ struct StationSettings {
     std::optional<sim::ScanLens> lens;  ///< none: bits_per_mm, without distortion
     double bits_per_mm = 8656;          ///< without a lens, 1 .. 1e6
     LaserSettings laser;
-    TrackSettings track;
+    ConveyorSettings track;
     WorkpieceSettings workpiece;
 };
 
 class MarkingStation {
   public:
     /// Refused as its parts refuse. `track`: in place of that of the settings; must live as long.
-    static Result<MarkingStation> make(const StationSettings& settings, const Track* track = nullptr);
+    static Result<MarkingStation> make(const StationSettings& settings, const Conveyor* track = nullptr);
 
     /// The card's gate changes; before the block that has its tick.
     void laser(std::int64_t half_us, bool on) { gate_.change(half_us, on); }
@@ -41,7 +41,7 @@ class MarkingStation {
     sim::Spot spot() const { return spot(last_); }
     /// The laser has no light now and none to come.
     bool dark(std::int64_t tick) const { return gate_.dark(tick); }
-    const Track& track() const { return outer_ != nullptr ? *outer_ : track_; }
+    const Conveyor& track() const { return outer_ != nullptr ? *outer_ : track_; }
     const GalvoPair& galvo() const { return galvo_; }
     const LaserGate& gate() const { return gate_; }
     Workpiece& workpiece() { return workpiece_; }
@@ -56,7 +56,7 @@ class MarkingStation {
     std::array<NamedState, state_count> states();
 
   private:
-    MarkingStation(const StationSettings& settings, Track track, const Track* outer, const LaserGate& gate)
+    MarkingStation(const StationSettings& settings, Conveyor track, const Conveyor* outer, const LaserGate& gate)
         : settings_(settings),
           galvo_(settings.galvo),
           track_(std::move(track)),
@@ -68,8 +68,8 @@ class MarkingStation {
     static constexpr std::size_t chunk = 512;
     StationSettings settings_;
     GalvoPair galvo_;
-    Track track_;
-    const Track* outer_ = nullptr;
+    Conveyor track_;
+    const Conveyor* outer_ = nullptr;
     LaserGate gate_;
     Workpiece workpiece_;
     std::array<double, chunk> x_{}, y_{};

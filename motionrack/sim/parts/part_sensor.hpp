@@ -18,7 +18,7 @@ struct PartSensorSettings {
     std::int64_t length = 1;  ///< of a part, 0 < length < every
 };
 
-class PartSensor final : public sim::Device, private sim::MotionListener {
+class PartSensor final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and the wire `wire` (at rest high) to the kernel, before it starts.
     PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::Motion& place,

@@ -8,7 +8,7 @@
 
 namespace motionrack::parts {
 
-Result<PositionSender> PositionSender::make(const Track& track, const SenderSettings& s) {
+Result<SerialPositionSource> SerialPositionSource::make(const Conveyor& track, const SerialPositionSettings& s) {
     const auto within = [](double v, double least, double greatest) { return v >= least && v <= greatest; };
     if (!within(std::abs(s.bits_per_mm), 1e-6, 1e9))
         return fail(
@@ -24,7 +24,7 @@ Result<PositionSender> PositionSender::make(const Track& track, const SenderSett
         return fail(
             Trouble::refused,
             "a position sender with two axes on a rotary table: a table has one angle; use a belt, or one axis");
-    PositionSender out;
+    SerialPositionSource out;
     out.track_ = &track;
     out.settings_ = s;
     const SinCos t = sin_cos(track.settings().direction_deg * (pi / 180));
@@ -32,7 +32,7 @@ Result<PositionSender> PositionSender::make(const Track& track, const SenderSett
     return out;
 }
 
-std::uint32_t PositionSender::word_at(double t_s) const {
+std::uint32_t SerialPositionSource::word_at(double t_s) const {
     const double way = track_->travel(t_s) * settings_.bits_per_mm;
     const auto whole = [](double v) {
         return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(v + 0.5)));
@@ -41,7 +41,7 @@ std::uint32_t PositionSender::word_at(double t_s) const {
     return (whole(way * cosine_) & 0xFFFF) | whole(way * sine_) << 16;
 }
 
-void PositionSender::words(std::int64_t first_tick, std::span<std::uint32_t> out) const {
+void SerialPositionSource::words(std::int64_t first_tick, std::span<std::uint32_t> out) const {
     double read_before = std::numeric_limits<double>::quiet_NaN();
     std::uint32_t word = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {

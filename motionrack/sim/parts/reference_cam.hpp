@@ -11,7 +11,7 @@
 
 namespace motionrack::parts {
 
-class ReferenceCam final : public sim::Device, private sim::MotionListener {
+class ReferenceCam final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of
     /// `place`.

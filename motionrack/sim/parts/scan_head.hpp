@@ -54,7 +54,7 @@ class ScanHead final : public sim::DeferringDevice {
     MarkingStation station_;
     sim::DeviceId id_{};
     State state_{};
-    std::array<sim::HeldState, MarkingStation::state_count> held_;
+    std::array<sim::SnapshotState, MarkingStation::state_count> held_;
     std::array<std::int32_t, 256> x_{}, y_{};
 };
 

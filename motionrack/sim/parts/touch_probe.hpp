@@ -31,7 +31,7 @@ class TouchProbe final : public sim::Device {
 
   private:
     /// One axis of the block.
-    struct Side final : sim::MotionListener {
+    struct Side final : sim::PositionListener {
         Side(TouchProbe& its, sim::Motion& motion, sim::Interval of_block)
             : probe(its), place(motion), interval(of_block), slot(motion.listen(*this)) {}
         void crossed(Instant now) override { probe.look(now); }

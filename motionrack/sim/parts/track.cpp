@@ -42,7 +42,7 @@ double time_for(double way, double speed, double accel) {
 
 }  // namespace
 
-Result<Track> Track::make(const TrackSettings& s) {
+Result<Conveyor> Conveyor::make(const ConveyorSettings& s) {
     const auto refuse = [](std::string why) { return fail(Trouble::refused, std::move(why)); };
     if (s.profile.empty()) return refuse("a track without a speed: its profile needs a point at least");
     for (std::size_t i = 0; i < s.profile.size(); ++i) {
@@ -67,7 +67,7 @@ Result<Track> Track::make(const TrackSettings& s) {
     if (!within(s.centre_mm.x, -1e5, 1e5) || !within(s.centre_mm.y, -1e5, 1e5))
         return refuse(
             fmt::format("a centre at ({}, {}) mm: -100000 to 100000 are possible", s.centre_mm.x, s.centre_mm.y));
-    Track out;
+    Conveyor out;
     out.settings_ = s;
     const SinCos t = sin_cos(s.direction_deg * (pi / 180));
     out.cosine_ = t.cos, out.sine_ = t.sin;
@@ -81,7 +81,7 @@ Result<Track> Track::make(const TrackSettings& s) {
     return out;
 }
 
-double Track::law_speed(double t_s) const {
+double Conveyor::law_speed(double t_s) const {
     const auto& p = settings_.profile;
     const auto above =
         std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
@@ -91,14 +91,14 @@ double Track::law_speed(double t_s) const {
     return a.speed + (b.speed - a.speed) * ((t_s - a.at_s) / (b.at_s - a.at_s));
 }
 
-std::ptrdiff_t Track::point_before(double t_s) const {
+std::ptrdiff_t Conveyor::point_before(double t_s) const {
     const auto& p = settings_.profile;
     if (t_s <= p.front().at_s) return -1;
     return std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; }) -
            p.begin() - 1;
 }
 
-double Track::law_travel_from(std::ptrdiff_t point, double t_s) const {
+double Conveyor::law_travel_from(std::ptrdiff_t point, double t_s) const {
     const auto& p = settings_.profile;
     if (point < 0) return p.front().speed * t_s;
     const auto i = static_cast<std::size_t>(point);
@@ -108,44 +108,44 @@ double Track::law_travel_from(std::ptrdiff_t point, double t_s) const {
     return travelled_[i] + (p[i].speed + (next.speed - p[i].speed) / (next.at_s - p[i].at_s) * (dt / 2)) * dt;
 }
 
-double Track::law_travel(double t_s) const {
+double Conveyor::law_travel(double t_s) const {
     return law_travel_from(point_before(t_s), t_s);
 }
 
-double Track::speed(double t_s) const {
+double Conveyor::speed(double t_s) const {
     const Driving& d = driving_;
     return d.by_hand ? d.speed - d.accel * std::max(0.0, d.since_s + d.ramp_s - t_s) : law_speed(t_s);
 }
 
-double Track::driven(double law, double t_s) const {
+double Conveyor::driven(double law, double t_s) const {
     const Driving& d = driving_;
     return d.travelled + (d.by_hand ? travel_by_hand(t_s - d.since_s) : law - d.law);
 }
 
-double Track::travel_by_hand(double after_s) const {
+double Conveyor::travel_by_hand(double after_s) const {
     const Driving& d = driving_;
     const double missing_s = std::max(0.0, d.ramp_s - after_s);  // of the ramp
     return d.speed * after_s - d.accel / 2 * (d.ramp_s * d.ramp_s - missing_s * missing_s);
 }
 
-double Track::travel(double t_s) const {
+double Conveyor::travel(double t_s) const {
     return driven(driving_.by_hand ? 0 : law_travel(t_s), t_s);
 }
 
-void Track::drive(double t_s, double speed) {
+void Conveyor::drive(double t_s, double speed) {
     driving_ = {travel(t_s), 0, t_s, speed, 0, 0, 1};
 }
 
-void Track::stop(double t_s) {
+void Conveyor::stop(double t_s) {
     const double now = speed(t_s), accel = now > 0 ? -settings_.deceleration : settings_.deceleration;
     driving_ = {travel(t_s), 0, t_s, 0, accel, std::fabs(now) / settings_.deceleration, 1};
 }
 
-void Track::follow_profile(double t_s) {
+void Conveyor::follow_profile(double t_s) {
     driving_ = {travel(t_s), law_travel(t_s), t_s, 0, 0, 0, 0};
 }
 
-double Track::leaves(double from_s, double low, double high) const {
+double Conveyor::leaves(double from_s, double low, double high) const {
     constexpr double never_s = std::numeric_limits<double>::infinity();
     for (;;) {
         // One piece of even acceleration after the other.
@@ -167,7 +167,7 @@ double Track::leaves(double from_s, double low, double high) const {
     }
 }
 
-void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
+void Conveyor::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
     const double per_unit = settings_.counts_per_unit * (1 - settings_.slip);
     const auto time = [&](std::size_t i) {
         return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * track_tick_s;
@@ -190,16 +190,16 @@ void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
     }
 }
 
-sim::Spot Track::carried(sim::Spot place, double way) const {
+sim::Spot Conveyor::carried(sim::Spot place, double way) const {
     if (settings_.rotary) return turned(place, settings_.centre_mm, way);
     return {place.x + way * cosine_, place.y + way * sine_};
 }
 
-sim::Spot Track::on_part(sim::Spot field, double t_s) const {
+sim::Spot Conveyor::on_part(sim::Spot field, double t_s) const {
     return carried(field, -travel(t_s));
 }
 
-sim::Spot Track::in_field(sim::Spot part, double t_s) const {
+sim::Spot Conveyor::in_field(sim::Spot part, double t_s) const {
     return carried(part, travel(t_s));
 }
 

@@ -20,7 +20,7 @@ struct SpeedPoint {
     double speed = 0;  ///< mm/s or degrees/s; straight between points, constant before the first and after the last
 };
 
-struct TrackSettings {
+struct ConveyorSettings {
     bool rotary = false;
     double direction_deg = 0;  ///< belt: where it goes, from +X counter-clockwise
     sim::Spot centre_mm{};     ///< rotary: about this, counter-clockwise when the speed is positive
@@ -31,10 +31,10 @@ struct TrackSettings {
     double jitter_counts = 0;       ///< 0 .. 1000: each reading is off by up to so much, evenly, the same in every run
 };
 
-class Track {
+class Conveyor {
   public:
     /// Refused: no profile, times that do not rise, numbers that are none or out of range.
-    static Result<Track> make(const TrackSettings& settings);
+    static Result<Conveyor> make(const ConveyorSettings& settings);
 
     /// mm or degrees since 0 s; speed then. Before a change of the drive the present way is continued backwards.
     double travel(double t_s) const;
@@ -53,7 +53,7 @@ class Track {
     /// The place on the part that is at `field` mm, and back. Part and field are one at travel 0.
     sim::Spot on_part(sim::Spot field, double t_s) const;
     sim::Spot in_field(sim::Spot part, double t_s) const;
-    const TrackSettings& settings() const { return settings_; }
+    const ConveyorSettings& settings() const { return settings_; }
 
     /// What changes of the drive have done.
     struct Driving {
@@ -78,7 +78,7 @@ class Track {
     double travel_by_hand(double after_s) const;
 
     Driving driving_;
-    TrackSettings settings_;
+    ConveyorSettings settings_;
     std::vector<double> travelled_;  ///< at the profile's points, from 0 s
     double cosine_ = 1, sine_ = 0;
 };

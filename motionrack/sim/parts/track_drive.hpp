@@ -1,7 +1,7 @@
 // What drives a track in virtual time, so that its speed can be changed by hand: from now on so fast, or as its profile
 // says again.
 //
-//   TrackDrive ──► Track ──► TrackMotion (counts of an encoder), TrackMotion (place of the parts), ScanHead, WordSource
+//   ConveyorDrive ──► Conveyor ──► ConveyorPosition (counts of an encoder), ConveyorPosition (place of the parts), ScanHead, SerialWordSource
 //
 // The faults: drive.speed x (x mm/s or degrees/s from now on, up to the greatest speed; 0: it stands), drive.profile
 // (its own profile again).
@@ -16,16 +16,16 @@
 
 namespace motionrack::parts {
 
-class TrackDrive final : public sim::Device {
+class ConveyorDrive final : public sim::Device {
   public:
     /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most greatest_track_speed.
-    TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track,
-               double greatest_speed = greatest_track_speed);
+    ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
+                  double greatest_speed = greatest_track_speed);
 
-    const Track& track() const { return track_; }
+    const Conveyor& track() const { return track_; }
     sim::DeviceId id() const { return id_; }
     /// Before the start: hears that the speed has changed.
-    void add(TrackMotion& motion) { motions_.push_back(&motion); }
+    void add(ConveyorPosition& motion) { motions_.push_back(&motion); }
     static std::span<const std::string_view> fault_names();
 
     // ---- between runs
@@ -42,9 +42,9 @@ class TrackDrive final : public sim::Device {
     template <class Change>
     void change(Instant now, Change&& how);
 
-    Track track_;
+    Conveyor track_;
     double greatest_speed_;
-    std::vector<TrackMotion*> motions_;
+    std::vector<ConveyorPosition*> motions_;
     sim::DeviceId id_{};
 };
 

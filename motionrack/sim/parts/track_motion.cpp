@@ -14,21 +14,22 @@ constexpr double endless_s = static_cast<double>(never.count()) / track_ticks_pe
 
 }  // namespace
 
-TrackMotion::TrackMotion(sim::Kernel& kernel, const std::string& name, const Track& track, double counts_per_unit)
+ConveyorPosition::ConveyorPosition(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
+                                   double counts_per_unit)
     : kernel_(kernel), track_(track), per_unit_(counts_per_unit), id_(kernel.add(*this, sim::Phase::parts, name)) {
     MOTIONRACK_ASSERT(counts_per_unit != 0);
 }
 
-std::int64_t TrackMotion::count(Instant t) const {
+std::int64_t ConveyorPosition::count(Instant t) const {
     return static_cast<std::int64_t>(std::floor(track_.travel(to_seconds(t)) * per_unit_));
 }
 
-double TrackMotion::rate(Instant t) const {
+double ConveyorPosition::rate(Instant t) const {
     return track_.speed(to_seconds(t)) * per_unit_;
 }
 
 /// The first instant at or after `from` at which the count is out of the range; it is in it at `from`.
-Instant TrackMotion::leaves(const Range& range, Instant from) const {
+Instant ConveyorPosition::leaves(const Range& range, Instant from) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double low = range.below == sim::unwatched_below ? -infinity : static_cast<double>(range.below + 1) / per_unit_;
     double high = range.above == sim::unwatched_above ? infinity : static_cast<double>(range.above) / per_unit_;
@@ -47,39 +48,39 @@ Instant TrackMotion::leaves(const Range& range, Instant from) const {
     return at;
 }
 
-void TrackMotion::schedule(Instant now) {
+void ConveyorPosition::schedule(Instant now) {
     const Range quiet = sim::Listeners::quiet(state_.watches);
     kernel_.schedule(id_, quiet.left(count(now)) ? now : leaves(quiet, now));
 }
 
-void TrackMotion::act(Instant now) {
-    listeners_.tell_crossed(state_.watches, count(now), now);
+void ConveyorPosition::act(Instant now) {
+    listeners_.notify_crossed(state_.watches, count(now), now);
     schedule(now);
 }
 
-void TrackMotion::changed(double speed_before) {
+void ConveyorPosition::changed(double speed_before) {
     const Instant now = kernel_.now();
-    listeners_.tell_rate(speed_before * per_unit_, rate(now), now);
+    listeners_.notify_rate(speed_before * per_unit_, rate(now), now);
     schedule(now);
 }
 
-void TrackMotion::watch(int slot, std::int64_t below, std::int64_t above) {
+void ConveyorPosition::watch(int slot, std::int64_t below, std::int64_t above) {
     state_.watches[static_cast<std::size_t>(slot)] = {below, above};
     schedule(kernel_.now());
 }
 
-int TrackMotion::listen(sim::MotionListener& listener) {
+int ConveyorPosition::listen(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 
-void TrackMotion::listen_edges(sim::EdgeListener* listener) {
+void ConveyorPosition::set_edge_listener(sim::EdgeListener* listener) {
     state_.handed = kernel_.now();
     state_.handed_count = count(state_.handed);
     edges_ = listener;
 }
 
 /// The edges since they were handed over last, each found by itself.
-void TrackMotion::hand_over(Instant now) {
+void ConveyorPosition::hand_over(Instant now) {
     Instant at = state_.handed;
     state_.handed = now;
     if (edges_ == nullptr) return;

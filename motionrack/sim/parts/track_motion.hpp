@@ -1,6 +1,6 @@
 // A track as a motion in virtual time: its travel in counts, with the instants at which a count is left.
 //
-//   Track (travel as a function of time) ──► floor(travel * counts a unit) ──► encoder, part sensor
+//   Conveyor (travel as a function of time) ──► floor(travel * counts a unit) ──► encoder, part sensor
 //
 // The count is a closed form of the time; nothing is done for a count that nobody watches.
 #pragma once
@@ -16,17 +16,17 @@
 
 namespace motionrack::parts {
 
-class TrackMotion final : public sim::DeferringDevice, public sim::Motion {
+class ConveyorPosition final : public sim::DeferringDevice, public sim::Motion {
   public:
     /// Adds the device `name` to the kernel, before it starts. `track` must live as long; not 0 counts a unit.
-    TrackMotion(sim::Kernel& kernel, const std::string& name, const Track& track, double counts_per_unit);
+    ConveyorPosition(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double counts_per_unit);
 
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::MotionListener& listener) override;
-    void listen_edges(sim::EdgeListener* listener) override;
-    void hand_over_edges() override { hand_over(kernel_.now()); }
+    int listen(sim::PositionListener& listener) override;
+    void set_edge_listener(sim::EdgeListener* listener) override;
+    void deliver_edges() override { hand_over(kernel_.now()); }
 
     /// The track goes otherwise from now on; `speed_before`: its speed() until now. Edges up to now must have been
     /// handed over.
@@ -48,13 +48,13 @@ class TrackMotion final : public sim::DeferringDevice, public sim::Motion {
     void hand_over(Instant now);
 
     sim::Kernel& kernel_;
-    const Track& track_;
+    const Conveyor& track_;
     double per_unit_;
     sim::DeviceId id_{};
     State state_{};
     sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeRow row_;
+    sim::EdgeBatcher row_;
 };
 
 }  // namespace motionrack::parts

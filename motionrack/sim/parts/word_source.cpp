@@ -13,8 +13,8 @@ constexpr double ticks_per_us = 10'000;
 
 }  // namespace
 
-WordSource::WordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires,
-                       const PositionSender& sender)
+SerialWordSource::SerialWordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires,
+                                   const SerialPositionSource& sender)
     : kernel_(kernel),
       sender_(sender),
       period_ticks_(sender.settings().period_us * ticks_per_us),
@@ -27,20 +27,20 @@ WordSource::WordSource(sim::Kernel& kernel, const std::string& name, const std::
     schedule();
 }
 
-std::span<const std::string_view> WordSource::fault_names() {
+std::span<const std::string_view> SerialWordSource::fault_names() {
     return word_source_faults;
 }
 
-Instant WordSource::reading(std::int64_t n) const {
+Instant SerialWordSource::reading(std::int64_t n) const {
     return Instant{static_cast<std::int64_t>(std::floor(static_cast<double>(n) * period_ticks_ + 0.5))};
 }
 
-void WordSource::schedule() {
+void SerialWordSource::schedule() {
     const Instant sending = state_.sent < state_.read ? reading(state_.sent) + delay_ : never;
     kernel_.schedule(id_, std::min(reading(state_.read), sending));
 }
 
-void WordSource::act(Instant now) {
+void SerialWordSource::act(Instant now) {
     State& s = state_;
     const auto place = [](std::int64_t n) { return static_cast<std::size_t>(n % most_under_way); };
     if (reading(s.read) <= now) {
@@ -58,7 +58,7 @@ void WordSource::act(Instant now) {
     schedule();
 }
 
-bool WordSource::fault(std::string_view name, double value, Instant) {
+bool SerialWordSource::fault(std::string_view name, double value, Instant) {
     if (name != word_source_faults[0]) return false;
     state_.silent = value != 0;
     return true;

@@ -16,13 +16,14 @@
 
 namespace motionrack::parts {
 
-class WordSource final : public sim::Device {
+class SerialWordSource final : public sim::Device {
   public:
     /// Words that can be under way: the delay is less than so many periods.
     static constexpr std::int64_t most_under_way = 256;
 
     /// Adds the device `name` and its wires `wires`.mcbsp and `wires`.mcbsp_frame to the kernel, before it starts.
-    WordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires, const PositionSender& sender);
+    SerialWordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires,
+                     const SerialPositionSource& sender);
 
     sim::DeviceId id() const { return id_; }
     /// The last complete word.
@@ -43,7 +44,7 @@ class WordSource final : public sim::Device {
     void schedule();
 
     sim::Kernel& kernel_;
-    PositionSender sender_;
+    SerialPositionSource sender_;
     double period_ticks_;
     Duration delay_;
     sim::DeviceId id_{};

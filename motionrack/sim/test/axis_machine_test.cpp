@@ -15,8 +15,8 @@ using sim::PulseLaw;
 using sim::WireId;
 
 /// Pulses every 100 us: 10 kHz needs a start rate that takes it.
-AxisMachineSettings plain() {
-    AxisMachineSettings s;
+AxisMechanicsSettings plain() {
+    AxisMechanicsSettings s;
     s.motor.start_stop_hz = 50'000;
     s.encoder.counts_per_rev = 4000;
     return s;
@@ -36,7 +36,7 @@ class Scribe final : public Kernel::WireObserver {
 };
 
 struct MachineWorld {
-    MachineWorld(const AxisMachineSettings& settings, std::vector<PulseLaw> laws)
+    MachineWorld(const AxisMechanicsSettings& settings, std::vector<PulseLaw> laws)
         : pulses(kernel, std::move(laws)), machine(kernel, "X", settings) {
         machine.connect(pulses);
         kernel.observe_wires(&scribe);
@@ -45,7 +45,7 @@ struct MachineWorld {
 
     Kernel kernel;
     FakePulses pulses;
-    AxisMachine machine;
+    AxisMechanics machine;
     Scribe scribe;
 };
 
@@ -57,7 +57,7 @@ std::vector<std::pair<AxisCondition, std::int64_t>> conditions(const Kernel& ker
 
 // ---- Truth
 
-TEST(AxisMachine, TurnsPulsesIntoMillimetresExactly) {
+TEST(AxisMechanics, TurnsPulsesIntoMillimetresExactly) {
     MachineWorld w(plain(), {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     w.run(milliseconds(320));
@@ -71,8 +71,8 @@ TEST(AxisMachine, TurnsPulsesIntoMillimetresExactly) {
     EXPECT_LE(w.kernel.events(), 2u);  // nothing is done for a pulse
 }
 
-TEST(AxisMachine, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
+    AxisMechanicsSettings s = plain();
     s.axle.travel_per_rev = rotary_travel(7);
     s.axle.start_position = -10;
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
@@ -81,8 +81,8 @@ TEST(AxisMachine, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
     EXPECT_EQ(w.machine.position(w.kernel.now()), 350.0);
 }
 
-TEST(AxisMachine, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
+    AxisMechanicsSettings s = plain();
     s.axle.backlash = 10 * 5.0 / 3200;
     MachineWorld w(s, {{Instant{0}, milliseconds(1), +1}, {milliseconds(50), milliseconds(1), -1}});
     w.kernel.start();
@@ -100,8 +100,8 @@ TEST(AxisMachine, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
 
 // ---- Switches
 
-TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
+    AxisMechanicsSettings s = plain();
     s.limit_plus.position = 0.5;  // 320 pulses
     s.limit_plus.hysteresis = 0.05;
     s.limit_plus.bounce = Duration{0};
@@ -116,8 +116,8 @@ TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     EXPECT_EQ(w.scribe.lines, expected);
 }
 
-TEST(AxisMachine, AHomeSwitchIsActiveAtAndBelowItsPlaceAlreadyAtTheStart) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AHomeSwitchIsActiveAtAndBelowItsPlaceAlreadyAtTheStart) {
+    AxisMechanicsSettings s = plain();
     s.home.position = 0;
     s.home.bounce = Duration{0};
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
@@ -129,9 +129,9 @@ TEST(AxisMachine, AHomeSwitchIsActiveAtAndBelowItsPlaceAlreadyAtTheStart) {
     EXPECT_EQ(w.kernel.level(w.machine.home_wire()), 1);
 }
 
-TEST(AxisMachine, ContactsBounceAtFixedInstantsWithinTheBounceTime) {
+TEST(AxisMechanics, ContactsBounceAtFixedInstantsWithinTheBounceTime) {
     auto history = [] {
-        AxisMachineSettings s = plain();
+        AxisMechanicsSettings s = plain();
         s.limit_minus.position = -0.5;
         s.limit_minus.bounce = milliseconds(2);
         MachineWorld w(s, {{Instant{0}, microseconds(100), -1}, {milliseconds(60), microseconds(100), +1}});
@@ -159,8 +159,8 @@ TEST(AxisMachine, ContactsBounceAtFixedInstantsWithinTheBounceTime) {
     EXPECT_EQ(lines.back().level, 1);
 }
 
-TEST(AxisMachine, AStuckSwitchKeepsItsLevelWhateverTheMachineDoes) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AStuckSwitchKeepsItsLevelWhateverTheMachineDoes) {
+    AxisMechanicsSettings s = plain();
     s.limit_plus.position = 0.5;
     s.limit_plus.bounce = Duration{0};
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
@@ -179,8 +179,8 @@ TEST(AxisMachine, AStuckSwitchKeepsItsLevelWhateverTheMachineDoes) {
     EXPECT_FALSE(w.machine.fault("limit_plus.nonsense", 1, w.kernel.now()));
 }
 
-RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, ()) {
-    AxisMachineSettings s = plain();
+RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, ()) {
+    AxisMechanicsSettings s = plain();
     s.axle.travel_per_rev =
         *rc::gen::element(linear_travel(5), linear_travel(5.08), rotary_travel(7), rotary_travel(90));
     s.axle.start_position = *rc::gen::inRange(-1000, 1000) / 10.0;
@@ -199,8 +199,8 @@ RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, 
 
 // ---- Lost steps
 
-TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
+    AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(1000), +1}});
     w.kernel.start();
@@ -217,8 +217,8 @@ TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     EXPECT_EQ(w.kernel.conditions()[1].at, milliseconds(100));
 }
 
-TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
+    AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // 0 -> 2000 -> 4000 -> 0 Hz: the last is a jump of twice the start/stop rate.
     MachineWorld w(s, {{Instant{0}, microseconds(500), +1},
@@ -231,8 +231,8 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 20 + 40 + 128);
 }
 
-TEST(AxisMachine, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
+    AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // Three times 15 of the 16 microsteps of a full step, at 3 kHz, and a fourth time all of them.
     const Duration quick = microseconds(333);
@@ -253,8 +253,8 @@ TEST(AxisMachine, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
     EXPECT_NE(w.machine.lost_steps(), 0);
 }
 
-TEST(AxisMachine, AMotorFollowsARampToTheSpeedAtWhichItStops) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AMotorFollowsARampToTheSpeedAtWhichItStops) {
+    AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // From standstill 1600 Hz, up to 20 kHz and down again by 40 Hz each 10 us, and from 1600 Hz to standstill: an
     // acceleration of twice the start/stop rate a millisecond.
@@ -275,8 +275,8 @@ TEST(AxisMachine, AMotorFollowsARampToTheSpeedAtWhichItStops) {
     EXPECT_TRUE(conditions(w.kernel).empty());
 }
 
-TEST(AxisMachine, AMotorDrivenFasterThanItPullsStalls) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, AMotorDrivenFasterThanItPullsStalls) {
+    AxisMechanicsSettings s = plain();
     s.motor.pull_out_hz = 15'000;
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1},
                        {milliseconds(10), microseconds(50), +1},
@@ -286,8 +286,8 @@ TEST(AxisMachine, AMotorDrivenFasterThanItPullsStalls) {
     EXPECT_EQ(w.machine.lost_steps(), 192);  // 200 pulses: 3 cycles of 64
 }
 
-RC_GTEST_PROP(AxisMachine, LosesMultiplesOfFourFullStepsAndKeepsThePhase, ()) {
-    AxisMachineSettings s = plain();
+RC_GTEST_PROP(AxisMechanics, LosesMultiplesOfFourFullStepsAndKeepsThePhase, ()) {
+    AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     s.motor.pull_out_hz = 20'000;
     s.motor.microsteps = *rc::gen::element<std::int64_t>(1, 2, 10, 16);
@@ -306,7 +306,7 @@ RC_GTEST_PROP(AxisMachine, LosesMultiplesOfFourFullStepsAndKeepsThePhase, ()) {
     RC_ASSERT(w.machine.in_step());
 }
 
-TEST(AxisMachine, FaultsStallPushAndLose) {
+TEST(AxisMechanics, FaultsStallPushAndLose) {
     MachineWorld w(plain(), {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     w.run(milliseconds(10));
@@ -322,8 +322,8 @@ TEST(AxisMachine, FaultsStallPushAndLose) {
     EXPECT_FALSE(w.machine.fault("push", std::numeric_limits<double>::quiet_NaN(), w.kernel.now()));
 }
 
-TEST(AxisMachine, StopsAtTheEndOfTravelAndComesBackFromIt) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, StopsAtTheEndOfTravelAndComesBackFromIt) {
+    AxisMechanicsSettings s = plain();
     s.axle.end_plus = 1.0;  // 640 pulses
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(100), -1}});
     w.kernel.start();
@@ -337,7 +337,7 @@ TEST(AxisMachine, StopsAtTheEndOfTravelAndComesBackFromIt) {
     EXPECT_EQ(conditions(w.kernel)[0], (std::pair{AxisCondition::end_of_travel, std::int64_t{1}}));
 }
 
-TEST(AxisMachine, ConditionsAreSentencesWithTheirNumbers) {
+TEST(AxisMechanics, ConditionsAreSentencesWithTheirNumbers) {
     auto text = [](AxisCondition code, std::int64_t a, std::int64_t b) {
         return describe({milliseconds(1500), {}, static_cast<std::uint16_t>(code), a, b}, "X");
     };
@@ -351,8 +351,8 @@ TEST(AxisMachine, ConditionsAreSentencesWithTheirNumbers) {
     EXPECT_NE(text(AxisCondition::axle_held, 7, 0).find("held fast at 7 microsteps"), std::string::npos);
 }
 
-TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, APushThatPassesASwitchIsSeenAtOnce) {
+    AxisMechanicsSettings s = plain();
     s.limit_plus.position = 0.5;
     s.limit_plus.bounce = Duration{0};
     MachineWorld w(s, {});
@@ -367,8 +367,8 @@ TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
 
 // ---- Snapshots
 
-TEST(AxisMachine, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
-    AxisMachineSettings s = plain();
+TEST(AxisMechanics, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
+    AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 15'000;
     s.limit_plus.position = 0.5;
     s.home.position = 0.1;

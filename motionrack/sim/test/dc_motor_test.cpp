@@ -120,7 +120,7 @@ TEST(DcMotor, ALoadMakesItSlower) {
     EXPECT_NEAR(times[1] / times[0], 5, 0.1);
 }
 
-struct MotorEar final : sim::MotionListener, sim::EdgeListener {
+struct MotorEar final : sim::PositionListener, sim::EdgeListener {
     void crossed(Instant now) override { at.push_back(now); }
     void rate_changed(double, double after, Instant) override { top = std::max(top, std::fabs(after)), ++told; }
     void edges(const sim::EdgeBatch& batch) override {
@@ -140,7 +140,7 @@ TEST(DcMotor, TellsAWatchAtTheVeryInstantAndHandsOverEveryEdge) {
     MotorEar ear;
     const int slot = rig.motor.listen(ear);
     rig.kernel.start();
-    rig.motor.listen_edges(&ear);
+    rig.motor.set_edge_listener(&ear);
     rig.volts(6);
     for (const std::int64_t above : {1, 700, 2'000, 9'000}) {
         rig.motor.watch(slot, sim::unwatched_below, above);
@@ -187,14 +187,14 @@ TEST(DcMotor, RunsIntoItsEndsOfTravelAndComesBack) {
 TEST(DcMotor, TurnsAnAxisMachineWithCamAndSwitches) {
     sim::Kernel kernel;
     DcMotor motor(kernel, "m", {});
-    AxisMachineSettings s;
+    AxisMechanicsSettings s;
     s.motor = {1'000, 1, 1e12, 1e12};
     s.axle.travel_per_rev = linear_travel(10);
     s.encoder.counts_per_rev = 1'000;
     s.limit_plus.position = 20;
     s.limit_plus.bounce = Duration{0};
     s.limit_plus.active_level = 1;
-    AxisMachine machine(kernel, "x", s);
+    AxisMechanics machine(kernel, "x", s);
     machine.connect(motor);
     ReferenceCam cam(kernel, "cam", machine.rotor(), 500, 700);
     EmergencyButton button(kernel, "button");

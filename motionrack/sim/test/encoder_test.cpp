@@ -35,7 +35,7 @@ class EdgeEar final : public sim::EdgeListener {
     bool joined = true;
 };
 
-class CrossingEar final : public sim::MotionListener {
+class CrossingEar final : public sim::PositionListener {
   public:
     explicit CrossingEar(sim::Motion& motion) : motion_(motion), slot_(motion.listen(*this)) {}
     void crossed(Instant now) override {
@@ -62,8 +62,8 @@ class WireEar final : public sim::Device {
     std::vector<std::pair<int, Instant>> heard;
 };
 
-AxisMachineSettings with_counts(std::int64_t counts_per_rev) {
-    AxisMachineSettings s;
+AxisMechanicsSettings with_counts(std::int64_t counts_per_rev) {
+    AxisMechanicsSettings s;
     s.motor.start_stop_hz = 1e6;
     s.motor.pull_out_hz = 2e6;
     s.encoder.counts_per_rev = counts_per_rev;
@@ -83,7 +83,7 @@ std::vector<PulseLaw> some_laws(int size, int fastest_us = 2) {
 }
 
 struct EncoderWorld {
-    EncoderWorld(const AxisMachineSettings& settings, std::vector<PulseLaw> laws)
+    EncoderWorld(const AxisMechanicsSettings& settings, std::vector<PulseLaw> laws)
         : pulses(kernel, std::move(laws)), machine(kernel, "X", settings), ear(kernel) {
         machine.connect(pulses);
         kernel.listen(machine.index_wire(), ear.id, 0);
@@ -92,7 +92,7 @@ struct EncoderWorld {
     std::int64_t rotor() { return machine.rotor().count(kernel.now()); }
     Kernel kernel;
     FakePulses pulses;
-    AxisMachine machine;
+    AxisMechanics machine;
     WireEar ear;
 };
 
@@ -178,8 +178,8 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
 }
 
 TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
-    AxisMachineSettings s = with_counts(4001);  // turns end between microsteps, counts are skipped
-    s.motor.microsteps = 1;                     // 20 counts a pulse
+    AxisMechanicsSettings s = with_counts(4001);  // turns end between microsteps, counts are skipped
+    s.motor.microsteps = 1;                       // 20 counts a pulse
     EncoderWorld w(s, {{Instant{0}, milliseconds(1), 1}});
     w.kernel.start();
     w.kernel.want(w.machine.index_wire(), w.ear.id, true);
@@ -193,13 +193,13 @@ TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
 // ---- Edges
 
 RC_GTEST_PROP(Encoder, EdgesOneByOneComeToTheSameCountAsTheClosedForm, ()) {
-    AxisMachineSettings s = with_counts(*some_counts());
+    AxisMechanicsSettings s = with_counts(*some_counts());
     s.motor.start_stop_hz = *rc::gen::element(20'000.0, 1e6);
     EncoderWorld w(s, some_laws(6));
     EdgeEar ear, rotor;
     w.kernel.start();
-    w.machine.encoder().listen_edges(&ear);
-    w.machine.rotor().listen_edges(&rotor);
+    w.machine.encoder().set_edge_listener(&ear);
+    w.machine.rotor().set_edge_listener(&rotor);
     for (int i = 1; i <= 10; ++i) {
         w.kernel.run_until(milliseconds(7 * i));
         if (i == 4) w.machine.fault("push", *rc::gen::inRange(-300, 300), w.kernel.now());
@@ -213,13 +213,13 @@ RC_GTEST_PROP(Encoder, EdgesOneByOneComeToTheSameCountAsTheClosedForm, ()) {
 }
 
 TEST(Encoder, EdgesStopAtTheEndOfTravel) {
-    AxisMachineSettings s = with_counts(4000);
+    AxisMechanicsSettings s = with_counts(4000);
     s.axle.end_plus = 1.0;
     EncoderWorld w(s, {{Instant{0}, microseconds(10), 1}, {milliseconds(20), microseconds(10), -1}});
     EdgeEar ear, rotor;
     w.kernel.start();
-    w.machine.encoder().listen_edges(&ear);
-    w.machine.rotor().listen_edges(&rotor);
+    w.machine.encoder().set_edge_listener(&ear);
+    w.machine.rotor().set_edge_listener(&rotor);
     w.kernel.run_until(milliseconds(15));
     EXPECT_EQ(rotor.count, 640);
     EXPECT_EQ(ear.count, 800);
@@ -236,7 +236,7 @@ TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
     w.kernel.start();
     w.machine.listen_pulse_edges(&pulses);
     w.kernel.run_until(milliseconds(1));
-    w.machine.encoder().listen_edges(&encoder);
+    w.machine.encoder().set_edge_listener(&encoder);
     encoder.count = w.encoder();
     w.kernel.run_until(milliseconds(10));
     EXPECT_EQ(pulses.count, 1000);
@@ -246,7 +246,7 @@ TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
     w.kernel.run_until(milliseconds(11));
     EXPECT_EQ(pulses.count, 1000);
     EXPECT_EQ(encoder.count, 1375);
-    w.machine.encoder().listen_edges(nullptr);
+    w.machine.encoder().set_edge_listener(nullptr);
     w.kernel.run_until(milliseconds(12));
     EXPECT_EQ(encoder.count, 1375);
 }
@@ -258,7 +258,7 @@ RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts,
     EncoderWorld w(with_counts(800), some_laws(8, 20));  // sampled often enough to see every edge
     EdgeEar edges;
     w.kernel.start();
-    w.machine.encoder().listen_edges(&edges);
+    w.machine.encoder().set_edge_listener(&edges);
     sim::QuadratureDecoder decoder;
     std::uint64_t both_changed = 0;
     bool broken = false;
@@ -315,8 +315,8 @@ TEST(Encoder, SwappedLinesCountBackwards) {
     EXPECT_EQ(ear.rate, -100'000);
 }
 
-TEST(AxisMachine, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
-    AxisMachineSettings s = with_counts(4000);
+TEST(AxisMechanics, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
+    AxisMechanicsSettings s = with_counts(4000);
     s.limit_plus.position = 2;
     s.home.position = 1;
     s.motor.start_stop_hz = 150'000;
@@ -325,7 +325,7 @@ TEST(AxisMachine, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
                        {milliseconds(150), microseconds(10), 0}});
     EdgeEar ear;
     w.kernel.start();
-    w.machine.encoder().listen_edges(&ear);
+    w.machine.encoder().set_edge_listener(&ear);
     w.kernel.want(w.machine.index_wire(), w.ear.id, true);
     w.ear.heard.reserve(1000);
     const std::uint64_t before = sim::allocations();

@@ -33,17 +33,17 @@ class FakePulses final : public DeferringDevice, public Motion {
         ++watch_calls;
         reschedule();
     }
-    int listen(MotionListener& listener) override {
+    int listen(PositionListener& listener) override {
         MOTIONRACK_ASSERT(listeners_.size() < max_listeners);
         listeners_.push_back(&listener);
         return static_cast<int>(listeners_.size()) - 1;
     }
-    void listen_edges(EdgeListener* listener) override {
+    void set_edge_listener(EdgeListener* listener) override {
         edge_listener_ = listener;
         state_.edges_made = steps(kernel_.now());
     }
 
-    void hand_over_edges() override { make_edges(kernel_.now()); }
+    void deliver_edges() override { make_edges(kernel_.now()); }
 
     // ---- Device
     void act(Instant now) override {
@@ -94,7 +94,7 @@ class FakePulses final : public DeferringDevice, public Motion {
         state_.base = count(now);
         state_.law = {now, law.period, law.direction};
         state_.edges_made = 0;
-        for (MotionListener* listener : listeners_) listener->rate_changed(before, rate_of(state_.law), now);
+        for (PositionListener* listener : listeners_) listener->rate_changed(before, rate_of(state_.law), now);
     }
 
     void make_edges(Instant now) {
@@ -134,7 +134,7 @@ class FakePulses final : public DeferringDevice, public Motion {
     std::vector<PulseLaw> laws_;
     DeviceId id_;
     State state_{};
-    std::vector<MotionListener*> listeners_;
+    std::vector<PositionListener*> listeners_;
     EdgeListener* edge_listener_ = nullptr;
     EdgeBatch batch_{};
 };

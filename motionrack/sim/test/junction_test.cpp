@@ -23,10 +23,10 @@ class JunctionEar final : public Device {
     std::vector<Change> heard;
 };
 
-TEST(Junctions, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) {
+TEST(WireConnections, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) {
     Kernel kernel;
     JunctionEar ear(kernel);
-    Junctions junctions(kernel);
+    WireConnections junctions(kernel);
     const WireId from = kernel.add_wire("from", 1), same = kernel.add_wire("same", 0),
                  other = kernel.add_wire("other", 0);
     kernel.listen(same, ear.id, 1);
@@ -43,16 +43,16 @@ TEST(Junctions, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) {
               (std::vector<JunctionEar::Change>{{1, 1, Instant{0}}, {1, 0, Instant{10}}, {2, 1, Instant{10}}}));
 }
 
-TEST(Junctions, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
+TEST(WireConnections, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
     Kernel kernel;
     FakePulses pulses(kernel, {{Instant{0}, microseconds(10), +1}});
-    parts::AxisMachineSettings s;
+    parts::AxisMechanicsSettings s;
     s.motor.start_stop_hz = 200'000;
     s.encoder.counts_per_rev = 3200;
-    parts::AxisMachine machine(kernel, "X", s);
+    parts::AxisMechanics machine(kernel, "X", s);
     machine.connect(pulses);
     JunctionEar ear(kernel);
-    Junctions junctions(kernel);
+    WireConnections junctions(kernel);
     const WireId z = kernel.add_wire("card.xin2", 0), unused = kernel.add_wire("card.yin2", 0);
     kernel.listen(z, ear.id, 0);
     junctions.join(machine.index_wire(), z);

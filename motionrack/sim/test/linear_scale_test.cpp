@@ -40,7 +40,7 @@ struct Head final : sim::Device {
     sim::QuadratureDecoder decoder;
 };
 
-struct ScaleEar final : sim::MotionListener, sim::EdgeListener {
+struct ScaleEar final : sim::PositionListener, sim::EdgeListener {
     void crossed(Instant now) override { at = now, ++crossings; }
     void rate_changed(double, double after, Instant) override { rate = after; }
     void edges(const sim::EdgeBatch& batch) override {
@@ -202,7 +202,7 @@ TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
     rig.run(0.1);
     rig.head.want(true, rig.count());
     rig.ear.count = rig.count();
-    rig.scale.listen_edges(&rig.ear);
+    rig.scale.set_edge_listener(&rig.ear);
     const std::uint64_t before = sim::allocations();
     for (int i = 0; i < 1'000; ++i) {
         rig.kernel.run_until(rig.kernel.now() + Duration{10'007});

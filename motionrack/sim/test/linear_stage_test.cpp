@@ -148,7 +148,7 @@ TEST(LinearStage, TopSpeedAndCurrentLimitAreKept) {
     EXPECT_NEAR(static_cast<double>(rig.count() - there), 2e8 * 1024, 1);
 }
 
-struct Ear final : sim::MotionListener, sim::EdgeListener {
+struct Ear final : sim::PositionListener, sim::EdgeListener {
     void crossed(Instant now) override { at.push_back(now); }
     void rate_changed(double before, double, Instant now) override {
         if (!rates.empty() && rates.back() == before) return;
@@ -200,7 +200,7 @@ TEST(LinearStage, HandsOverEveryEdgeInItsOrderAndAtItsTick) {
     Rig rig;
     Ear ear;
     rig.kernel.start();
-    rig.stage.listen_edges(&ear);
+    rig.stage.set_edge_listener(&ear);
     for (const double volts : {0.001, -0.002, 0.003}) {
         rig.volts(volts);
         rig.run(2e-4);
@@ -249,7 +249,7 @@ TEST(LinearStage, MarkedRatesAreToldAtTheirTick) {
     Rig rig;
     Ear ear;
     rig.stage.listen(ear);
-    rig.stage.mark_rate(0.1e9 * 1024);
+    rig.stage.watch_rate(0.1e9 * 1024);
     rig.kernel.start();
     rig.volts(1);
     rig.run(0.1);

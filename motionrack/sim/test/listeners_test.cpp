@@ -18,7 +18,7 @@ TEST(Interval, ItsSidesAreLeftAtTheFirstPlaceThatIsOnAnother) {
     }
 }
 
-struct ListenersEar final : MotionListener {
+struct ListenersEar final : PositionListener {
     void crossed(Instant) override { ++crossings; }
     void rate_changed(double from, double to, Instant) override { before = from, after = to; }
     int crossings = 0;
@@ -32,14 +32,14 @@ TEST(Listeners, WhoseRangeIsLeftHearsOfItOnceAndTheOthersDoNot) {
     watches[static_cast<std::size_t>(listeners.add(first))] = {-5, 5};
     watches[static_cast<std::size_t>(listeners.add(second))] = {unwatched_below, 9};
     EXPECT_EQ(Listeners::quiet(watches), (Range{-5, 5}));
-    listeners.tell_crossed(watches, 4, Instant{0});
+    listeners.notify_crossed(watches, 4, Instant{0});
     EXPECT_EQ(first.crossings, 0);
-    listeners.tell_crossed(watches, 5, Instant{0});
-    listeners.tell_crossed(watches, 6, Instant{0});
+    listeners.notify_crossed(watches, 5, Instant{0});
+    listeners.notify_crossed(watches, 6, Instant{0});
     EXPECT_EQ(first.crossings, 1);
     EXPECT_EQ(second.crossings, 0);
     EXPECT_EQ(Listeners::quiet(watches), (Range{unwatched_below, 9}));
-    listeners.tell_rate(3, -4, Instant{0});
+    listeners.notify_rate(3, -4, Instant{0});
     EXPECT_EQ(second.before, 3);
     EXPECT_EQ(second.after, -4);
 }
@@ -57,9 +57,9 @@ struct Batches final : EdgeListener {
     std::vector<std::int64_t> counts;
 };
 
-TEST(EdgeRow, ABatchEndsWhereItIsFullWhereTheDirectionTurnsAndWhereTimeDoesNotFit) {
+TEST(EdgeBatcher, ABatchEndsWhereItIsFullWhereTheDirectionTurnsAndWhereTimeDoesNotFit) {
     Batches heard;
-    EdgeRow row;
+    EdgeBatcher row;
     const std::int64_t full = EdgeBatch::capacity;
     std::vector<Instant> at;
     std::vector<std::int64_t> counts;

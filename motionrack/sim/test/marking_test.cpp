@@ -108,19 +108,19 @@ TEST(Track, PartAndFieldAreEachOthersInverse) {
     EXPECT_FALSE(Track::make({.counts_per_unit = 0}));
 }
 
-TEST(PositionSender, WordsHaveResolutionPeriodAndDelay) {
+TEST(SerialPositionSource, WordsHaveResolutionPeriodAndDelay) {
     const Track track = *Track::make({.direction_deg = 90, .profile = {{0, 100}}});
     std::vector<std::uint32_t> words(2000);
-    PositionSender::make(track, {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120})->words(0, words);
+    SerialPositionSource::make(track, {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120})->words(0, words);
     EXPECT_EQ(static_cast<std::int32_t>(words[11]), -5);  // read at -0.05 ms
     EXPECT_EQ(words[1000], 985u);                         // read at 9.85 ms, at hand after 9.97 ms
     EXPECT_EQ(words[1001], 985u);
     EXPECT_EQ(words[1002], 990u);
-    PositionSender::make(track, {.bits_per_mm = -100, .two_axes = true})->words(0, words);
+    SerialPositionSource::make(track, {.bits_per_mm = -100, .two_axes = true})->words(0, words);
     EXPECT_EQ(words[1000], 0xFF9C0000u);
-    EXPECT_FALSE(PositionSender::make(track, {.bits_per_mm = 0}));
-    EXPECT_FALSE(PositionSender::make(track, {.period_us = nan}));
-    EXPECT_FALSE(PositionSender::make(*Track::make({.rotary = true}), {.two_axes = true}));
+    EXPECT_FALSE(SerialPositionSource::make(track, {.bits_per_mm = 0}));
+    EXPECT_FALSE(SerialPositionSource::make(track, {.period_us = nan}));
+    EXPECT_FALSE(SerialPositionSource::make(*Track::make({.rotary = true}), {.two_axes = true}));
 }
 
 /// How much of each tick the laser shines.

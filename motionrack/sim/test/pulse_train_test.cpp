@@ -41,7 +41,7 @@ class Divider final : public DeferringDevice, private PulseTrain::Owner {
     DeviceId id;
 };
 
-struct Ear final : MotionListener, EdgeListener {
+struct Ear final : PositionListener, EdgeListener {
     void crossed(Instant now) override { crossings.push_back(now); }
     void rate_changed(double, double after, Instant) override { rate = after; }
     void edges(const EdgeBatch& batch) override {
@@ -58,7 +58,7 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
     Divider divider(kernel);
     Ear ear;
     const int slot = divider.train.listen(ear);
-    divider.train.listen_edges(&ear);
+    divider.train.set_edge_listener(&ear);
     kernel.start();
     std::int64_t count = 0, left = 0, reload = 0, high_left = 0, above = unwatched_above;
     int direction = 1;

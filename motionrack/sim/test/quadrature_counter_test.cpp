@@ -83,7 +83,7 @@ RC_GTEST_PROP(BatchDecoder, FollowsTheEdgesOfAMotion, ()) {
     FakePulses pulses(kernel, laws);
     BatchDecoder decoder;
     kernel.start();
-    pulses.listen_edges(&decoder);
+    pulses.set_edge_listener(&decoder);
     for (int i = 1; i <= 12; ++i) {
         kernel.run_until(microseconds(600) * i);
         RC_ASSERT(decoder.count() == pulses.count(kernel.now()));
@@ -91,7 +91,7 @@ RC_GTEST_PROP(BatchDecoder, FollowsTheEdgesOfAMotion, ()) {
     RC_ASSERT(decoder.illegal() == 0u);
 }
 
-class Watcher final : public MotionListener {
+class Watcher final : public PositionListener {
   public:
     void crossed(Instant now) override { at.push_back(now); }
     void rate_changed(double, double, Instant) override {}

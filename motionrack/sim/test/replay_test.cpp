@@ -43,8 +43,8 @@ class PulseCard final : public RegisterDevice, public Device {
     FakePulses& pulses_;
 };
 
-parts::AxisMachineSettings settings() {
-    parts::AxisMachineSettings s;
+parts::AxisMechanicsSettings settings() {
+    parts::AxisMechanicsSettings s;
     s.motor.start_stop_hz = 8000;
     s.limit_plus.position = 0.4;
     s.home.position = 0.1;
@@ -75,7 +75,7 @@ struct World {
     Kernel kernel;
     FakePulses pulses{kernel, {}};
     PulseCard card{kernel, pulses};
-    parts::AxisMachine machine{kernel, "X", settings()};
+    parts::AxisMechanics machine{kernel, "X", settings()};
 };
 
 TEST(InputLog, ReplayingWhatWasRecordedGivesTheSameHistory) {

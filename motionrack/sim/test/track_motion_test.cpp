@@ -73,14 +73,14 @@ struct Edges final : sim::EdgeListener {
     }
 };
 
-TEST(TrackMotion, MakesEveryEdgeAtItsInstantThereAndBack) {
+TEST(ConveyorPosition, MakesEveryEdgeAtItsInstantThereAndBack) {
     for (const double per_unit : {37.0, -37.0}) {
         sim::Kernel world;
-        TrackDrive drive(world, "belt", track_of({{0, 0}, {0.1, 100}, {0.3, -100}}));
-        TrackMotion motion(world, "counts", drive.track(), per_unit);
+        ConveyorDrive drive(world, "belt", track_of({{0, 0}, {0.1, 100}, {0.3, -100}}));
+        ConveyorPosition motion(world, "counts", drive.track(), per_unit);
         Edges edges;
         world.start();
-        motion.listen_edges(&edges);
+        motion.set_edge_listener(&edges);
         for (int i = 1; i <= 40; ++i) world.run_until(milliseconds(10 * i));
         ASSERT_GT(edges.all.size(), 700u);
         std::int64_t before = motion.count(Instant{0});
@@ -97,15 +97,15 @@ TEST(TrackMotion, MakesEveryEdgeAtItsInstantThereAndBack) {
     }
 }
 
-TEST(TrackMotion, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
-    struct RatesEar final : sim::MotionListener {
+TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
+    struct RatesEar final : sim::PositionListener {
         void crossed(Instant) override {}
         void rate_changed(double from, double to, Instant) override { before = from, after = to; }
         double before = 0, after = 0;
     };
     sim::Kernel kernel;
-    TrackDrive drive(kernel, "belt", track_of({{0, 100}}));
-    TrackMotion fine(kernel, "fine", drive.track(), 1000), turned(kernel, "turned", drive.track(), -10);
+    ConveyorDrive drive(kernel, "belt", track_of({{0, 100}}));
+    ConveyorPosition fine(kernel, "fine", drive.track(), 1000), turned(kernel, "turned", drive.track(), -10);
     drive.add(fine);
     drive.add(turned);
     RatesEar of_fine, of_turned;
@@ -122,8 +122,8 @@ TEST(TrackMotion, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
 
 TEST(PartSensor, IsLowWhileAPartIsThereAndCountsThem) {
     sim::Kernel kernel;
-    TrackDrive drive(kernel, "belt", track_of({{0, 100}}));
-    TrackMotion place(kernel, "place", drive.track(), 1000);
+    ConveyorDrive drive(kernel, "belt", track_of({{0, 100}}));
+    ConveyorPosition place(kernel, "place", drive.track(), 1000);
     drive.add(place);
     PartSensor sensor(kernel, "sensor", "belt.sensor_n", place, {5'000, 20'000, 8'000});
     kernel.start();
@@ -146,12 +146,12 @@ TEST(PartSensor, IsLowWhileAPartIsThereAndCountsThem) {
     EXPECT_FALSE(drive.fault("drive.height", 1, kernel.now()));
 }
 
-TEST(WordSource, AWordIsCompleteTheDelayAfterItsReading) {
+TEST(SerialWordSource, AWordIsCompleteTheDelayAfterItsReading) {
     sim::Kernel kernel;
-    TrackDrive drive(kernel, "belt", track_of({{0, 1000}}));
-    const PositionSender sender =
-        *PositionSender::make(drive.track(), {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120});
-    WordSource source(kernel, "sender", "belt", sender);
+    ConveyorDrive drive(kernel, "belt", track_of({{0, 1000}}));
+    const SerialPositionSource sender =
+        *SerialPositionSource::make(drive.track(), {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120});
+    SerialWordSource source(kernel, "sender", "belt", sender);
     kernel.start();
     const sim::WireId word = kernel.find_wire("belt.mcbsp"), frame = kernel.find_wire("belt.mcbsp_frame");
     kernel.run_until(microseconds(169));
@@ -159,7 +159,7 @@ TEST(WordSource, AWordIsCompleteTheDelayAfterItsReading) {
     kernel.run_until(microseconds(170));
     EXPECT_EQ(kernel.level(word), 50) << "the reading at 50 us";
     EXPECT_EQ(kernel.level(frame), 1) << "the first word was 0 again";
-    // The same as PositionSender says for ticks of 10 us.
+    // The same as SerialPositionSource says for ticks of 10 us.
     std::vector<std::uint32_t> words(100);
     sender.words(0, words);
     for (std::size_t tick = 18; tick < words.size(); ++tick) {

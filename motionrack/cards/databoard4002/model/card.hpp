@@ -27,7 +27,7 @@ namespace motionrack::databoard4002 {
 
 class Card final : public sim::DeferringDevice,
                    public sim::ByteDevice,
-                   private sim::MotionListener,
+                   private sim::PositionListener,
                    private sim::PulseTrain::Owner {
   public:
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().

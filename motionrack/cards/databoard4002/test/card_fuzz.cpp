@@ -32,7 +32,7 @@ class Run {
         ems_ = wire("ems"), esr_ = wire("esr"), esl_ = wire("esl");
         host_.kernel.want(wire("fout"), host_.card.id(), feed.below(2) == 0);
         listening_ = feed.below(2) == 0;
-        if (listening_) host_.card.pulses().listen_edges(&edges_);
+        if (listening_) host_.card.pulses().set_edge_listener(&edges_);
     }
 
     void go(std::int64_t accesses) {
@@ -233,7 +233,7 @@ class Run {
         const std::uint64_t before = host_.kernel.state_hash();
         for (int port = 0; port < 8; ++port) (void)host_.card.peek(static_cast<std::uint8_t>(port));
         check(host_.kernel.state_hash() == before, "peek changes the card");
-        host_.card.pulses().hand_over_edges();
+        host_.card.pulses().deliver_edges();
         if (listening_) check(edges_.total == pulses(), "edges and pulses differ");
         if (host_.card.hung()) return;
         run(longest_access());

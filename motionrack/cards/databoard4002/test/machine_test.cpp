@@ -25,8 +25,8 @@ using ::testing::HasSubstr;
 
 /// 1000 counts a turn, 10 mm a turn: 100 counts for a millimetre; the carriage stands at 0, the stops are at -300 and
 /// +3000 mm.
-parts::AxisMachineSettings carriage() {
-    parts::AxisMachineSettings s;
+parts::AxisMechanicsSettings carriage() {
+    parts::AxisMechanicsSettings s;
     s.motor = {1'000, 1, 1e12, 1e12};
     s.axle.travel_per_rev = parts::linear_travel(10);
     s.encoder.counts_per_rev = 1'000;
@@ -70,12 +70,12 @@ struct Machine {
 
     sim::Kernel kernel;
     parts::DcMotor motor;
-    parts::AxisMachine axis;
+    parts::AxisMechanics axis;
     bool connected;
     parts::ReferenceCam cam;
     parts::EmergencyButton button;
     Host host;
-    sim::Junctions junctions;
+    sim::WireConnections junctions;
     Driver driver;
     SpeedScale scale;
 };

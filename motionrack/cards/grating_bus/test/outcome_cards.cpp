@@ -15,9 +15,9 @@ class StepMotion final : public sim::Motion {
     std::int64_t count(Instant t) const override { return motion_.at(t.count()); }
     double rate(Instant) const override { return 0; }
     void watch(int, std::int64_t, std::int64_t) override {}
-    int listen(sim::MotionListener&) override { return 0; }
-    void listen_edges(sim::EdgeListener*) override {}
-    void hand_over_edges() override {}
+    int listen(sim::PositionListener&) override { return 0; }
+    void set_edge_listener(sim::EdgeListener*) override {}
+    void deliver_edges() override {}
 
   private:
     Course motion_;

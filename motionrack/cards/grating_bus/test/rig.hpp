@@ -20,9 +20,9 @@ class EvenMotion final : public sim::Motion {
     }
     double rate(Instant) const override { return static_cast<double>(per_second_); }
     void watch(int, std::int64_t, std::int64_t) override {}
-    int listen(sim::MotionListener&) override { return 0; }
-    void listen_edges(sim::EdgeListener*) override {}
-    void hand_over_edges() override {}
+    int listen(sim::PositionListener&) override { return 0; }
+    void set_edge_listener(sim::EdgeListener*) override {}
+    void deliver_edges() override {}
 
   private:
     std::int64_t from_, per_second_;

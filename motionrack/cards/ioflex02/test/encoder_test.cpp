@@ -60,7 +60,7 @@ struct Machine {
     Rig rig{Settings{}};
     sim::FakePulses place;
     Part part;
-    sim::Junctions joints;
+    sim::WireConnections joints;
     Flex2Pos card;
     EncoderCheck check;
     std::vector<Finding> found;

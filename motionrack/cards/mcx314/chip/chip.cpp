@@ -95,7 +95,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
     kernel_.schedule(id_, Instant{0});
 }
 
-int Chip::Output::listen(sim::MotionListener& listener) {
+int Chip::Output::listen(sim::PositionListener& listener) {
     chip->listened_ |= 1u << axis;
     return listeners.add(listener);
 }
@@ -258,14 +258,14 @@ void Chip::tell_listeners(Instant now) {
                 const double rate = rate_of(a, now);
                 const auto before =
                     std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
-                output.listeners.tell_rate(before, rate, now);
+                output.listeners.notify_rate(before, rate, now);
             }
         }
         Axis& axis = state_.axis[a];
         if (!(state_.crossed >> a & 1u)) return;
         state_.crossed &= ~(1u << a);
         if (output.edge_listener) flush_edges(a);
-        output.listeners.tell_crossed(axis.watch, axis.count, now);
+        output.listeners.notify_crossed(axis.watch, axis.count, now);
     });
 }
 

@@ -93,9 +93,9 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         std::int64_t count(Instant t) const override { return chip->count_at(axis, t); }
         double rate(Instant t) const override { return chip->rate_of(axis, t); }
         void watch(int slot, std::int64_t below, std::int64_t above) override { chip->watch(axis, slot, below, above); }
-        int listen(sim::MotionListener& listener) override;
-        void listen_edges(sim::EdgeListener* listener) override { chip->listen_edges(axis, listener); }
-        void hand_over_edges() override { chip->hand_over_edges(axis); }
+        int listen(sim::PositionListener& listener) override;
+        void set_edge_listener(sim::EdgeListener* listener) override { chip->set_edge_listener(axis, listener); }
+        void deliver_edges() override { chip->deliver_edges(axis); }
 
         Chip* chip = nullptr;
         int axis = 0;
@@ -110,7 +110,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
     };
     /// Hears when an encoder passes a comparison value.
-    class EncoderEar final : public sim::MotionListener {
+    class EncoderEar final : public sim::PositionListener {
       public:
         void crossed(Instant now) override { chip->encoder_crossed(axis, now); }
         void rate_changed(double, double, Instant) override {}
@@ -139,8 +139,8 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     std::int64_t count_at(int axis, Instant t) const;
     double rate_of(int axis, Instant t) const;
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
-    void listen_edges(int axis, sim::EdgeListener* listener);
-    void hand_over_edges(int axis);
+    void set_edge_listener(int axis, sim::EdgeListener* listener);
+    void deliver_edges(int axis);
 
     // wires.cpp: inputs and outputs
     void set_wants(int axis);

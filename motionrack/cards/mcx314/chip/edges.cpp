@@ -106,7 +106,7 @@ bool Chip::edges_wanted(int a) const {
     return wanted;
 }
 
-void Chip::listen_edges(int axis, sim::EdgeListener* listener) {
+void Chip::set_edge_listener(int axis, sim::EdgeListener* listener) {
     advance_to(tick_of(kernel_.now()));
     if (outputs_[axis].edge_listener) flush_edges(axis);
     outputs_[axis].edge_listener = listener;
@@ -116,7 +116,7 @@ void Chip::listen_edges(int axis, sim::EdgeListener* listener) {
     outputs_[axis].batch.size = 0;
 }
 
-void Chip::hand_over_edges(int axis) {
+void Chip::deliver_edges(int axis) {
     if (!outputs_[axis].edge_listener) return;
     advance_to(tick_of(kernel_.now()));
     flush_edges(axis);

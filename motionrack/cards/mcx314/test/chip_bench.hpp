@@ -76,9 +76,9 @@ class HandWheel final : public sim::Motion {
     std::int64_t count(Instant) const override { return count_; }
     double rate(Instant) const override { return 0; }
     void watch(int, std::int64_t below, std::int64_t above) override { below_ = below, above_ = above; }
-    int listen(sim::MotionListener& listener) override { return listener_ = &listener, 0; }
-    void listen_edges(sim::EdgeListener*) override {}
-    void hand_over_edges() override {}
+    int listen(sim::PositionListener& listener) override { return listener_ = &listener, 0; }
+    void set_edge_listener(sim::EdgeListener*) override {}
+    void deliver_edges() override {}
     /// Moves count by count, telling of what is watched.
     void turn(std::int64_t to, Instant now) {
         while (count_ != to) {
@@ -95,7 +95,7 @@ class HandWheel final : public sim::Motion {
   private:
     std::int64_t count_ = 0;
     std::int64_t below_ = sim::unwatched_below, above_ = sim::unwatched_above;
-    sim::MotionListener* listener_ = nullptr;
+    sim::PositionListener* listener_ = nullptr;
 };
 
 /// Lets time pass, whoever breaks the run.

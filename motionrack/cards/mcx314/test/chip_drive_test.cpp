@@ -14,7 +14,7 @@ TEST(ChipDrive, ATrapezoidHasTheMakersRampAndExactlyItsPulses) {
     Bench b;
     EdgeLog log;
     b.start();
-    b.chip.pulses(0).listen_edges(&log);
+    b.chip.pulses(0).set_edge_listener(&log);
     b.speeds(X, 800'000, 100, 4000);
     b.data(X, 0x06, 80'000);
     const Instant from = b.kernel.now();
@@ -213,7 +213,7 @@ TEST(ChipDrive, EveryInterruptComesAtItsOwnTickAndReadingClearsIt) {
     Bench b;
     EdgeLog log;
     b.start();
-    b.chip.pulses(2).listen_edges(&log);
+    b.chip.pulses(2).set_edge_listener(&log);
     b.speeds(Z, 80'000, 1000, 1000);
     b.data(Z, 0x0B, 5);
     b.mode(Z, 1, 0x9000);  // P >= C+, D-END
@@ -252,8 +252,8 @@ TEST(ChipDrive, HeldDrivesStartTogether) {
     Bench b;
     EdgeLog x, y;
     b.start();
-    b.chip.pulses(0).listen_edges(&x);
-    b.chip.pulses(1).listen_edges(&y);
+    b.chip.pulses(0).set_edge_listener(&x);
+    b.chip.pulses(1).set_edge_listener(&y);
     b.speeds(X | Y, 80'000, 1000, 1000);
     b.data(X | Y, 0x06, 3);
     b.command(X | Y, 0x24);

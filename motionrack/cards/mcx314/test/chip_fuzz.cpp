@@ -39,7 +39,7 @@ class Run {
                 inputs_[a][i] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + input_names[i]);
         common_ = {kernel_.find_wire("c.emgn"), kernel_.find_wire("c.expls_n")};
         kernel_.start();
-        for (int a = 0; a < 2; ++a) chip_.pulses(a).listen_edges(&edges_[a]);
+        for (int a = 0; a < 2; ++a) chip_.pulses(a).set_edge_listener(&edges_[a]);
     }
 
     void go(std::int64_t accesses) {
@@ -263,7 +263,7 @@ class Run {
             if (fixed_[a].on && !(status >> a & 1u)) end_fixed(a);
         }
         for (int a = 0; a < 2; ++a) {
-            chip_.pulses(a).hand_over_edges();
+            chip_.pulses(a).deliver_edges();
             require(static_cast<std::uint32_t>(edges_[a].total) == count_of(a), "edges and counts do not add up", a);
         }
     }

@@ -24,8 +24,8 @@ unsigned hmst(Bench& b, unsigned axis) {
     return field("RR2", "HMST").get(b.status(axis, 2));
 }
 
-parts::AxisMachineSettings machine_settings(double start_mm, double in1_mm) {
-    parts::AxisMachineSettings s;
+parts::AxisMechanicsSettings machine_settings(double start_mm, double in1_mm) {
+    parts::AxisMechanicsSettings s;
     s.motor.start_stop_hz = 8'000;
     s.encoder.counts_per_rev = 4000;
     s.axle.start_position = start_mm;
@@ -64,8 +64,8 @@ struct Homing : Bench {
     }
     double position() { return machine.position(kernel.now()); }
 
-    parts::AxisMachine machine;
-    sim::Junctions junctions;
+    parts::AxisMechanics machine;
+    sim::WireConnections junctions;
 };
 
 TEST(ChipHome, SearchesSwitchIndexAndOffsetToTheVeryPulse) {

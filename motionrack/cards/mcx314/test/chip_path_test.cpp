@@ -117,7 +117,7 @@ RC_GTEST_PROP(ChipPath, AnyLineStaysWithinHalfAPulseOfTheIdealOne, ()) {
     Bench b;
     std::array<EdgeLog, 3> log;
     b.start();
-    for (int a = 0; a < 3; ++a) b.chip.pulses(a).listen_edges(&log[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < 3; ++a) b.chip.pulses(a).set_edge_listener(&log[static_cast<std::size_t>(a)]);
     b.speeds(X, 16'000, 4000, 8000, 8000);
     b.write(5, xyz);
     b.data(X, 0x06, px);
@@ -151,7 +151,7 @@ RC_GTEST_PROP(ChipPath, AnyFullCircleStaysWithinAPulseAndReturns, ()) {
     Bench b;
     std::array<EdgeLog, 2> log;
     b.start();
-    for (int a = 0; a < 2; ++a) b.chip.pulses(a).listen_edges(&log[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < 2; ++a) b.chip.pulses(a).set_edge_listener(&log[static_cast<std::size_t>(a)]);
     b.speeds(X, 16'000, 8000, 8000);
     b.write(5, xyz);
     command_segment(b, {clockwise ? 0x32u : 0x33u, cx, cy, 0, 0});
@@ -191,7 +191,7 @@ TEST(ChipPath, DecelerationIsOnlyWhereItIsEnabled) {
         Bench b;
         EdgeLog log;
         b.start();
-        b.chip.pulses(0).listen_edges(&log);
+        b.chip.pulses(0).set_edge_listener(&log);
         b.speeds(X | Y, 80'000, 100, 2000, 2000);
         b.write(5, xyz);
         b.command(0, enabled ? 0x3B : 0x3C);
@@ -212,7 +212,7 @@ TEST(ChipPath, WithConstantVectorSpeedDiagonalPulsesAreRarerByTheRootOfTwo) {
     Bench b;
     EdgeLog log;
     b.start();
-    b.chip.pulses(0).listen_edges(&log);
+    b.chip.pulses(0).set_edge_listener(&log);
     b.speeds(X | Y, 800'000, 1000, 1000);
     b.data(Y, 0x00, 1'131'371);
     b.write(5, xyz | 0x0100);

@@ -96,8 +96,8 @@ TEST(ChipPattern, ACircleStackedOnTheInterruptKeepsItsRadius) {
     for (int i = 0; i < 3; ++i) b.stack(word());
     b.go();
     EdgeLog x, y;
-    b.chip.pulses(0).listen_edges(&x);
-    b.chip.pulses(1).listen_edges(&y);
+    b.chip.pulses(0).set_edge_listener(&x);
+    b.chip.pulses(1).set_edge_listener(&y);
     int interrupts = 0;
     while (b.runs()) {
         if (b.wait(milliseconds(1)) && ++interrupts > 0) b.stack(word());
@@ -228,8 +228,8 @@ TEST(ChipPattern, WithConstantVectorSpeedTheStepsOfTwoAxesAreRarer) {
     b.command(0, cmd::BP_ENABLE);
     b.stack({0x8F0F, 0x8000, 0x8F33, 0x0000});
     EdgeLog x, y;
-    b.chip.pulses(0).listen_edges(&x);
-    b.chip.pulses(1).listen_edges(&y);
+    b.chip.pulses(0).set_edge_listener(&x);
+    b.chip.pulses(1).set_edge_listener(&y);
     b.go();
     b.advance(tick * 400);
     std::vector<std::int64_t> at;

@@ -44,7 +44,7 @@ void expect_equal_looks(std::uint64_t seed, int drive) {
     Bench quiet, heard;
     EdgeLog log;
     for (Bench* b : {&quiet, &heard}) b->start();
-    for (int a = 0; a < 2; ++a) heard.chip.pulses(a).listen_edges(&log);
+    for (int a = 0; a < 2; ++a) heard.chip.pulses(a).set_edge_listener(&log);
     for (Bench* b : {&quiet, &heard}) d.start(*b);
     std::int64_t gap = random.of({3, 300, 30'000});
     for (int look = 0; look < 200; ++look) {

@@ -82,7 +82,7 @@ class Follower final : public sim::Device {
 };
 
 // Watches range after range of one axis' count.
-class Watcher final : public sim::MotionListener {
+class Watcher final : public sim::PositionListener {
   public:
     void begin(sim::Motion& motion, int axis) {
         motion_ = &motion;
@@ -137,7 +137,7 @@ class Bench {
             for (const sim::WireId wire : output_wires_[a]) follower_.want(wire);
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].watch(0);
         for (int a = 0; a < axis_count && way.listen; ++a)
-            chip_.pulses(a).listen_edges(&edges_[static_cast<std::size_t>(a)]);
+            chip_.pulses(a).set_edge_listener(&edges_[static_cast<std::size_t>(a)]);
     }
 
     Outcome run() {

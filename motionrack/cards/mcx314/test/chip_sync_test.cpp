@@ -32,8 +32,8 @@ TEST(ChipSync, AnAxisThatReachesCompPlusStartsAnotherInTheSameTick) {
     Bench b(Variant::mcx314as);
     EdgeLog x, y;
     b.start();
-    b.chip.pulses(0).listen_edges(&x);
-    b.chip.pulses(1).listen_edges(&y);
+    b.chip.pulses(0).set_edge_listener(&x);
+    b.chip.pulses(1).set_edge_listener(&y);
     b.speeds(X | Y, 16'000, 800, 800);  // a pulse every 20 ticks
     b.data(X, cmd::COMP_PLUS, 15);
     b.data(X | Y, cmd::P, 30);

@@ -209,7 +209,7 @@ TEST(ChipEncoder, WithoutAnEncoderTheLinesThemselvesCount) {
 
 // ---- listeners
 
-class Watcher final : public sim::MotionListener {
+class Watcher final : public sim::PositionListener {
   public:
     explicit Watcher(sim::Motion& motion) : motion_(motion), slot_(motion.listen(*this)) {}
     void watch(std::int64_t below, std::int64_t above) { motion_.watch(slot_, below, above); }
@@ -251,7 +251,7 @@ TEST(ChipMotion, AWatchedCountIsToldAtItsVeryTickAndOnce) {
     EdgeLog log;
     Watcher one(b.chip.pulses(0)), two(b.chip.pulses(0));
     b.start();
-    b.chip.pulses(0).listen_edges(&log);
+    b.chip.pulses(0).set_edge_listener(&log);
     one.watch(-5, 50);
     two.watch(-7, 200);
     b.speeds(X, 16'000, 100, 4000);

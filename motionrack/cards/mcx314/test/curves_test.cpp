@@ -44,7 +44,7 @@ std::vector<std::int64_t> made_pulses(const CurveData& data) {
     const std::int64_t command = rig.kernel.now() / outside::tick;
     d.Drive(axis_x, false);
     EXPECT_TRUE(d.wait_until_stopped(axis_x, whole_seconds(4'000)));
-    rig.hand_over_edges();
+    rig.deliver_edges();
     std::vector<std::int64_t> out;
     for (const outside::EdgeLog::Edge& edge : rig.edges[0].list) out.push_back(edge.tick - command);
     return out;

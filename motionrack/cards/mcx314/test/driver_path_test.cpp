@@ -21,7 +21,7 @@ TEST(DriverPaths, ArcsWithATrapezoidEndAtTheirInitialSpeed) {
             done(clockwise ? d.CircleCCW_T(data, 0x3) : d.CircleCW_T(data, 0x3));
             done(d.wait_until_done(0x3, patience));
             EXPECT_EQ(d.ReadLPS(0), 3'000);
-            rig.hand_over_edges();
+            rig.deliver_edges();
             // The regular axis at the end is X: it steps at each basic pulse.
             EXPECT_NEAR(last_rate(rig.edges[0], 1), 200, 60);
             EXPECT_GT(last_rate(rig.edges[0], 100), 400) << "and does not creep";
@@ -34,7 +34,7 @@ TEST(DriverPaths, AnAsymmetricLineEndsAtItsInitialSpeed) {
     done(d.SetMultiple(xyzu, 10));
     done(d.Line2D_T({20, 1'000, 800, 200, 0, {9'000, -4'000}}, 0x3));
     done(d.wait_until_done(0x3, patience));
-    rig.hand_over_edges();
+    rig.deliver_edges();
     EXPECT_NEAR(last_rate(rig.edges[0], 1), 200, 40);
     EXPECT_GT(last_rate(rig.edges[0], 100), 400);
 }
@@ -52,7 +52,7 @@ TEST(DriverPaths, AChainKeepsItsSpeedOverTheJointsAndDeceleratesInItsLastSegment
     EXPECT_EQ(outcome->end_speed, 20);
     EXPECT_EQ(d.ReadLPS(0), 7'000);
     EXPECT_EQ(d.ReadLPS(1), 2'300);
-    rig.hand_over_edges();
+    rig.deliver_edges();
     const auto& x = rig.edges[0].list;
     for (std::size_t i = 1'200; i < 1'900; ++i) EXPECT_LE(x[i].tick - x[i - 1].tick, 1'001) << i;  // 8,000 pulses/s
     for (std::size_t i = 2'800; i < 5'000; ++i)
@@ -71,7 +71,7 @@ TEST(DriverPaths, AChainsLastSegmentThatIsTooShortLowersTheSpeedBefore) {
     const Result<ContOutcome> outcome = d.ContEnd(patience);
     ASSERT_TRUE(outcome) << outcome.error().message;
     EXPECT_EQ(outcome->end_speed, 20);
-    rig.hand_over_edges();
+    rig.deliver_edges();
     EXPECT_NEAR(last_rate(rig.edges[0], 1), 200, 60);
     // Where no segment has room for the fall, that is told.
     done(d.ContStart({20, 800, 800, 0}));

@@ -14,7 +14,7 @@ class DriverRig {
     explicit DriverRig(bool listen = false, Duration access = nanoseconds(500))
         : chip(kernel, "c"), port(kernel, chip, chip.id(), chip.interrupt_wire(), access), driver(port, port) {
         if (listen)
-            for (int i = 0; i < 4; ++i) chip.pulses(i).listen_edges(&edges[static_cast<std::size_t>(i)]);
+            for (int i = 0; i < 4; ++i) chip.pulses(i).set_edge_listener(&edges[static_cast<std::size_t>(i)]);
         kernel.start();
         driver.initialise();
     }
@@ -25,8 +25,8 @@ class DriverRig {
     }
     /// Pulses of an axis since the start, whatever LP says.
     std::int64_t count(int axis) { return chip.pulses(axis).count(kernel.now()); }
-    void hand_over_edges() {
-        for (int i = 0; i < 4; ++i) chip.pulses(i).hand_over_edges();
+    void deliver_edges() {
+        for (int i = 0; i < 4; ++i) chip.pulses(i).deliver_edges();
     }
 
     sim::Kernel kernel;

@@ -125,7 +125,7 @@ TEST(DriverFlight, TheLeastPossibleTargetIsToldAndTaken) {
         done(d.change_pulses(0, -(least + 5)));
         done(d.wait_until_done(axis_x, patience));
         EXPECT_EQ(d.ReadLPS(0), -(least + 5));
-        rig.hand_over_edges();
+        rig.deliver_edges();
         EXPECT_LT(last_rate(rig.edges[0], 1), 250) << "it ends at SV, 100 pulses/s";
     }
 }

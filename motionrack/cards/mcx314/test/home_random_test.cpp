@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 /// How far the rotor was beyond a range, pulses.
-class Beyond final : sim::MotionListener {
+class Beyond final : sim::PositionListener {
   public:
     Beyond(sim::Motion& rotor, std::int64_t low, std::int64_t high)
         : rotor_(rotor), from_(low), to_(high), low_(low), high_(high), slot_(rotor.listen(*this)) {}

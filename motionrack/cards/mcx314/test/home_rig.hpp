@@ -33,8 +33,8 @@ struct RigAxis {
     int home_level = 0;           ///< of the home switch's wire when it acts
     double start_stop_hz = 4000;  ///< jump of the pulse rate that the motor follows
 
-    parts::AxisMachineSettings machine() const {
-        parts::AxisMachineSettings s;
+    parts::AxisMechanicsSettings machine() const {
+        parts::AxisMechanicsSettings s;
         s.motor = {200, 16, start_stop_hz, 200'000};
         s.axle.travel_per_rev = parts::linear_travel(5);
         s.axle.start_position = start_mm;
@@ -52,10 +52,11 @@ struct RigAxis {
 };
 
 /// A switch that is active only between two places, so that an axis can stand beyond it. Mounted on a machine's table.
-class Cam final : public sim::Device, private sim::MotionListener {
+class Cam final : public sim::Device, private sim::PositionListener {
   public:
     /// From `low` to `high`, rotor pulses since the start. The wire `name` is 0 in between.
-    Cam(sim::Kernel& kernel, const std::string& name, parts::AxisMachine& machine, std::int64_t low, std::int64_t high)
+    Cam(sim::Kernel& kernel, const std::string& name, parts::AxisMechanics& machine, std::int64_t low,
+        std::int64_t high)
         : kernel_(kernel),
           id_(kernel.add(*this, sim::Phase::parts, name)),
           wire_(kernel.add_wire(name, 1)),
@@ -99,7 +100,7 @@ class HomeRig {
           junctions_(kernel, "wiring") {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const std::string axis(1, "XYZU"[i]), pin = std::string("c.") + "xyzu"[i];
-            machines.push_back(std::make_unique<parts::AxisMachine>(kernel, axis, axes[i].machine()));
+            machines.push_back(std::make_unique<parts::AxisMechanics>(kernel, axis, axes[i].machine()));
             machines[i]->connect(chip.pulses(static_cast<int>(i)));
             chip.connect_encoder(static_cast<int>(i), machines[i]->encoder());
             if (axes[i].wired_home) join(machines[i]->home_wire(), pin + "in0");
@@ -130,10 +131,10 @@ class HomeRig {
     Chip chip;
     sim::VirtualPort port;
     Driver driver;
-    std::vector<std::unique_ptr<parts::AxisMachine>> machines;
+    std::vector<std::unique_ptr<parts::AxisMechanics>> machines;
 
   private:
-    sim::Junctions junctions_;
+    sim::WireConnections junctions_;
 };
 
 /// 500 pulses/s to 10,000 pulses/s (15.6 mm/s) with 125,000 pulses/s2; 330 mm of search.

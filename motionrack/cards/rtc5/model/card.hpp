@@ -70,7 +70,7 @@ class Card final : public sim::DeferringDevice, private Sink {
     std::array<sim::WireId, std::size(map::pins)> wires_{};
     Lines lines_;
     Sink* watcher_ = nullptr;
-    sim::HeldState lists_, inputs_;
+    sim::SnapshotState lists_, inputs_;
 };
 
 }  // namespace motionrack::rtc5

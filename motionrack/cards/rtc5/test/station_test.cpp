@@ -48,7 +48,7 @@ class Machine final : public Sink, public Inputs {
 
     Engine card;
     parts::MarkingStation station;
-    std::optional<parts::PositionSender> sender;
+    std::optional<parts::SerialPositionSource> sender;
     double laser_delay = 0;
 };
 
@@ -103,8 +103,8 @@ TEST(Rtc5Station, ATableMadeFromTheLensMakesTheFieldFlat) {
 
 TEST(Rtc5Station, PositionWordsCorrectLikeAnEncoderAndTheirDelayShifts) {
     Machine prompt(belt(100)), late(belt(100));
-    prompt.sender = *parts::PositionSender::make(prompt.station.track(), {.bits_per_mm = 1000});
-    late.sender = *parts::PositionSender::make(late.station.track(), {.bits_per_mm = 1000, .delay_us = 2000});
+    prompt.sender = *parts::SerialPositionSource::make(prompt.station.track(), {.bits_per_mm = 1000});
+    late.sender = *parts::SerialPositionSource::make(late.station.track(), {.bits_per_mm = 1000, .delay_us = 2000});
     const Command start = *list_command(Op::set_fly_x_pos, {station_k / 1000});
     EXPECT_LE(prompt.square({start}).worst_mm, 0.0021);
     EXPECT_NEAR(late.square({start}).worst_mm, 0.2, 0.003) << "2 ms at 100 mm/s";

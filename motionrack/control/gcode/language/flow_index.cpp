@@ -74,7 +74,7 @@ void Indexer::line(std::string_view text, std::size_t column, const ProgramLines
     place.text = text;
     const auto at = static_cast<std::int32_t>(index_.places.size() - 1);
     const bool takes_values = place.word == OWord::call || place.word == OWord::endsub ||
-                              place.word == OWord::give_back || place.word == OWord::if_true ||
+                              place.word == OWord::return_sub || place.word == OWord::if_true ||
                               place.word == OWord::else_if || place.word == OWord::while_true ||
                               place.word == OWord::repeat;
     if (!takes_values && !is_rest_empty(text, place.rest))
@@ -139,9 +139,9 @@ void Indexer::pair(std::int32_t at) {
         case OWord::else_if:
         case OWord::else_branch:
             return branch(at);
-        case OWord::leave:
-        case OWord::go_on:
-        case OWord::give_back:
+        case OWord::break_loop:
+        case OWord::continue_loop:
+        case OWord::return_sub:
             return inside(at);
         default:
             return;
@@ -196,7 +196,7 @@ void Indexer::close(std::int32_t at, OWord opener) {
 /// break, continue and return stand within their loop or sub.
 void Indexer::inside(std::int32_t at) {
     OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
-    const bool returns = place.word == OWord::give_back;
+    const bool returns = place.word == OWord::return_sub;
     for (auto one = open_.rbegin(); one != open_.rend(); ++one) {
         const OWordLocation& other = index_.places[static_cast<std::size_t>(*one)];
         if ((returns ? other.word == OWord::sub : is_loop(other.word)) && other.label == place.label) {

@@ -11,7 +11,7 @@ enum class OWord : unsigned char {
     sub,
     endsub,
     call,
-    give_back,
+    return_sub,
     if_true,
     else_if,
     else_branch,
@@ -21,8 +21,8 @@ enum class OWord : unsigned char {
     do_once,
     repeat,
     endrepeat,
-    leave,
-    go_on,
+    break_loop,
+    continue_loop,
     numbered  ///< O100 alone: a numbered program begins
 };
 

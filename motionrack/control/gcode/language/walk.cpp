@@ -105,7 +105,7 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
         case OWord::call:
             return call(place, interpreter);
         case OWord::endsub:
-        case OWord::give_back:
+        case OWord::return_sub:
             return give_back(place, interpreter);
         case OWord::if_true:
             return choose(at, interpreter);
@@ -132,10 +132,10 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
         case OWord::endrepeat:
             end_repeat(place);
             return true;
-        case OWord::leave:
+        case OWord::break_loop:
             leave_loop(place_at(place.begin));
             return true;
-        case OWord::go_on:
+        case OWord::continue_loop:
             go_on(place_at(place.begin));
             return true;
         case OWord::endif:
