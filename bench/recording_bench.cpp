@@ -78,7 +78,7 @@ void run_example_part(benchmark::State& state) {
     request.rack_text = *rack::rack_template("router");
     request.config = *rack::read_rack_text(request.rack_text).config;
     request.program = {std::istreambuf_iterator<char>(file), {}};
-    rack::JobWatchers watchers;
+    rack::JobObservers watchers;
     const std::string path = scratch("run");
     if (state.range(0) == 1) {
         watchers.waves.emplace().path = path;

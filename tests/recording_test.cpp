@@ -231,7 +231,7 @@ TEST_F(ARecordedRun, RefusesOrdersThatAreNone) {
     const auto refused = [&](const std::string& order) {
         const auto orders = read_orders({order});
         if (!orders) return orders.error().message;
-        const auto plan = OrderPlan::create(rack, *orders);
+        const auto plan = CommandSchedule::create(rack, *orders);
         return plan ? std::string() : plan.error().message;
     };
     for (const char* order : {"hold", "hold@", "hold@-1s", "hold@1", "hold=1@1s", "feed@1s", "feed=0@1s", "feed=2.1@1s",

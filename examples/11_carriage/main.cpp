@@ -30,7 +30,7 @@ class Carriage {
   public:
     Carriage(const rack::RackConfig& config, const std::vector<std::string>& faults)
         : rack_(config), driver_(port(), port(), {.counts_per_mm = counts_per_mm}) {
-        faults_ = *rack::FaultPlan::create(rack_, faults);
+        faults_ = *rack::FaultSchedule::create(rack_, faults);
         rack_.start();
         faults_->begin();
         rack_.on_slice(milliseconds(5), [this] { write_down(); });
@@ -103,7 +103,7 @@ class Carriage {
     }
 
     rack::Rack rack_;
-    std::unique_ptr<rack::FaultPlan> faults_;
+    std::unique_ptr<rack::FaultSchedule> faults_;
     db::Driver driver_;
     db::SpeedScale scale_;
     Record record_;

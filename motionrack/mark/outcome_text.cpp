@@ -81,8 +81,8 @@ std::vector<std::string> warnings_of(const Outcome& out) {
 std::string outcome_text(const Job& job, const Outcome& out) {
     std::string text;
     const Out to(text);
-    fmt::format_to(to, "drawing: {}, {}, {:.3f} mm\n", rack::counted(out.strokes, "stroke"),
-                   rack::counted(out.elements, "line or arc", "lines and arcs"), out.drawing_mm);
+    fmt::format_to(to, "drawing: {}, {}, {:.3f} mm\n", rack::count_noun(out.strokes, "stroke"),
+                   rack::count_noun(out.elements, "line or arc", "lines and arcs"), out.drawing_mm);
     for (const std::string& note : out.notes) fmt::format_to(to, "note: {}\n", note);
     fmt::format_to(to, "{:<20} {:>10} {:>10} {:>18} {:>10} {:>10} {:>9} {:>6} {:>9}\n", "", "worst mm", "rms mm",
                    "at x, y mm", "missing mm", "marked mm", "time s", "duty %", "energy J");

@@ -138,7 +138,7 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
                 plot.strokes(scene.drawing, "planned");
     if (marked == nullptr) {
         part.words.push_back(
-            fmt::format("{:.3f} mm in {}", scene.out.drawing_mm, rack::counted(scene.out.strokes, "stroke")));
+            fmt::format("{:.3f} mm in {}", scene.out.drawing_mm, rack::count_noun(scene.out.strokes, "stroke")));
         if (parts > 1)
             part.words.push_back(
                 fmt::format("on each of {} parts{}", parts,

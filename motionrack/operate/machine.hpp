@@ -155,12 +155,12 @@ class Machine {
     /// Calls of a card's function library by hand.
     Service& service() { return service_; }
     rack::Rack& rack() { return rack_; }
-    rack::WireDesk& wires() { return desk_; }
+    rack::WireAccess& wires() { return desk_; }
     /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if
     /// there is one.
     rack::WireTap& tap() { return tap_; }
     rack::Probe& probe() { return probe_; }
-    const rack::FrameWatch* frames() const { return frames_ ? &*frames_ : nullptr; }
+    const rack::FrameMonitor* frames() const { return frames_ ? &*frames_ : nullptr; }
     Instant now() const { return rack_.kernel().now(); }
 
   private:
@@ -193,10 +193,10 @@ class Machine {
 
     MachineSettings settings_;
     rack::Rack rack_;
-    rack::WireDesk desk_;
+    rack::WireAccess desk_;
     rack::WireTap tap_;
     rack::Probe probe_;
-    std::optional<rack::FrameWatch> frames_;
+    std::optional<rack::FrameMonitor> frames_;
     std::unique_ptr<control::Stream> stream_;
     bool group_holds_ = false;  ///< the card's axes; else each by itself
     bool hands_over_ = false;   ///< a card is being set up for the other ones: its counters mean nothing

@@ -150,9 +150,9 @@ json live_now(operate::Machine& machine, const operate::LivePlace& place) {
     const operate::LiveRegisters& seen = live->registers();
     out["at"] = to_seconds(seen.at);
     if (live->lost()) out["why"] = live->lost()->message;
-    for (const rack::SeenRegister& one : seen.view.registers)
+    for (const rack::RegisterSnapshot& one : seen.view.registers)
         out["registers"].push_back(register_json(live_name(one.axis, one.reg->name), *one.reg, one.word));
-    for (const rack::SeenValue& one : seen.view.values)
+    for (const rack::ValueSnapshot& one : seen.view.values)
         out["values"].push_back({{"name", live_name(one.axis, one.name)}, {"value", one.value}});
     return out;
 }

@@ -63,7 +63,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
 }
 
 Result<json> frames_now(operate::Machine& machine) {
-    const rack::FrameWatch* watch = machine.frames();
+    const rack::FrameMonitor* watch = machine.frames();
     if (watch == nullptr) return fail(Trouble::refused, "The rack has no grating bus, so there are no frames.");
     json cards = json::array();
     const std::vector<rack::FrameRow> rows = watch->rows();

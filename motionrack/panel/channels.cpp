@@ -95,8 +95,8 @@ void ChannelBook::add_quantities(rack::Rack& rack) {
 }
 
 void ChannelBook::add_wires(operate::Machine& machine) {
-    rack::WireDesk& wires = machine.wires();
-    for (const rack::WireDesk::Named& wire : wires.names()) {
+    rack::WireAccess& wires = machine.wires();
+    for (const rack::WireAccess::Named& wire : wires.names()) {
         const std::string name(wire.name);
         const ChannelLooks looks = wire.volts || !wire.recorded ? ChannelLooks::anytime : ChannelLooks::edges;
         add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", looks,

@@ -35,7 +35,7 @@ void as_the_rack_has_it(mark::Job& job, const rack::RackConfig& config, const st
         if (scanner.card != card) continue;
         job.optics.bits_per_mm = scanner.bits_per_mm;
         job.lens = scanner.lens;
-        const rack::RackTrack* track = scanner.track ? config.track(*scanner.track) : nullptr;
+        const rack::RackConveyor* track = scanner.track ? config.track(*scanner.track) : nullptr;
         if (track == nullptr) return;
         job.belt.speed = track->speed;
         job.belt.profile = track->profile;

@@ -50,7 +50,7 @@ json parts_of(const rack::RackConfig& config) {
                        {"servo", stage.servo.has_value()},
                        {"min", stage.end_minus_mm},
                        {"max", stage.end_plus_mm}});
-    for (const rack::RackTrack& track : config.tracks)
+    for (const rack::RackConveyor& track : config.tracks)
         out.push_back({{"name", track.name},
                        {"kind", track.rotary ? "table" : "belt"},
                        {"unit", track.unit()},
@@ -82,7 +82,7 @@ json rack_facts(operate::Machine& machine) {
     for (const auto& card : rack.cards()) cards.push_back(card_facts(machine, *card));
     for (const rack::RackWire& wire : config.wires)
         joined.push_back({{"from", config.end_name(wire.from)}, {"to", config.end_name(wire.to)}});
-    for (const rack::WireDesk::Named& wire : machine.wires().names())
+    for (const rack::WireAccess::Named& wire : machine.wires().names())
         if (machine.service().live_place(card_part(wire.name)) == nullptr)
             wires.push_back(
                 {{"name", wire.name}, {"volts", wire.volts}, {"bits", wire.bits}, {"drivable", wire.drivable}});
@@ -134,7 +134,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
                 {"field", {{"least", {-half, -half}}, {"greatest", {half, half}}}}};
     if (const auto piece = station.workpiece().collecting())
         out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
-    if (const rack::RunningTrack* track =
+    if (const rack::RunningConveyor* track =
             scanner->config.track ? machine.rack().track(*scanner->config.track) : nullptr)
         out["part"] = {{"name", track->config.name},
                        {"unit", track->config.unit()},

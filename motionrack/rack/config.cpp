@@ -58,9 +58,9 @@ const RackCard* RackConfig::card(std::string_view card_name) const {
     return found != cards.end() ? &*found : nullptr;
 }
 
-const RackTrack* RackConfig::track(std::string_view track_name) const {
+const RackConveyor* RackConfig::track(std::string_view track_name) const {
     const auto found =
-        std::find_if(tracks.begin(), tracks.end(), [&](const RackTrack& t) { return t.name == track_name; });
+        std::find_if(tracks.begin(), tracks.end(), [&](const RackConveyor& t) { return t.name == track_name; });
     return found != tracks.end() ? &*found : nullptr;
 }
 

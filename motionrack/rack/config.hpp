@@ -347,7 +347,7 @@ struct RackConfig {
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
     std::optional<RackProbe> probe;
     std::vector<RackStage> stages;      ///< in the order of the file
-    std::vector<RackTrack> tracks;      ///< belts, then tables, each in the order of the file
+    std::vector<RackConveyor> tracks;   ///< belts, then tables, each in the order of the file
     std::vector<RackScanner> scanners;  ///< in the order of the file
     std::vector<RackWire> wires;        ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
     std::vector<WireEnd> open;          ///< inputs of cards that the file leaves open; a contact's input is active then
@@ -361,7 +361,7 @@ struct RackConfig {
     /// The card of that name, or nullptr.
     const RackCard* card(std::string_view card_name) const;
     /// The belt or table of that name, or nullptr.
-    const RackTrack* track(std::string_view track_name) const;
+    const RackConveyor* track(std::string_view track_name) const;
     /// Whether the axis is on a card that positions it by itself.
     bool positions_alone(const RackAxis& axis) const;
     /// Whether the axis has the switch that homing on its card needs.

@@ -148,7 +148,7 @@ bool has_encoder(const RackAxis& axis) {
     return axis.encoder_counts_per_rev > 0;
 }
 
-constexpr std::array<AxisEnd, 10> axis_end_table = {{
+constexpr std::array<AxisSignal, 10> axis_end_table = {{
     {"step", PinDirection::input, "a pulse moves the motor by one microstep", steps, "a stepping motor (no servo)"},
     {"dir", PinDirection::input, "the direction of the pulses", steps, "a stepping motor (no servo)"},
     {"drive", PinDirection::input, "speed for the servo amplifier, V",
@@ -200,13 +200,13 @@ std::span<const Field> safety_fields() {
     return safety_table;
 }
 
-std::span<const AxisEnd> axis_ends() {
+std::span<const AxisSignal> axis_ends() {
     return axis_end_table;
 }
 
-const AxisEnd* find_axis_end(std::string_view name) {
+const AxisSignal* find_axis_end(std::string_view name) {
     const auto found = std::find_if(axis_end_table.begin(), axis_end_table.end(),
-                                    [&](const AxisEnd& end) { return end.name == name; });
+                                    [&](const AxisSignal& end) { return end.name == name; });
     return found != axis_end_table.end() ? &*found : nullptr;
 }
 

@@ -16,24 +16,24 @@ constexpr std::array<std::string_view, 3> scanner_tables = {"lens", "galvo", "la
 constexpr std::size_t most_profile_points = 10'000;
 
 constexpr std::array<Field, 10> track_table = {
-    absent_means(field<&RackTrack::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
+    absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
-    field<&RackTrack::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
-    field<&RackTrack::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s",
-                             "how fast it goes"),
-    field<&RackTrack::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2",
-                                    "how it brakes when a stop ends its motion"),
-    only_in(field<&RackTrack::direction_deg>("direction_deg", -3'600, 3'600, "deg",
-                                             "where it goes, from +X counter-clockwise"),
+    field<&RackConveyor::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
+    field<&RackConveyor::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s",
+                                "how fast it goes"),
+    field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2",
+                                       "how it brakes when a stop ends its motion"),
+    only_in(field<&RackConveyor::direction_deg>("direction_deg", -3'600, 3'600, "deg",
+                                                "where it goes, from +X counter-clockwise"),
             "mm"),
-    only_in(field<&RackTrack::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"),
+    only_in(field<&RackConveyor::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"),
             "deg"),
-    only_in(field<&RackTrack::centre_y_mm>("centre_y_mm", -1e5, 1e5, "mm", "what it turns about"), "deg"),
-    field<&RackTrack::counts_per_unit>("counts_per_{u}", -1e6, 1e6, "",
-                                       "of its encoder, four a line; negative counts the other way; 0: no encoder"),
-    field<&RackTrack::slip>("slip", -0.5, 0.5, "", "part of the way that the encoder's wheel does not see"),
-    field<&RackTrack::jitter_us>("jitter_us", 0, 1'000, "us",
-                                 "greatest delay of an edge of the encoder; by chance, the same in every run"),
+    only_in(field<&RackConveyor::centre_y_mm>("centre_y_mm", -1e5, 1e5, "mm", "what it turns about"), "deg"),
+    field<&RackConveyor::counts_per_unit>("counts_per_{u}", -1e6, 1e6, "",
+                                          "of its encoder, four a line; negative counts the other way; 0: no encoder"),
+    field<&RackConveyor::slip>("slip", -0.5, 0.5, "", "part of the way that the encoder's wheel does not see"),
+    field<&RackConveyor::jitter_us>("jitter_us", 0, 1'000, "us",
+                                    "greatest delay of an edge of the encoder; by chance, the same in every run"),
 };
 
 constexpr std::array<Field, 4> sender_table = {
@@ -64,17 +64,17 @@ constexpr std::array<Field, 5> scanner_table = {
                                          "points of marks that are kept; more are counted only"),
 };
 
-bool has_encoder(const RackTrack& track) {
+bool has_encoder(const RackConveyor& track) {
     return track.has_encoder();
 }
-bool has_sender(const RackTrack& track) {
+bool has_sender(const RackConveyor& track) {
     return track.sender.has_value();
 }
-bool has_parts(const RackTrack& track) {
+bool has_parts(const RackConveyor& track) {
     return track.passing.has_value();
 }
 
-constexpr std::array<TrackEnd, 5> track_end_table = {{
+constexpr std::array<ConveyorSignal, 5> track_end_table = {{
     {"enc_a", "enc#_a", "encoder line A", has_encoder, "counts_per_{u} other than 0"},
     {"enc_b", "enc#_b", "encoder line B", has_encoder, "counts_per_{u} other than 0"},
     {"mcbsp", "mcbsp", "the sender's last complete word", has_sender, "a section sender", 32},
@@ -91,7 +91,7 @@ class MarkingReader {
         node_ = &node;
         what_ = (rotary ? "table " : "belt ") + printable(node.key, 40);
         if (!sound_name() || !is_table(node, (rotary ? "table." : "belt.") + node.key)) return;
-        RackTrack track;
+        RackConveyor track;
         track.name = node.key;
         track.rotary = rotary;
         unit_ = track.unit();
@@ -157,7 +157,7 @@ class MarkingReader {
     }
 
     /// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
-    bool read_profile(const TomlNode& profile, RackTrack& track) {
+    bool read_profile(const TomlNode& profile, RackConveyor& track) {
         const auto number = [](const TomlNode& node) {
             return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
         };
@@ -192,7 +192,7 @@ class MarkingReader {
                false;
     }
 
-    void check(const RackTrack& track) {
+    void check(const RackConveyor& track) {
         if (const auto made = parts::Conveyor::make(track.settings()); !made)
             return refuse(*node_, "profile", made.error().message + ".");
         if (track.card && check_card(*track.card)) check_pins(track);
@@ -214,8 +214,8 @@ class MarkingReader {
     }
 
     /// Two tracks at one pin would drive against each other.
-    void check_pins(const RackTrack& track) {
-        for (const RackTrack& other : config_.tracks) {
+    void check_pins(const RackConveyor& track) {
+        for (const RackConveyor& other : config_.tracks) {
             if (other.card != track.card) continue;
             if (track.has_encoder() && other.has_encoder() && other.encoder == track.encoder)
                 refuse(*node_, "encoder",
@@ -229,7 +229,7 @@ class MarkingReader {
         }
     }
 
-    void check_sender(const RackTrack& track) {
+    void check_sender(const RackConveyor& track) {
         const parts::SerialPositionSettings& s = *track.sender;
         const TomlNode& table = *node_->find("sender");
         if (s.bits_per_mm == 0)
@@ -279,7 +279,7 @@ std::span<const Field> passing_fields() {
 std::span<const Field> scanner_fields() {
     return scanner_table;
 }
-std::span<const TrackEnd> track_ends() {
+std::span<const ConveyorSignal> track_ends() {
     return track_end_table;
 }
 

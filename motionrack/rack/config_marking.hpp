@@ -19,7 +19,7 @@ struct RackParts {
 };
 
 /// What moves the part under a scan head: a belt (mm) or a rotary table (degrees); see parts::ConveyorSettings.
-struct RackTrack {
+struct RackConveyor {
     std::string name;
     bool rotary = false;
     std::optional<std::string> card;          ///< of type rtc5: where its lines lead to unless [wires] says otherwise

@@ -26,7 +26,7 @@ std::span<const Field> probe_fields();        ///< [probe] into RackProbe
 std::span<const Field> stage_fields();        ///< [stage.NAME] into RackStage
 std::span<const Field> scale_fields();        ///< [stage.NAME.scale] into RackScale
 std::span<const Field> stage_servo_fields();  ///< [stage.NAME.servo] into RackStageServo
-std::span<const Field> track_fields();        ///< [belt.NAME], [table.NAME] into RackTrack
+std::span<const Field> track_fields();        ///< [belt.NAME], [table.NAME] into RackConveyor
 std::span<const Field> sender_fields();       ///< [belt.NAME.sender] into parts::SerialPositionSettings
 std::span<const Field> passing_fields();      ///< [belt.NAME.parts] into RackParts
 std::span<const Field> scanner_fields();      ///< [scanner.NAME] into RackScanner
@@ -34,7 +34,7 @@ std::span<const Field> controller_fields();   ///< [controller] into RackControl
 std::span<const Field> safety_fields();       ///< [safety] into RackSafety
 
 /// An end of a wire at an axis' parts.
-struct AxisEnd {
+struct AxisSignal {
     std::string_view name;
     PinDirection direction;
     std::string_view doc;
@@ -42,20 +42,20 @@ struct AxisEnd {
     std::string_view needs;  ///< what the rack file must say for the end to be there
     double volts = 0;        ///< of an analog end: see PinType
 };
-std::span<const AxisEnd> axis_ends();
-const AxisEnd* find_axis_end(std::string_view name);
+std::span<const AxisSignal> axis_ends();
+const AxisSignal* find_axis_end(std::string_view name);
 
 /// An end of a wire at a track, an output; without a card's word the default rule leads it to `pin` of its card, "#"
 /// for the encoder's number.
-struct TrackEnd {
+struct ConveyorSignal {
     std::string_view name;
     std::string_view pin;
     std::string_view doc;
-    bool (*present)(const RackTrack& track);
+    bool (*present)(const RackConveyor& track);
     std::string_view needs;
     int bits = 1;  ///< see PinType
 };
-std::span<const TrackEnd> track_ends();
+std::span<const ConveyorSignal> track_ends();
 
 inline constexpr std::string_view estop_doc = "the emergency stop button: low while it is pressed";
 inline constexpr std::string_view probe_doc = "the touch probe: high while it touches";

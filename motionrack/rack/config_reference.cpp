@@ -58,12 +58,12 @@ std::string wires_text() {
         "\"motion.xecb\" = \"X.enc_a\"\n```\n\n"
         "Pins of cards are written CARD.pin (below), the ends of an axis' parts NAME.end:\n\n"
         "| end | direction | meaning | there if |\n|---|---|---|---|\n";
-    for (const AxisEnd& end : axis_ends()) {
+    for (const AxisSignal& end : axis_ends()) {
         out += fmt::format("| `X.{}` | {} | {} | {} |\n", end.name,
                            end.direction == PinDirection::input ? "input" : "output", end.doc,
                            end.needs.empty() ? "always" : with_unit(end.needs, "mm"));
     }
-    for (const TrackEnd& end : track_ends())
+    for (const ConveyorSignal& end : track_ends())
         out += fmt::format("| `NAME.{}` | output | of a belt or table: {} | {} |\n", end.name, end.doc,
                            with_unit(end.needs, "mm"));
     out += fmt::format("| `probe` | output | {} | the section `[probe]` is there |\n", probe_doc);
@@ -129,8 +129,8 @@ std::string rack_file_reference() {
         "bus' frames and follows "
         "the profile.\n\n" +
         fields_table(stage_servo_fields(), &stage_servo, &stage_servo);
-    const RackTrack belt;
-    RackTrack turning;
+    const RackConveyor belt;
+    RackConveyor turning;
     turning.rotary = true;
     out +=
         "## [belt.NAME], [table.NAME]\nWhat moves the part under a scan head: a belt (mm) or a rotary table (degrees). "

@@ -46,8 +46,8 @@ class WireResolver {
             if (!type.probe_pin.empty())
                 connect(fmt::format("{}.{}{}", axis.card, axis.channel, type.probe_pin), "probe");
         }
-        for (const RackTrack& track : config_.tracks)
-            for (const TrackEnd& end : track_ends()) {
+        for (const RackConveyor& track : config_.tracks)
+            for (const ConveyorSignal& end : track_ends()) {
                 if (!track.card) continue;
                 std::string pin(end.pin);
                 if (const std::size_t at = pin.find('#'); at != std::string::npos)
@@ -114,7 +114,7 @@ class WireResolver {
 
     void add_axis(int index) {
         const RackAxis& axis = config_.axes[static_cast<std::size_t>(index)];
-        for (const AxisEnd& end : axis_ends()) {
+        for (const AxisSignal& end : axis_ends()) {
             KnownEnd known{
                 {EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0 ? voltage : logic, {}};
             if (!end.present(axis)) {
@@ -126,8 +126,8 @@ class WireResolver {
     }
 
     void add_track(int index) {
-        const RackTrack& track = config_.tracks[static_cast<std::size_t>(index)];
-        for (const TrackEnd& end : track_ends()) {
+        const RackConveyor& track = config_.tracks[static_cast<std::size_t>(index)];
+        for (const ConveyorSignal& end : track_ends()) {
             KnownEnd known{{EndOwner::track, index, std::string(end.name)},
                            PinDirection::output,
                            end.bits > 1 ? number : logic,

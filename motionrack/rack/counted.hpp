@@ -9,7 +9,7 @@ namespace motionrack::rack {
 
 /// "1 move", "2 moves", "0 moves"; `many` where an s is not enough ("axes").
 template <std::integral N>
-std::string counted(N number, std::string_view one, std::string_view many = {}) {
+std::string count_noun(N number, std::string_view one, std::string_view many = {}) {
     std::string out = std::to_string(number);
     out += ' ';
     if (number == 1) return out.append(one);

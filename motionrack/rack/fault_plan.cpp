@@ -10,10 +10,10 @@
 
 namespace motionrack::rack {
 
-Result<std::vector<TimedText>> read_faults(const std::vector<std::string>& texts) {
-    std::vector<TimedText> faults;
+Result<std::vector<ScheduledText>> read_faults(const std::vector<std::string>& texts) {
+    std::vector<ScheduledText> faults;
     for (const std::string& text : texts) {
-        std::optional<TimedText> timed = read_timed_text(text);
+        std::optional<ScheduledText> timed = read_timed_text(text);
         if (!timed)
             return fail(
                 Trouble::bad_input,
@@ -26,27 +26,28 @@ Result<std::vector<TimedText>> read_faults(const std::vector<std::string>& texts
     return faults;
 }
 
-Result<std::unique_ptr<FaultPlan>> FaultPlan::create(Rack& rack, const std::vector<std::string>& texts) {
-    MOTIONRACK_TRY(const std::vector<TimedText> faults, read_faults(texts));
+Result<std::unique_ptr<FaultSchedule>> FaultSchedule::create(Rack& rack, const std::vector<std::string>& texts) {
+    MOTIONRACK_TRY(const std::vector<ScheduledText> faults, read_faults(texts));
     return create_timed(rack, faults);
 }
 
-Result<std::unique_ptr<FaultPlan>> FaultPlan::create_timed(Rack& rack, const std::vector<TimedText>& faults) {
-    std::unique_ptr<FaultPlan> plan(new FaultPlan(rack));
-    for (const TimedText& text : faults) {
-        PlannedFault fault;
+Result<std::unique_ptr<FaultSchedule>> FaultSchedule::create_timed(Rack& rack,
+                                                                   const std::vector<ScheduledText>& faults) {
+    std::unique_ptr<FaultSchedule> plan(new FaultSchedule(rack));
+    for (const ScheduledText& text : faults) {
+        ScheduledFault fault;
         fault.text = text.text;
         fault.at = text.at;
         MOTIONRACK_CHECK(plan->read_action(text.text, text.action, fault));
         plan->faults_.push_back(std::move(fault));
     }
     std::stable_sort(plan->faults_.begin(), plan->faults_.end(),
-                     [](const PlannedFault& a, const PlannedFault& b) { return a.at < b.at; });
+                     [](const ScheduledFault& a, const ScheduledFault& b) { return a.at < b.at; });
     plan->id_ = rack.kernel().add(*plan, sim::Phase::wires, "faults");
     return plan;
 }
 
-Result<void> FaultPlan::read_action(const std::string& text, std::string_view action, PlannedFault& fault) {
+Result<void> FaultSchedule::read_action(const std::string& text, std::string_view action, ScheduledFault& fault) {
     const std::size_t equals = action.find('=');
     const std::string_view name = action.substr(0, equals);
     if (desk_.knows(name)) {
@@ -75,18 +76,18 @@ Result<void> FaultPlan::read_action(const std::string& text, std::string_view ac
     return known;
 }
 
-void FaultPlan::begin() {
+void FaultSchedule::begin() {
     if (!faults_.empty()) rack_.kernel().schedule(id_, std::max(faults_.front().at, rack_.kernel().now()));
 }
 
-void FaultPlan::act(Instant now) {
+void FaultSchedule::act(Instant now) {
     rack_.kernel().break_run();
-    for (const PlannedFault& fault : faults_)
+    for (const ScheduledFault& fault : faults_)
         if (fault.at > now) return rack_.kernel().schedule(id_, fault.at);
 }
 
-void FaultPlan::apply_due() {
-    for (PlannedFault& fault : faults_) {
+void FaultSchedule::apply_due() {
+    for (ScheduledFault& fault : faults_) {
         if (fault.done || fault.at > rack_.kernel().now()) continue;
         fault.done = true;
         const Result<void> done =
@@ -95,16 +96,16 @@ void FaultPlan::apply_due() {
     }
 }
 
-std::vector<std::string> FaultPlan::not_done() const {
+std::vector<std::string> FaultSchedule::not_done() const {
     std::vector<std::string> out;
-    for (const PlannedFault& fault : faults_) {
+    for (const ScheduledFault& fault : faults_) {
         if (!fault.done) out.push_back("the run ended before the fault " + fault.text);
         if (!fault.refused.empty()) out.push_back("the fault " + fault.text + " was refused: " + fault.refused);
     }
     return out;
 }
 
-void FaultPlan::copy_from(const FaultPlan& other) {
+void FaultSchedule::copy_from(const FaultSchedule& other) {
     faults_ = other.faults_;
     desk_.copy_from(other.desk_);
 }

@@ -12,7 +12,7 @@ namespace {
 struct FaultyPart {
     const RunningAxis* axis = nullptr;
     const RackCard* card = nullptr;
-    const RunningTrack* track = nullptr;
+    const RunningConveyor* track = nullptr;
 };
 
 struct FaultRow {

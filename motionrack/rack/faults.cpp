@@ -28,7 +28,7 @@ struct Found {
     RunningAxis* axis = nullptr;
     Card* card = nullptr;
     RunningStage* stage = nullptr;
-    RunningTrack* track = nullptr;
+    RunningConveyor* track = nullptr;
     std::string_view name;
     double value = 1;
     bool of_servo() const { return axis != nullptr && axis->servo && name.substr(0, 6) == "motor."; }
@@ -79,7 +79,7 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         if (target == stage.config.name) found.stage = &stage;
         add(stage.config.name);
     }
-    for (RunningTrack& track : rack.tracks()) {
+    for (RunningConveyor& track : rack.tracks()) {
         if (target == track.config.name) found.track = &track;
         add(track.config.name);
     }
@@ -141,7 +141,7 @@ std::vector<FaultTarget> fault_targets(Rack& rack) {
     };
     for (const auto& card : rack.cards()) add(card->name(), {nullptr, card.get(), nullptr, nullptr, {}, 1});
     for (RunningStage& stage : rack.stages()) add(stage.config.name, {nullptr, nullptr, &stage, nullptr, {}, 1});
-    for (RunningTrack& track : rack.tracks()) add(track.config.name, {nullptr, nullptr, nullptr, &track, {}, 1});
+    for (RunningConveyor& track : rack.tracks()) add(track.config.name, {nullptr, nullptr, nullptr, &track, {}, 1});
     return out;
 }
 

@@ -1,6 +1,6 @@
 // Several who hear the same edges or wires: what makes them has room for one listener each.
 //
-//   part ──edges──► EdgeFork ──┬──► waves (VCD)          kernel ──wires──► WireFork ──┬──► waves
+//   part ──edges──► EdgeFanout ──┬──► waves (VCD)          kernel ──wires──► WireFanout ──┬──► waves
 //                              └──► recording                                         └──► recording
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace motionrack::rack {
 
-class EdgeFork final : public sim::EdgeListener {
+class EdgeFanout final : public sim::EdgeListener {
   public:
     /// `attach`: makes somebody the one listener, or nobody (nullptr).
-    explicit EdgeFork(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
+    explicit EdgeFanout(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
 
     /// Between runs. Nothing is done where an ear is to be removed that was not added.
     void add(sim::EdgeListener& ear) {
@@ -35,9 +35,9 @@ class EdgeFork final : public sim::EdgeListener {
     std::vector<sim::EdgeListener*> ears_;
 };
 
-class WireFork final : public sim::Kernel::WireObserver {
+class WireFanout final : public sim::Kernel::WireObserver {
   public:
-    explicit WireFork(sim::Kernel& kernel) : kernel_(kernel) {}
+    explicit WireFanout(sim::Kernel& kernel) : kernel_(kernel) {}
 
     /// Between runs.
     void add(sim::Kernel::WireObserver& observer) {

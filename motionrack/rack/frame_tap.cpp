@@ -7,7 +7,7 @@
 
 namespace motionrack::rack {
 
-Result<std::unique_ptr<FrameTap>> FrameTap::create(Rack& rack, std::string_view name) {
+Result<std::unique_ptr<FrameStepper>> FrameStepper::create(Rack& rack, std::string_view name) {
     grating_bus::Card* found = nullptr;
     std::string known;
     for (const auto& each : rack.cards()) {
@@ -27,18 +27,18 @@ Result<std::unique_ptr<FrameTap>> FrameTap::create(Rack& rack, std::string_view 
         return fail(
             Trouble::bad_input,
             fmt::format("The rack's grating bus has no card '{}'; its cards are: {}. Nothing was done.", name, known));
-    std::unique_ptr<FrameTap> out(new FrameTap(rack, *found));
+    std::unique_ptr<FrameStepper> out(new FrameStepper(rack, *found));
     found->add_listener(*out);
     return out;
 }
 
-void FrameTap::published(const grating_bus::Card&, const grating_bus::Frame& frame, Instant) {
+void FrameStepper::published(const grating_bus::Card&, const grating_bus::Frame& frame, Instant) {
     frame_ = frame;
     came_ = true;
     rack_.kernel().break_run();
 }
 
-void FrameTap::next(grating_bus::Frame& frame, const std::function<void()>& between) {
+void FrameStepper::next(grating_bus::Frame& frame, const std::function<void()>& between) {
     sim::Kernel& kernel = rack_.kernel();
     const Instant until = kernel.now() + period();
     came_ = false;
@@ -51,7 +51,7 @@ void FrameTap::next(grating_bus::Frame& frame, const std::function<void()>& betw
     frame.time = kernel.now().count();
 }
 
-bool FrameTap::take(grating_bus::Frame& frame) {
+bool FrameStepper::take(grating_bus::Frame& frame) {
     if (!came_) return false;
     frame = frame_;
     came_ = false;

@@ -9,11 +9,11 @@
 
 namespace motionrack::rack {
 
-class FrameTap final : public grating_bus::FrameListener {
+class FrameStepper final : public grating_bus::FrameListener {
   public:
     /// Frames of the card of that name; "": of the first host. Before the rack is started. Errors: bad_input with the
     /// cards that there are.
-    static Result<std::unique_ptr<FrameTap>> create(Rack& rack, std::string_view card);
+    static Result<std::unique_ptr<FrameStepper>> create(Rack& rack, std::string_view card);
 
     const grating_bus::Card& card() const { return card_; }
     /// Of the bus.
@@ -30,7 +30,7 @@ class FrameTap final : public grating_bus::FrameListener {
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
 
   private:
-    FrameTap(Rack& rack, grating_bus::Card& card) : rack_(rack), card_(card) {}
+    FrameStepper(Rack& rack, grating_bus::Card& card) : rack_(rack), card_(card) {}
     Rack& rack_;
     grating_bus::Card& card_;
     grating_bus::Frame frame_;

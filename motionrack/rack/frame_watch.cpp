@@ -6,7 +6,7 @@ namespace motionrack::rack {
 
 namespace gb = grating_bus;
 
-FrameWatch::FrameWatch(Rack& rack) : rack_(rack), bus_(*grating_bus_of(rack)) {
+FrameMonitor::FrameMonitor(Rack& rack) : rack_(rack), bus_(*grating_bus_of(rack)) {
     MOTIONRACK_ASSERT(!rack.started());
     for (gb::Card* card : bus_.cards()) {
         Watched& watched = cards_.emplace_back();
@@ -16,11 +16,11 @@ FrameWatch::FrameWatch(Rack& rack) : rack_(rack), bus_(*grating_bus_of(rack)) {
     }
 }
 
-FrameWatch::Watched& FrameWatch::watched(const gb::Card& card) {
+FrameMonitor::Watched& FrameMonitor::watched(const gb::Card& card) {
     return *std::find_if(cards_.begin(), cards_.end(), [&](const Watched& one) { return one.card == &card; });
 }
 
-void FrameWatch::began(const gb::Card& card, Instant now) {
+void FrameMonitor::began(const gb::Card& card, Instant now) {
     Watched& own = watched(card);
     if (bus_.decoders().empty()) return;
     const gb::Decoder& decoder = *bus_.decoders()[0];
@@ -29,7 +29,7 @@ void FrameWatch::began(const gb::Card& card, Instant now) {
 
 /// Whether a count of the frame is not that of its scale when the frame began. A host's scales are those that it wants,
 /// a slave's those that were addressed.
-bool FrameWatch::untrue(const Watched& own, const gb::Frame& frame) {
+bool FrameMonitor::untrue(const Watched& own, const gb::Frame& frame) {
     for (std::uint32_t k = 0; k < frame.words; ++k) {
         const int address =
             own.card->is_host() ? own.card->settings().address(static_cast<int>(k)) : int{frame.addresses[k]};
@@ -38,7 +38,7 @@ bool FrameWatch::untrue(const Watched& own, const gb::Frame& frame) {
     return false;
 }
 
-void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant) {
+void FrameMonitor::published(const gb::Card& card, const gb::Frame& frame, Instant) {
     ++published_;
     Watched& own = watched(card);
     ++own.frames;
@@ -51,7 +51,7 @@ void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant
         own.unlike += !gb::same(frame, first_);
 }
 
-std::vector<FrameRow> FrameWatch::rows() const {
+std::vector<FrameRow> FrameMonitor::rows() const {
     std::vector<FrameRow> out;
     const Instant now = rack_.kernel().now();
     for (const Watched& own : cards_) {

@@ -1,6 +1,6 @@
 // Who looks at the frames of a rack: what every card holds, whether all agree, and a frame as a picture.
 //
-//   cards ──published──► FrameWatch ──► rows of a table
+//   cards ──published──► FrameMonitor ──► rows of a table
 //   bus, decoder ─────────────┘         agreement with the host, with the scales' true places
 #pragma once
 
@@ -27,10 +27,10 @@ struct FrameRow {
     bool agrees = false;       ///< the frame is that of the first card, or both have none
 };
 
-class FrameWatch final : private grating_bus::FrameListener {
+class FrameMonitor final : private grating_bus::FrameListener {
   public:
     /// Before the rack is started. The rack must have a grating bus.
-    explicit FrameWatch(Rack& rack);
+    explicit FrameMonitor(Rack& rack);
 
     std::vector<FrameRow> rows() const;
     const grating_bus::Bus& bus() const { return bus_; }

@@ -124,7 +124,7 @@ Result<void> Job::drive(control::AxisGroup& axes, JobOutcome& out) {
 
 Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::ExecutorSettings& settings,
                                   JobOutcome& out) {
-    PathWatch watch(axes, [&](std::int64_t block, const control::PlannedMove& move) {
+    PathObserver watch(axes, [&](std::int64_t block, const control::PlannedMove& move) {
         out.run.plan.add(move);
         planned(block, move);
     });
@@ -343,7 +343,7 @@ void Job::collect_conditions(JobOutcome& out) {
     told_ = kernel.dropped_conditions() + kernel.conditions().size();
     for (JobWarning& warning : out.warnings) {
         if (warning.line != 0) continue;
-        for (const DrivenBlock& block : monitor_->blocks())
+        for (const ExecutedMove& block : monitor_->blocks())
             if (block.start <= warning.at && warning.at <= block.end) warning.line = block.line;
     }
 }

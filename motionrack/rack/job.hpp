@@ -32,7 +32,7 @@ struct JobSettings {
     Duration sample_period = milliseconds(1);
     std::size_t most_samples = 200'000;
     const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; not used if there are orders
-    OrderPlan* orders = nullptr;                            ///< planned orders, and stops; must outlive the job
+    CommandSchedule* orders = nullptr;                      ///< planned orders, and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
     std::function<void()> on_slice = {};                    ///< between runs: recorders drain here
     std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< every sample, between runs

@@ -67,7 +67,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     trace::RecordingHead head_;
     sim::DeviceId id_{};
     trace::RecordingWriter writer_;
-    std::vector<std::pair<EdgeFork*, std::unique_ptr<Ear>>> ears_;
+    std::vector<std::pair<EdgeFanout*, std::unique_ptr<Ear>>> ears_;
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;

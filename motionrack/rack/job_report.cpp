@@ -138,7 +138,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(),
                                       outcome.ended.error().message};
     const LineIndex lines(program);
-    for (const DrivenBlock& block : job.monitor().blocks())
+    for (const ExecutedMove& block : job.monitor().blocks())
         data.blocks.push_back({block.line, lines[block.line], kind_text(block.kind), block.length, "mm",
                                to_seconds(block.start - began), to_seconds(block.end - block.start), block.entry,
                                block.cruise, block.exit, block.deviation_mm});
@@ -171,8 +171,8 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     std::string out = fmt::format("{}\n", verdict_text(outcome));
     out += fmt::format("  rack        {}\n", config.name);
     out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time),
-                       outcome.run.plan.seconds, counted(moves_of(config, outcome), "move"),
-                       counted(outcome.run.plan.dwells, "dwell"), counted(outcome.run.plan.stops, "stop"));
+                       outcome.run.plan.seconds, count_noun(moves_of(config, outcome), "move"),
+                       count_noun(outcome.run.plan.dwells, "dwell"), count_noun(outcome.run.plan.stops, "stop"));
     out += fmt::format("  path        {:.3f} mm, worst deviation from the program {:.4f} mm", outcome.path_mm,
                        outcome.worst.mm);
     if (outcome.worst.line > 0)

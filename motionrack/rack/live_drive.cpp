@@ -15,23 +15,23 @@ constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
 
 }  // namespace
 
-Result<void> PathWatch::begin() {
+Result<void> PathObserver::begin() {
     pull();
     first_ = blocks_;
     return axes_.begin();
 }
 
-Result<void> PathWatch::follow(const control::PlannedMove& move) {
+Result<void> PathObserver::follow(const control::PlannedMove& move) {
     on_block_(blocks_++, move);
     return axes_.follow(move);
 }
 
-Result<control::ProbeResult> PathWatch::probe(const control::PlannedMove& move, bool release) {
+Result<control::ProbeResult> PathObserver::probe(const control::PlannedMove& move, bool release) {
     on_block_(blocks_++, move);
     return axes_.probe(move, release);
 }
 
-void PathWatch::pull() {
+void PathObserver::pull() {
     for (control::MoveStart start : axes_.take_move_starts()) {
         starts_.push_back(start);
         if (start.block >= 0) start.block += first_;
@@ -39,12 +39,12 @@ void PathWatch::pull() {
     }
 }
 
-std::vector<control::MoveStart> PathWatch::take_move_starts() {
+std::vector<control::MoveStart> PathObserver::take_move_starts() {
     pull();
     return std::exchange(starts_, {});
 }
 
-std::vector<control::MoveStart> PathWatch::heard() {
+std::vector<control::MoveStart> PathObserver::heard() {
     pull();
     return std::exchange(heard_, {});
 }
@@ -92,7 +92,7 @@ class Feeder {
     std::optional<Error> problem_;
 };
 
-Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder,
+Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedule& orders, Feeder& feeder,
                    const std::string& file, control::ProgramResult& run) {
     using control::ExecutionState;
     std::int64_t probes = stream.last_probe().count;
@@ -138,7 +138,7 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
 
 }  // namespace
 
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const CommandSchedule& orders, std::string_view text,
                         const control::gcode::Settings& settings, const std::string& file, control::ProgramResult& run,
                         const OnProgrammedMove& on_move) {
     // What is left of a move after a hold is planned again: what was programmed counts.

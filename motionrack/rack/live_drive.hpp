@@ -1,6 +1,6 @@
 // Drives a part program so that orders can come while it runs: hold, resume, overrides, stop.
 //
-//   text ──Walk──► Stream ──► PathWatch ──► card's axes          OrderPlan ──between runs──► Stream
+//   text ──Walk──► Stream ──► PathObserver ──► card's axes          CommandSchedule ──between runs──► Stream
 //                                 │
 //                                 └──► who hears of planned moves, and of their starts
 #pragma once
@@ -16,10 +16,11 @@
 namespace motionrack::rack {
 
 /// Passes a path on to the axes. Blocks count from 0 over the whole job, not over each path between two holds.
-class PathWatch final : public control::AxisGroup {
+class PathObserver final : public control::AxisGroup {
   public:
     using OnBlock = std::function<void(std::int64_t block, const control::PlannedMove& move)>;
-    PathWatch(control::AxisGroup& axes, OnBlock on_planned_move) : axes_(axes), on_block_(std::move(on_planned_move)) {}
+    PathObserver(control::AxisGroup& axes, OnBlock on_planned_move)
+        : axes_(axes), on_block_(std::move(on_planned_move)) {}
 
     Result<void> begin() override;
     const control::DriveConstraints* drive_constraints() const override { return axes_.drive_constraints(); }
@@ -48,7 +49,7 @@ using OnProgrammedMove = std::function<void(const control::Move& move, const con
 /// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as ProgramExecutor::run.
 /// The stream's stop flag must be the axes', and `orders` be attached to it. `on_move`: hears of each move as it was
 /// read.
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text,
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const CommandSchedule& orders, std::string_view text,
                         const control::gcode::Settings& settings, const std::string& file, control::ProgramResult& run,
                         const OnProgrammedMove& on_move);
 

@@ -27,7 +27,7 @@ bool begins_with(std::string_view text, std::string_view begin) {
 
 }  // namespace
 
-parts::ConveyorSettings RackTrack::settings() const {
+parts::ConveyorSettings RackConveyor::settings() const {
     parts::ConveyorSettings out;
     out.rotary = rotary;
     out.direction_deg = direction_deg;
@@ -40,7 +40,7 @@ parts::ConveyorSettings RackTrack::settings() const {
     return out;
 }
 
-double RackTrack::greatest_speed() const {
+double RackConveyor::greatest_speed() const {
     double out = parts::greatest_track_speed;
     if (has_encoder()) out = std::min(out, greatest_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
     if (passing) out = std::min(out, greatest_parts * passing->every);
@@ -58,12 +58,12 @@ parts::StationSettings RackScanner::settings() const {
     return out;
 }
 
-std::string RunningTrack::wire_name(std::string_view end) const {
+std::string RunningConveyor::wire_name(std::string_view end) const {
     if (begins_with(end, "enc_")) return fmt::format("{}.encoder.{}", config.name, end.substr(4));
     return fmt::format("{}.{}", config.name, end);
 }
 
-std::vector<std::string_view> RunningTrack::fault_names() const {
+std::vector<std::string_view> RunningConveyor::fault_names() const {
     const auto drive_names = parts::ConveyorDrive::fault_names(), sender_names = parts::SerialWordSource::fault_names();
     std::vector<std::string_view> out(drive_names.begin(), drive_names.end());
     if (encoder) out.insert(out.end(), encoder_faults.begin(), encoder_faults.end());
@@ -71,13 +71,13 @@ std::vector<std::string_view> RunningTrack::fault_names() const {
     return out;
 }
 
-sim::DeviceId RunningTrack::device_of(std::string_view fault) const {
+sim::DeviceId RunningConveyor::device_of(std::string_view fault) const {
     if (encoder && begins_with(fault, "encoder.")) return encoder->id();
     return sender && begins_with(fault, "sender.") ? sender->id() : drive->id();
 }
 
-RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
-    RunningTrack out;
+RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
+    RunningConveyor out;
     out.config = config;
     const Result<parts::Conveyor> track = parts::Conveyor::make(config.settings());
     MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked

@@ -19,8 +19,8 @@
 namespace motionrack::rack {
 
 /// One belt or rotary table of the running machine.
-struct RunningTrack {
-    RackTrack config;
+struct RunningConveyor {
+    RackConveyor config;
     std::unique_ptr<parts::ConveyorDrive> drive;
     std::unique_ptr<parts::ConveyorPosition> counts;  ///< what its encoder sees; this and the encoder may be nullptr
     std::unique_ptr<parts::LineEncoder> encoder;
@@ -47,7 +47,7 @@ struct RunningScanner {
 };
 
 /// Adds its parts and wires to the kernel, before it starts. The config must come from read_rack.
-RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config);
+RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config);
 /// After its card. `track`: what its part is on, or nullptr.
 RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Conveyor* track);
 

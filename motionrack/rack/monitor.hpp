@@ -54,7 +54,7 @@ struct AxisStatistics {
 };
 
 /// A planned move as it was really driven.
-struct DrivenBlock {
+struct ExecutedMove {
     std::int64_t block = 0;
     int line = 0;
     control::MoveKind kind = control::MoveKind::feed;
@@ -112,7 +112,7 @@ class Monitor final : public sim::Device {
     void set_allowed_deviation(double mm) { allowed_mm_ = mm; }
     /// Where the machine was at about that instant, mm.
     std::array<double, 3> place_at(Instant at) const;
-    const std::vector<DrivenBlock>& blocks() const { return seen_.blocks; }
+    const std::vector<ExecutedMove>& blocks() const { return seen_.blocks; }
     std::int64_t blocks_left_out() const { return seen_.blocks_left_out; }
     std::int64_t samples_taken() const { return seen_.taken; }
     Duration period() const { return period_; }
@@ -175,9 +175,9 @@ class Monitor final : public sim::Device {
         ProgramPart part{-1, 0, 0};            ///< where the machine may be
         std::int64_t current_programmed = -1;  ///< move at which the current block begins
         double before_mm = 0, current_mm = 0;  ///< that blocks have on the move before, and on this one
-        DrivenBlock open_block;
+        ExecutedMove open_block;
         bool block_open = false;
-        std::vector<DrivenBlock> blocks;
+        std::vector<ExecutedMove> blocks;
         std::int64_t blocks_left_out = 0;
         Deviation worst;
         std::vector<JumpWatch> jump_watches;  ///< of axes whose pulses move them; one an axis

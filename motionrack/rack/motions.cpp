@@ -4,22 +4,22 @@
 
 namespace motionrack::rack {
 
-void MirroredMotion::watch(int slot, std::int64_t below, std::int64_t above) {
+void InvertedPosition::watch(int slot, std::int64_t below, std::int64_t above) {
     of_.watch(slot, above == sim::unwatched_above ? sim::unwatched_below : -above,
               below == sim::unwatched_below ? sim::unwatched_above : -below);
 }
 
-int MirroredMotion::listen(sim::PositionListener& listener) {
+int InvertedPosition::listen(sim::PositionListener& listener) {
     ears_.push_back(std::make_unique<Ear>(listener));
     return of_.listen(*ears_.back());
 }
 
-void MirroredMotion::set_edge_listener(sim::EdgeListener* listener) {
+void InvertedPosition::set_edge_listener(sim::EdgeListener* listener) {
     edge_listener_ = listener;
     of_.set_edge_listener(listener != nullptr ? this : nullptr);
 }
 
-void MirroredMotion::edges(const sim::EdgeBatch& batch) {
+void InvertedPosition::edges(const sim::EdgeBatch& batch) {
     mirrored_.origin = batch.origin;
     mirrored_.tick = batch.tick;
     mirrored_.first_count = -batch.first_count;

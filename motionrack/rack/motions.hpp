@@ -1,7 +1,7 @@
 // Motions between cards and parts: one that never moves, and one seen backwards.
 //
-//   open step input   ──► StillMotion ──► AxisMechanics
-//   encoder ──► MirroredMotion (tracks A and B crossed over: count -> -count) ──► card
+//   open step input   ──► FixedPosition ──► AxisMechanics
+//   encoder ──► InvertedPosition (tracks A and B crossed over: count -> -count) ──► card
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 namespace motionrack::rack {
 
 /// Stands at 0 for ever.
-class StillMotion final : public sim::Motion {
+class FixedPosition final : public sim::Motion {
   public:
     std::int64_t count(Instant) const override { return 0; }
     double rate(Instant) const override { return 0; }
@@ -26,9 +26,9 @@ class StillMotion final : public sim::Motion {
 
 /// `of` with all counts and rates negated. Counts stand for the same lines with A and B exchanged: phase 1 (A) becomes
 /// phase 3 (B). Takes listener slots of `of`.
-class MirroredMotion final : public sim::Motion, private sim::EdgeListener {
+class InvertedPosition final : public sim::Motion, private sim::EdgeListener {
   public:
-    explicit MirroredMotion(sim::Motion& of) : of_(of) {}
+    explicit InvertedPosition(sim::Motion& of) : of_(of) {}
 
     std::int64_t count(Instant t) const override { return -of_.count(t); }
     double rate(Instant t) const override { return -of_.rate(t); }

@@ -16,12 +16,12 @@ constexpr Duration asked_ahead = microseconds(1);
 
 }  // namespace
 
-bool OrderPlan::knows(std::string_view action) {
+bool CommandSchedule::knows(std::string_view action) {
     const std::string_view name = action.substr(0, action.find('='));
     return name == "stop" || name == "hold" || name == "resume" || name == "feed" || name == "rapid";
 }
 
-Result<OrderPlan::Order> OrderPlan::read(const TimedText& text) {
+Result<CommandSchedule::Order> CommandSchedule::read(const ScheduledText& text) {
     const std::string_view action = text.action;
     const std::size_t equals = action.find('=');
     const std::string_view name = action.substr(0, equals);
@@ -45,9 +45,9 @@ Result<OrderPlan::Order> OrderPlan::read(const TimedText& text) {
                                                 in_quotes(text.text)));
 }
 
-Result<std::unique_ptr<OrderPlan>> OrderPlan::create(Rack& rack, const std::vector<TimedText>& orders) {
-    std::unique_ptr<OrderPlan> plan(new OrderPlan(rack));
-    for (const TimedText& text : orders) {
+Result<std::unique_ptr<CommandSchedule>> CommandSchedule::create(Rack& rack, const std::vector<ScheduledText>& orders) {
+    std::unique_ptr<CommandSchedule> plan(new CommandSchedule(rack));
+    for (const ScheduledText& text : orders) {
         MOTIONRACK_TRY(Order order, read(text));
         plan->needs_stream_ = plan->needs_stream_ || order.kind != Kind::stop;
         plan->orders_.push_back(std::move(order));
@@ -59,7 +59,7 @@ Result<std::unique_ptr<OrderPlan>> OrderPlan::create(Rack& rack, const std::vect
     return plan;
 }
 
-Result<void> OrderPlan::check_holds() const {
+Result<void> CommandSchedule::check_holds() const {
     const Order* holds = nullptr;
     for (const Order& order : orders_) {
         if (order.kind == Kind::hold) holds = &order;
@@ -73,24 +73,24 @@ Result<void> OrderPlan::check_holds() const {
             in_quotes(holds->text)));
 }
 
-void OrderPlan::begin() {
+void CommandSchedule::begin() {
     aim();
 }
 
-void OrderPlan::aim() {
+void CommandSchedule::aim() {
     const Instant now = rack_.kernel().now();
     for (const Order& order : orders_)
         if (!order.done && order.at >= now) return rack_.kernel().schedule(id_, order.at);
     rack_.kernel().schedule(id_, never);
 }
 
-void OrderPlan::act(Instant now) {
+void CommandSchedule::act(Instant now) {
     rack_.kernel().break_run();
     for (const Order& order : orders_)
         if (order.at > now) return rack_.kernel().schedule(id_, order.at);
 }
 
-std::optional<Instant> OrderPlan::ask_stop() {
+std::optional<Instant> CommandSchedule::ask_stop() {
     if (std::exchange(asked_, true) || stop_flag_) return std::nullopt;
     Order order{rack_.kernel().now() + asked_ahead, Kind::stop, 1, "stop", false};
     const auto after = std::upper_bound(orders_.begin(), orders_.end(), order.at,
@@ -100,7 +100,7 @@ std::optional<Instant> OrderPlan::ask_stop() {
     return order.at;
 }
 
-void OrderPlan::apply_due() {
+void CommandSchedule::apply_due() {
     for (Order& order : orders_)
         if (!order.done && order.at <= rack_.kernel().now()) {
             order.done = true;
@@ -108,12 +108,12 @@ void OrderPlan::apply_due() {
         }
 }
 
-void OrderPlan::halt() {
+void CommandSchedule::halt() {
     if (stop_flag_.exchange(true) || stream_ == nullptr) return;
     stream_->stop();
 }
 
-void OrderPlan::apply(const Order& order) {
+void CommandSchedule::apply(const Order& order) {
     if (order.kind == Kind::stop) {
         stop_flag_ = true;
         rack_.stop_latch().order();
@@ -139,11 +139,11 @@ void OrderPlan::apply(const Order& order) {
     }
 }
 
-bool OrderPlan::pending() const {
+bool CommandSchedule::pending() const {
     return std::any_of(orders_.begin(), orders_.end(), [](const Order& order) { return !order.done; });
 }
 
-std::vector<std::string> OrderPlan::not_done() const {
+std::vector<std::string> CommandSchedule::not_done() const {
     std::vector<std::string> out;
     for (const Order& order : orders_)
         if (!order.done) out.push_back("the run ended before the order " + order.text);

@@ -18,12 +18,12 @@
 
 namespace motionrack::rack {
 
-class OrderPlan final : public sim::Device {
+class CommandSchedule final : public sim::Device {
   public:
     /// Before the rack is started. Orders: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 .. 1).
     /// Errors: bad_input for the first that is none of these; refused, a hold after which neither resume nor stop is
     /// planned.
-    static Result<std::unique_ptr<OrderPlan>> create(Rack& rack, const std::vector<TimedText>& orders);
+    static Result<std::unique_ptr<CommandSchedule>> create(Rack& rack, const std::vector<ScheduledText>& orders);
     /// Whether there is an order of that name; its value may be wrong.
     static bool knows(std::string_view action);
 
@@ -62,8 +62,8 @@ class OrderPlan final : public sim::Device {
         std::string text;
         bool done = false;
     };
-    explicit OrderPlan(Rack& rack) : rack_(rack) {}
-    static Result<Order> read(const TimedText& text);
+    explicit CommandSchedule(Rack& rack) : rack_(rack) {}
+    static Result<Order> read(const ScheduledText& text);
     Result<void> check_holds() const;
     void apply(const Order& order);
     void aim();

@@ -19,7 +19,7 @@ inline bool has_unreadable(const control::gcode::ProgramCheck& check) {
 /// "part.ngc has 3 problems; nothing was moved."
 inline std::string problems_verdict(const control::gcode::ProgramCheck& check, const std::string& name) {
     return fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
-                       counted(check.problems.size(), "problem"));
+                       count_noun(check.problems.size(), "problem"));
 }
 
 }  // namespace motionrack::rack

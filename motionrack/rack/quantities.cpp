@@ -26,7 +26,7 @@ std::span<const QuantityRow<RunningAxis>> rows_of(const RunningAxis&) {
 std::span<const QuantityRow<RunningStage>> rows_of(const RunningStage&) {
     return stage_quantities;
 }
-std::span<const QuantityRow<RunningTrack>> rows_of(const RunningTrack&) {
+std::span<const QuantityRow<RunningConveyor>> rows_of(const RunningConveyor&) {
     return track_quantities;
 }
 std::span<const QuantityRow<RunningScanner>> rows_of(const RunningScanner&) {
@@ -44,7 +44,7 @@ std::string name_of(const Part& part) {
 std::string_view unit_of(const RunningAxis& axis) {
     return axis.config.unit();
 }
-std::string_view unit_of(const RunningTrack& track) {
+std::string_view unit_of(const RunningConveyor& track) {
     return track.config.unit();
 }
 template <class Part>
@@ -69,7 +69,7 @@ template <class Told>
 void each_part(Rack& rack, const Told& told) {
     for (RunningAxis& axis : rack.axes()) told(axis);
     for (RunningStage& stage : rack.stages()) told(stage);
-    for (RunningTrack& track : rack.tracks()) told(track);
+    for (RunningConveyor& track : rack.tracks()) told(track);
     for (RunningScanner& scanner : rack.scanners()) told(scanner);
 }
 
@@ -128,7 +128,7 @@ Result<double> quantity_of_card(const Card& card, std::string_view name) {
 
 // ---- setting
 
-Result<void> set_track_quantity(Rack& rack, const RunningTrack& track, std::string_view name, double value) {
+Result<void> set_track_quantity(Rack& rack, const RunningConveyor& track, std::string_view name, double value) {
     const std::string speed = with_unit(track_speed, track.config.unit());
     if (name != speed)
         return fail(Trouble::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.",
@@ -216,7 +216,7 @@ std::vector<QuantityRange> quantity_ranges(Rack& rack) {
             if (row.push != nullptr) bound_by_push(out.back(), row, part, now);
         });
     });
-    for (const RunningTrack& track : rack.tracks())
+    for (const RunningConveyor& track : rack.tracks())
         for (QuantityRange& one : out)
             if (one.name == fmt::format("{}.{}", track.config.name, with_unit(track_speed, track.config.unit()))) {
                 one.can_set = true;
@@ -265,7 +265,7 @@ Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity) {
 
 Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double value) {
     const Name name(part_dot_quantity);
-    if (const RunningTrack* track = rack.track(name.part); track != nullptr && name.whole)
+    if (const RunningConveyor* track = rack.track(name.part); track != nullptr && name.whole)
         return set_track_quantity(rack, *track, name.quantity, value);
     for (RunningAxis& axis : rack.axes())
         if (name.whole && name_of(axis) == name.part) return push_axis(rack, axis, part_dot_quantity, value);

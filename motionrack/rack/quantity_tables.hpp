@@ -114,26 +114,26 @@ inline constexpr std::array<QuantityRow<RunningStage>, 13> stage_quantities = {{
      [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, amount, has_loop},
 }};
 
-inline bool with_encoder(const RunningTrack& track) {
+inline bool with_encoder(const RunningConveyor& track) {
     return track.encoder != nullptr;
 }
 
 inline constexpr std::string_view track_speed = "speed_{u}_s";
-inline constexpr std::array<QuantityRow<RunningTrack>, 6> track_quantities = {{
+inline constexpr std::array<QuantityRow<RunningConveyor>, 6> track_quantities = {{
     {"position_{u}", "how far it has gone since the start",
-     [](RunningTrack& track, Instant now) { return track.track().travel(to_seconds(now)); }, measures},
+     [](RunningConveyor& track, Instant now) { return track.track().travel(to_seconds(now)); }, measures},
     {track_speed, "how fast it goes, signed",
-     [](RunningTrack& track, Instant now) { return track.track().speed(to_seconds(now)); }, measures},
+     [](RunningConveyor& track, Instant now) { return track.track().speed(to_seconds(now)); }, measures},
     {"encoder_counts", "what its encoder has shown",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->count()); }, whole, with_encoder},
+     [](RunningConveyor& track, Instant) { return static_cast<double>(track.encoder->count()); }, whole, with_encoder},
     {"lost_counts", "counts that were too quick for the encoder's lines",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->lost()); }, amount, with_encoder},
+     [](RunningConveyor& track, Instant) { return static_cast<double>(track.encoder->lost()); }, amount, with_encoder},
     {"word", "the sender's last complete word",
-     [](RunningTrack& track, Instant) { return static_cast<double>(track.sender->word()); }, whole,
-     [](const RunningTrack& track) { return track.sender != nullptr; }},
+     [](RunningConveyor& track, Instant) { return static_cast<double>(track.sender->word()); }, whole,
+     [](const RunningConveyor& track) { return track.sender != nullptr; }},
     {"parts", "parts that have come to the sensor",
-     [](RunningTrack& track, Instant now) { return static_cast<double>(track.sensor->parts(now)); }, whole,
-     [](const RunningTrack& track) { return track.sensor != nullptr; }},
+     [](RunningConveyor& track, Instant now) { return static_cast<double>(track.sensor->parts(now)); }, whole,
+     [](const RunningConveyor& track) { return track.sensor != nullptr; }},
 }};
 
 inline constexpr std::array<QuantityRow<RunningScanner>, 7> scanner_quantities = {{

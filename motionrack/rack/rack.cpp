@@ -13,7 +13,7 @@ namespace motionrack::rack {
 Rack::Rack(const RackConfig& config) : config_(config) {
     build_cards();
     build_axes();
-    for (const RackTrack& track : config_.tracks) tracks_.push_back(build_track(kernel_, track));
+    for (const RackConveyor& track : config_.tracks) tracks_.push_back(build_track(kernel_, track));
     join_links();
     if (config_.probe) build_probe();
     build_wires();
@@ -39,8 +39,8 @@ RunningStage* Rack::stage(std::string_view name) {
     return nullptr;
 }
 
-RunningTrack* Rack::track(std::string_view name) {
-    for (RunningTrack& track : tracks_)
+RunningConveyor* Rack::track(std::string_view name) {
+    for (RunningConveyor& track : tracks_)
         if (track.config.name == name) return &track;
     return nullptr;
 }
@@ -118,9 +118,9 @@ void Rack::build_axis(const RackAxis& axis) {
         running.servo =
             std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
     running.machine = std::make_unique<parts::AxisMechanics>(kernel_, name, settings);
-    running.pulse_ears = std::make_unique<EdgeFork>(
+    running.pulse_ears = std::make_unique<EdgeFanout>(
         [machine = running.machine.get()](sim::EdgeListener* ear) { machine->listen_pulse_edges(ear); });
-    running.encoder_ears = std::make_unique<EdgeFork>(
+    running.encoder_ears = std::make_unique<EdgeFanout>(
         [machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().set_edge_listener(ear); });
     axes_.push_back(std::move(running));
 }
@@ -142,7 +142,7 @@ void Rack::join_links() {
     for (const EncoderLink& link : config_.encoder_links) {
         sim::Motion* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
         if (link.swapped) {
-            mirrored_.push_back(std::make_unique<MirroredMotion>(*counts));
+            mirrored_.push_back(std::make_unique<InvertedPosition>(*counts));
             counts = mirrored_.back().get();
         }
         cards_[static_cast<std::size_t>(link.card)]->motion()->connect_encoder(link.channel, *counts);
@@ -220,7 +220,7 @@ void Rack::build_stages() {
                          stage.motor->drive_wire(), false);
         if (config.servo) {
             stage.processor = &processor_of(config.card);
-            stage.processor->add(static_cast<int>(config.output), StagePlan(config), loop_settings(config),
+            stage.processor->add(static_cast<int>(config.output), StageSetup(config), loop_settings(config),
                                  from_seconds(config.servo->compute_us * 1e-6), stage.scale->count(Instant{0}));
         }
         stages_.push_back(std::move(stage));

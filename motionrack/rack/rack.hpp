@@ -45,7 +45,7 @@ struct RunningAxis {
     std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
     std::unique_ptr<parts::LineEncoder>
         lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
-    std::unique_ptr<EdgeFork> pulse_ears,
+    std::unique_ptr<EdgeFanout> pulse_ears,
         encoder_ears;  ///< who hears the edges of the card's pulses and of the encoder
 
     /// What turns the machine: the card's pulses or the servo.
@@ -69,15 +69,15 @@ class Rack {
     std::vector<RunningStage>& stages() { return stages_; }
     /// nullptr if there is no such stage.
     RunningStage* stage(std::string_view name);
-    std::vector<RunningTrack>& tracks() { return tracks_; }
+    std::vector<RunningConveyor>& tracks() { return tracks_; }
     std::vector<RunningScanner>& scanners() { return scanners_; }
     /// nullptr if there is no such part.
-    RunningTrack* track(std::string_view name);
+    RunningConveyor* track(std::string_view name);
     RunningScanner* scanner(std::string_view name);
     StopLatch& stop_latch() { return *stop_latch_; }
     sim::InputLog& input_log() { return log_; }
     /// Who hears the changes of wires.
-    WireFork& wire_ears() { return wire_ears_; }
+    WireFanout& wire_ears() { return wire_ears_; }
     /// Takes the state of another rack of the same config. Both are started and between runs.
     void copy_from(Rack& other);
 
@@ -116,17 +116,17 @@ class Rack {
 
     RackConfig config_;
     sim::Kernel kernel_;
-    WireFork wire_ears_{kernel_};
+    WireFanout wire_ears_{kernel_};
     sim::InputLog log_;
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;
     std::unique_ptr<parts::TouchProbe> probe_;  // may be nullptr
     std::vector<RunningStage> stages_;
     std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by their cards' names
-    std::vector<RunningTrack> tracks_;
+    std::vector<RunningConveyor> tracks_;
     std::vector<RunningScanner> scanners_;
-    StillMotion still_;  // what turns a motor whose step input is open
-    std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
+    FixedPosition still_;  // what turns a motor whose step input is open
+    std::vector<std::unique_ptr<InvertedPosition>> mirrored_;
     std::unique_ptr<sim::WireConnections> junctions_;
     std::optional<control::PointToPointAxes> positioning_;
     std::unique_ptr<StopLatch> stop_latch_;

@@ -14,7 +14,7 @@ namespace {
 // How faults are told apart from orders in a recording.
 constexpr std::string_view fault_word = "fault ";
 
-trace::RecordingHead head_of(const JobRequest& request, const OrderPlan& orders) {
+trace::RecordingHead head_of(const JobRequest& request, const CommandSchedule& orders) {
     trace::RecordingHead head;
     head.version = request.version;
     head.program_name = request.program_name;
@@ -28,18 +28,18 @@ trace::RecordingHead head_of(const JobRequest& request, const OrderPlan& orders)
     head.subprograms = request.subprograms;
     head.live = orders.needs_stream();
     head.sample_period = JobSettings().sample_period;
-    for (const TimedText& fault : request.faults)
+    for (const ScheduledText& fault : request.faults)
         head.inputs.push_back({fault.at, std::string(fault_word) + fault.action});
-    for (const TimedText& order : request.orders) head.inputs.push_back({order.at, order.action});
+    for (const ScheduledText& order : request.orders) head.inputs.push_back({order.at, order.action});
     return head;
 }
 
 }  // namespace
 
-Result<std::vector<TimedText>> read_orders(const std::vector<std::string>& texts) {
-    std::vector<TimedText> out;
+Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& texts) {
+    std::vector<ScheduledText> out;
     for (const std::string& text : texts) {
-        std::optional<TimedText> timed = read_timed_text(text);
+        std::optional<ScheduledText> timed = read_timed_text(text);
         if (!timed)
             return fail(Trouble::bad_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, "
                                                         "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
@@ -88,13 +88,13 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     return out;
 }
 
-Result<std::unique_ptr<RecordedJob>> RecordedJob::create(const JobRequest& request, const JobWatchers& watchers) {
+Result<std::unique_ptr<RecordedJob>> RecordedJob::create(const JobRequest& request, const JobObservers& watchers) {
     std::unique_ptr<RecordedJob> out(new RecordedJob(request));
     if (watchers.waves) {
         MOTIONRACK_TRY(out->waves_, WaveRecorder::create(out->rack_, *watchers.waves));
     }
-    MOTIONRACK_TRY(out->faults_, FaultPlan::create_timed(out->rack_, request.faults));
-    MOTIONRACK_TRY(out->orders_, OrderPlan::create(out->rack_, request.orders));
+    MOTIONRACK_TRY(out->faults_, FaultSchedule::create_timed(out->rack_, request.faults));
+    MOTIONRACK_TRY(out->orders_, CommandSchedule::create(out->rack_, request.orders));
     if (!watchers.recording.empty()) {
         MOTIONRACK_TRY(out->recorder_,
                        JobRecorder::create(out->rack_, watchers.recording, head_of(request, *out->orders_)));

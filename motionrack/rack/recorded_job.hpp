@@ -27,12 +27,12 @@ struct JobRequest {
     bool block_delete = false, stream = false;
     control::gcode::ToolTable tools;
     std::map<std::string, std::string> subprograms;  ///< texts of those that the program calls and does not have itself
-    std::vector<TimedText> faults, orders;
+    std::vector<ScheduledText> faults, orders;
     std::string version;  ///< of the program that runs it
 };
 
 /// Takes "ORDER@TIME" as users write it. Errors: bad_input.
-Result<std::vector<TimedText>> read_orders(const std::vector<std::string>& texts);
+Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& texts);
 
 /// How its program is read.
 control::gcode::Settings reading_of(const JobRequest& request);
@@ -40,15 +40,16 @@ control::gcode::Settings reading_of(const JobRequest& request);
 /// The request that a recording was made by. Errors: bad_input, its rack cannot be read any more.
 Result<JobRequest> request_of(const trace::RecordingReader& recording);
 
-struct JobWatchers {
+struct JobObservers {
     std::string recording = {};  ///< its path; empty: none
     std::optional<WaveSettings> waves = std::nullopt;
 };
 
 class RecordedJob {
   public:
-    /// Builds all; nothing has moved. `request` must outlive it. Errors: as FaultPlan, OrderPlan, the recorders.
-    static Result<std::unique_ptr<RecordedJob>> create(const JobRequest& request, const JobWatchers& watchers);
+    /// Builds all; nothing has moved. `request` must outlive it. Errors: as FaultSchedule, CommandSchedule, the
+    /// recorders.
+    static Result<std::unique_ptr<RecordedJob>> create(const JobRequest& request, const JobObservers& watchers);
     ~RecordedJob();
 
     /// Once. `stop_asked` may be nullptr, `progress` empty.
@@ -73,8 +74,8 @@ class RecordedJob {
     Rack rack_;
     std::unique_ptr<WaveRecorder> waves_;
     std::unique_ptr<JobRecorder> recorder_;
-    std::unique_ptr<FaultPlan> faults_;
-    std::unique_ptr<OrderPlan> orders_;
+    std::unique_ptr<FaultSchedule> faults_;
+    std::unique_ptr<CommandSchedule> orders_;
     std::unique_ptr<Job> job_;
     JobOutcome outcome_;
     trace::ReportData report_;

@@ -37,7 +37,7 @@ bool is_reading(const RegisterInfo& reg) {
 
 bool RegisterView::answered() const {
     return std::any_of(registers.begin(), registers.end(),
-                       [](const SeenRegister& seen) { return seen.word != 0xFFFF; });
+                       [](const RegisterSnapshot& seen) { return seen.word != 0xFFFF; });
 }
 
 RegisterView view_mcx314(RegisterPort& port, bool clearing) {
@@ -64,13 +64,13 @@ RegisterView view_mcx314(RegisterPort& port, bool clearing) {
 
 std::string view_text(const RegisterView& view, bool all) {
     std::string out;
-    for (const SeenRegister& seen : view.registers) {
+    for (const RegisterSnapshot& seen : view.registers) {
         out += fmt::format("{:<4} {:<2} {:04X}h  {}\n", seen.reg->name, seen.axis, seen.word, seen.reg->meaning);
         for (const FieldInfo& field : seen.reg->fields)
             if (const std::uint32_t value = field_of(seen.word, field); value != 0 || all)
                 out += fmt::format("          {:<6} {:<5} {}\n", field.name, value, field.meaning);
     }
-    for (const SeenValue& seen : view.values)
+    for (const ValueSnapshot& seen : view.values)
         out += fmt::format("{:<4} {:<2} {:<11} {}\n", seen.name, seen.axis, seen.value, seen.meaning);
     return out;
 }
@@ -78,14 +78,14 @@ std::string view_text(const RegisterView& view, bool all) {
 std::string view_json(const RegisterView& view) {
     nlohmann::ordered_json out;
     out["registers"] = nlohmann::ordered_json::array();
-    for (const SeenRegister& seen : view.registers) {
+    for (const RegisterSnapshot& seen : view.registers) {
         nlohmann::ordered_json one = {{"name", seen.reg->name}, {"axis", seen.axis}, {"word", seen.word}};
         for (const FieldInfo& field : seen.reg->fields)
             one["fields"][std::string(field.name)] = field_of(seen.word, field);
         out["registers"].push_back(std::move(one));
     }
     out["values"] = nlohmann::ordered_json::array();
-    for (const SeenValue& seen : view.values)
+    for (const ValueSnapshot& seen : view.values)
         out["values"].push_back({{"name", seen.name}, {"axis", seen.axis}, {"value", seen.value}});
     return out.dump(2) + "\n";
 }

@@ -10,14 +10,14 @@
 namespace motionrack::rack {
 
 /// A register as it was read. `axis`: "" or the axis it belongs to.
-struct SeenRegister {
+struct RegisterSnapshot {
     const RegisterInfo* reg = nullptr;
     std::string axis = {};
     std::uint16_t word = 0;
 };
 
 /// A counter or another value that takes a read command.
-struct SeenValue {
+struct ValueSnapshot {
     std::string_view name;
     std::string axis;
     std::int64_t value = 0;
@@ -25,8 +25,8 @@ struct SeenValue {
 };
 
 struct RegisterView {
-    std::vector<SeenRegister> registers;
-    std::vector<SeenValue> values;
+    std::vector<RegisterSnapshot> registers;
+    std::vector<ValueSnapshot> values;
     /// False where every word is FFFFh, as in an empty slot.
     bool answered() const;
 };

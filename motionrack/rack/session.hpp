@@ -1,7 +1,7 @@
 // A running rack as programs outside of it use it: by names and plain numbers, every mistake an error, nothing aborts.
 //
 //               ┌──► Card: bus accesses, registers by name
-//               ├──► WireDesk: pins, switches
+//               ├──► WireAccess: pins, switches
 //   outside ──► Session ──► quantities, faults: the machine
 //               ├──► WaveRecorder: recordings
 //               ├──► Job: a part program; home_axes
@@ -80,7 +80,7 @@ class Session {
     Result<std::int64_t> peek(std::string_view card, std::string_view name);
 
     // ---- wires and parts
-    /// See WireDesk.
+    /// See WireAccess.
     Result<double> wire(std::string_view name) const { return desk_.get(name); }
     Result<void> set_wire(std::string_view name, double value);
     /// See quantities.hpp.
@@ -164,7 +164,7 @@ class Session {
     bool telling_ = false;    // it is being called
     bool driving_ = false;    // a program or a homing runs
     std::unique_ptr<WireTap> tap_;
-    WireDesk desk_;
+    WireAccess desk_;
     std::unique_ptr<WaveRecorder> recorder_;
     Duration trace_unit_{0};
     Instant next_look_ = never;  // of the recorder at the registers

@@ -35,7 +35,7 @@ std::string drive_text(const std::string& verdict, const JobOutcome& outcome) {
     for (std::size_t i = 0; i < outcome.warnings.size() && i < max_warnings; ++i)
         out += '\n' + outcome.warnings[i].text;
     if (outcome.warnings.size() > max_warnings)
-        out += fmt::format("\n{} more were left out.", counted(outcome.warnings.size() - max_warnings, "warning"));
+        out += fmt::format("\n{} more were left out.", count_noun(outcome.warnings.size() - max_warnings, "warning"));
     return out;
 }
 

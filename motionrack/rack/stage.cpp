@@ -41,7 +41,7 @@ std::string profile_flaw(const RackStage& stage) {
     return {};
 }
 
-StagePlan::StagePlan(const RackStage& stage) : profile_(gb::HoldProfile{stage.start_mm.value_or(0) * nm_per_mm}) {
+StageSetup::StageSetup(const RackStage& stage) : profile_(gb::HoldProfile{stage.start_mm.value_or(0) * nm_per_mm}) {
     if (!stage.servo) return;
     const RackStageServo& s = *stage.servo;
     delay_s_ = s.delay_ms * 1e-3;
@@ -53,7 +53,7 @@ StagePlan::StagePlan(const RackStage& stage) : profile_(gb::HoldProfile{stage.st
                                    static_cast<int>(s.steps), s.every_ms * 1e-3, limits_);
 }
 
-gb::Setpoint StagePlan::at(double seconds) const {
+gb::Setpoint StageSetup::at(double seconds) const {
     return std::visit([t = seconds - delay_s_](const auto& profile) { return profile.at(t); }, profile_);
 }
 
@@ -65,7 +65,7 @@ parts::LinearStageSettings motor_settings(const RackStage& stage) {
     out.viscous = stage.viscous_per_s;
     out.coulomb = stage.coulomb_m_s2;
     out.load = stage.load;
-    out.start_nm = stage.start_mm ? *stage.start_mm * nm_per_mm : StagePlan(stage).start_nm();
+    out.start_nm = stage.start_mm ? *stage.start_mm * nm_per_mm : StageSetup(stage).start_nm();
     out.end_minus_nm = stage.end_minus_mm * nm_per_mm;
     out.end_plus_nm = stage.end_plus_mm * nm_per_mm;
     return out;
@@ -111,7 +111,7 @@ CardProcessor::CardProcessor(sim::Kernel& kernel, const std::string& name, gb::C
     schedule();
 }
 
-void CardProcessor::add(int output, const StagePlan& plan, const gb::ServoSettings& settings, Duration compute,
+void CardProcessor::add(int output, const StageSetup& plan, const gb::ServoSettings& settings, Duration compute,
                         std::int64_t count) {
     const auto n = static_cast<std::size_t>(output);
     plans_[n] = plan;

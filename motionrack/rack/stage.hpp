@@ -20,11 +20,11 @@
 namespace motionrack::rack {
 
 /// Where a stage is to be, as its servo's keys say.
-class StagePlan {
+class StageSetup {
   public:
-    StagePlan() = default;
+    StageSetup() = default;
     /// The servo must be sound (see stage_flaw).
-    explicit StagePlan(const RackStage& stage);
+    explicit StageSetup(const RackStage& stage);
     grating_bus::Setpoint at(double seconds) const;
     /// Where it is before it begins.
     double start_nm() const { return at(-1).position_nm; }
@@ -54,11 +54,11 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     CardProcessor(sim::Kernel& kernel, const std::string& name, grating_bus::Card& card);
 
     /// Before the kernel starts. `count`: of the scale, now. The loop is closed from the first frame on.
-    void add(int output, const StagePlan& plan, const grating_bus::ServoSettings& settings, Duration compute,
+    void add(int output, const StageSetup& plan, const grating_bus::ServoSettings& settings, Duration compute,
              std::int64_t count);
     grating_bus::ServoLoop& loop(int output) { return state_.loops[static_cast<std::size_t>(output)]; }
     sim::DeviceId id() const { return id_; }
-    const StagePlan& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
+    const StageSetup& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
 
     // ---- between runs
     /// Brings its stages to rest; `power_off`: their loops are opened then, 0 V.
@@ -91,7 +91,7 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     sim::Kernel& kernel_;
     grating_bus::Card& card_;
     sim::DeviceId id_{};
-    std::array<StagePlan, grating_bus::output_count> plans_{};
+    std::array<StageSetup, grating_bus::output_count> plans_{};
     std::array<Duration, grating_bus::output_count> compute_{};
     std::array<bool, grating_bus::output_count> used_{};
     double braking_s_ = 0;  ///< of its slowest stage

@@ -42,7 +42,7 @@ void laser_off(Rack& rack, const StopReaction&) {
 }
 
 void stop_belts(Rack& rack, const StopReaction&) {
-    for (RunningTrack& track : rack.tracks()) track.drive->stop(rack.kernel().now());
+    for (RunningConveyor& track : rack.tracks()) track.drive->stop(rack.kernel().now());
 }
 
 void stop_stages(Rack& rack, const StopReaction& reaction) {
@@ -138,7 +138,7 @@ std::span<const StopState> stop_states() {
 Result<void> start_part(Rack& rack, std::string_view name) {
     if (const StopLatch& latch = rack.stop_latch(); latch.latched())
         return fail(Trouble::refused, fmt::format("{} Nothing was started. {}", latch.sentence(), latch.advice()));
-    if (RunningTrack* track = rack.track(name); track != nullptr) {
+    if (RunningConveyor* track = rack.track(name); track != nullptr) {
         track->drive->go_on(rack.kernel().now());
         return {};
     }

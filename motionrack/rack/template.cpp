@@ -179,12 +179,12 @@ std::string write(RackConfig config, std::string_view card_type = "mcx314") {
 std::string marking() {
     RackConfig config;
     config.name = "laser over a belt";
-    RackTrack line;
+    RackConveyor line;
     line.card = "scan";
     RackScanner head;
     head.card = "scan";
     head.track = "line";
-    const RackTrack line_defaults;
+    const RackConveyor line_defaults;
     const RackScanner head_defaults;
     const RackParts parts;
     const RackLens lens;

@@ -21,12 +21,12 @@ double seconds(std::string_view text) {
 
 }  // namespace
 
-std::optional<TimedText> read_timed_text(std::string_view text) {
+std::optional<ScheduledText> read_timed_text(std::string_view text) {
     const std::size_t at = text.rfind('@');
     if (at == std::string_view::npos) return std::nullopt;
     const double time = seconds(text.substr(at + 1));
     if (!(time >= 0 && time <= most_planned_seconds)) return std::nullopt;
-    return TimedText{from_seconds(time), std::string(text.substr(0, at)), std::string(text)};
+    return ScheduledText{from_seconds(time), std::string(text.substr(0, at)), std::string(text)};
 }
 
 }  // namespace motionrack::rack

@@ -8,7 +8,7 @@
 
 namespace motionrack::rack {
 
-struct TimedText {
+struct ScheduledText {
     Instant at{};        ///< since the rack was started
     std::string action;  ///< what stands before the '@'
     std::string text;    ///< all of it, as its user wrote it
@@ -17,6 +17,6 @@ struct TimedText {
 inline constexpr double most_planned_seconds = 1e6;
 
 /// TIME is a number with s, ms or us, 0 .. most_planned_seconds. Nothing: it has no such time.
-std::optional<TimedText> read_timed_text(std::string_view text);
+std::optional<ScheduledText> read_timed_text(std::string_view text);
 
 }  // namespace motionrack::rack

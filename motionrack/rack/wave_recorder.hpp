@@ -137,7 +137,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::int64_t> wire_signals_;       // signal of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepEar>> steps_;
     std::vector<std::unique_ptr<LineEar>> lines_;
-    std::vector<std::pair<EdgeFork*, sim::EdgeListener*>> heard_;  ///< which ear listens to which edges
+    std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< which ear listens to which edges
     std::vector<sim::WireId> followed_;
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;

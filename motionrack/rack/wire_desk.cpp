@@ -18,12 +18,12 @@ std::map<std::string, double> volts_of_wires(const RackConfig& config) {
         for (const Pin& pin : pins_of(card))
             if (pin.volts > 0) out[card.name + "." + pin.name] = pin.volts;
     for (const RackAxis& axis : config.axes)
-        for (const AxisEnd& end : axis_ends())
+        for (const AxisSignal& end : axis_ends())
             if (end.volts > 0 && end.present(axis)) out[fmt::format("{}.{}", axis.letter, end.name)] = end.volts;
     return out;
 }
 
-WireDesk::WireDesk(Rack& rack) : rack_(rack) {
+WireAccess::WireAccess(Rack& rack) : rack_(rack) {
     wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
     if (rack_.config().probe) wires_["probe"] = {Kind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
     for (const char* contact : {"estop1", "estop2", "door"})
@@ -36,7 +36,7 @@ WireDesk::WireDesk(Rack& rack) : rack_(rack) {
     add_ideal_encoders();
 }
 
-void WireDesk::add_cards() {
+void WireAccess::add_cards() {
     for (const RackCard& card : rack_.config().cards)
         for (const Pin& pin : pins_of(card)) {
             const std::string name = card.name + "." + pin.name;
@@ -52,10 +52,10 @@ void WireDesk::add_cards() {
             wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
 }
 
-void WireDesk::add_axes() {
+void WireAccess::add_axes() {
     const RackConfig& config = rack_.config();
     for (std::size_t i = 0; i < config.axes.size(); ++i)
-        for (const AxisEnd& end : axis_ends()) {
+        for (const AxisSignal& end : axis_ends()) {
             if (!end.present(config.axes[i])) continue;
             const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
             Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, 1, {}};
@@ -78,16 +78,16 @@ void WireDesk::add_axes() {
         }
 }
 
-void WireDesk::add_tracks() {
-    for (const RunningTrack& track : rack_.tracks())
-        for (const TrackEnd& end : track_ends())
+void WireAccess::add_tracks() {
+    for (const RunningConveyor& track : rack_.tracks())
+        for (const ConveyorSignal& end : track_ends())
             if (end.present(track.config))
                 wires_[fmt::format("{}.{}", track.config.name, end.name)] = {
                     Kind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
 }
 
 /// The inputs that a link comes in at are no wires of their own while nobody drives them.
-void WireDesk::add_encoders() {
+void WireAccess::add_encoders() {
     const RackConfig& config = rack_.config();
     for (const RackWire& joined : config.wires) {
         if (!joined.link || joined.to.owner != EndOwner::card) continue;
@@ -108,12 +108,12 @@ void WireDesk::add_encoders() {
     }
 }
 
-const WireDesk::Wire* WireDesk::find(std::string_view name) const {
+const WireAccess::Wire* WireAccess::find(std::string_view name) const {
     const auto found = wires_.find(name);
     return found != wires_.end() ? &found->second : nullptr;
 }
 
-tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
+tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
     std::vector<std::string_view> names;
     for (const auto& [known, wire] : wires_) names.push_back(known);
     const std::string hint = did_you_mean(name, names);
@@ -124,7 +124,7 @@ tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
                     in_quotes(name), hint.empty() ? "." : hint));
 }
 
-std::vector<WireDesk::Named> WireDesk::names() const {
+std::vector<WireAccess::Named> WireAccess::names() const {
     std::vector<Named> out;
     for (const auto& [name, wire] : wires_) {
         const bool recorded = wire.kind == Kind::plain ? wire.id != sim::WireId::none : wire.kind != Kind::counted;
@@ -133,7 +133,7 @@ std::vector<WireDesk::Named> WireDesk::names() const {
     return out;
 }
 
-void WireDesk::add_ideal_encoders() {
+void WireAccess::add_ideal_encoders() {
     for (std::size_t i = 0; i < rack_.cards().size(); ++i) {
         if (rack_.cards()[i]->motion() == nullptr) continue;
         const MotionCard& card = *rack_.cards()[i]->motion();
@@ -150,7 +150,7 @@ void WireDesk::add_ideal_encoders() {
 }
 
 /// The levels that the encoder shows at the channel (bit 0: A).
-unsigned WireDesk::lines_at(const EncoderInput& input) const {
+unsigned WireAccess::lines_at(const EncoderInput& input) const {
     if (input.link.axis == no_axis)
         return sim::lines_of(
             rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->pulses(0).count(rack_.kernel().now()));
@@ -159,7 +159,7 @@ unsigned WireDesk::lines_at(const EncoderInput& input) const {
     return sim::lines_of(input.link.swapped ? -count : count);
 }
 
-Result<double> WireDesk::get(std::string_view name) const {
+Result<double> WireAccess::get(std::string_view name) const {
     const Wire* wire = find(name);
     if (wire == nullptr) return unknown(name);
     const sim::Kernel& kernel = rack_.kernel();
@@ -175,7 +175,7 @@ Result<double> WireDesk::get(std::string_view name) const {
     return wire->id == sim::WireId::none ? 0 : kernel.level(wire->id) * wire->unit;
 }
 
-Result<void> WireDesk::check(std::string_view name, double value) const {
+Result<void> WireAccess::check(std::string_view name, double value) const {
     const Wire* wire = find(name);
     if (wire == nullptr) return unknown(name);
     if (!wire->refused.empty()) return fail(Trouble::refused, wire->refused + ". Nothing was done.");
@@ -202,7 +202,7 @@ Result<void> WireDesk::check(std::string_view name, double value) const {
     return {};
 }
 
-Result<void> WireDesk::set(std::string_view name, double value) {
+Result<void> WireAccess::set(std::string_view name, double value) {
     MOTIONRACK_CHECK(check(name, value));
     const Wire& wire = *find(name);
     const bool released = std::isnan(value);
@@ -218,7 +218,7 @@ Result<void> WireDesk::set(std::string_view name, double value) {
     return {};
 }
 
-void WireDesk::drive(const Wire& wire, int level) {
+void WireAccess::drive(const Wire& wire, int level) {
     sim::Kernel& kernel = rack_.kernel();
     if (wire.kind == Kind::counted) {
         EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
@@ -232,7 +232,7 @@ void WireDesk::drive(const Wire& wire, int level) {
     kernel.force(wire.id, level);
 }
 
-void WireDesk::release(const Wire& wire) {
+void WireAccess::release(const Wire& wire) {
     if (wire.kind != Kind::counted) return rack_.kernel().release(wire.id);
     EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
     if ((input.driven & 1u << wire.which) == 0) return;

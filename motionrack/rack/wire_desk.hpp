@@ -14,10 +14,10 @@
 
 namespace motionrack::rack {
 
-class WireDesk {
+class WireAccess {
   public:
     /// Any time; the rack must outlive it. One desk a rack.
-    explicit WireDesk(Rack& rack);
+    explicit WireAccess(Rack& rack);
 
     /// The level of CARD.PIN, NAME.END or estop: 0 or 1, of analog pins V. Errors: bad_input if there is no such wire.
     Result<double> get(std::string_view name) const;
@@ -39,7 +39,7 @@ class WireDesk {
     std::vector<Named> names() const;
 
     /// The wires are driven as those of `other`, whose rack has the same wiring and whose kernel state was copied.
-    void copy_from(const WireDesk& other) { encoders_ = other.encoders_; }
+    void copy_from(const WireAccess& other) { encoders_ = other.encoders_; }
 
   private:
     enum class Kind : std::uint8_t {

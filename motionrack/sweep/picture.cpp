@@ -120,7 +120,7 @@ class Picture {
         for (std::size_t i = 0; i < values_.size(); ++i) ok += !bad(i);
         const auto file = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
         std::string out = fmt::format("{} on {}: {}", file(sweep_.program_name()), file(sweep_.rack_name()),
-                                      rack::counted(values_.size(), "point"));
+                                      rack::count_noun(values_.size(), "point"));
         if (ok < values_.size()) out += fmt::format(", {} did not end well (crosses)", values_.size() - ok);
         return out;
     }

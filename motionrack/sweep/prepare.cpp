@@ -121,7 +121,7 @@ class Preparation {
             if (parameters()[p].kind != ParameterKind::fault) continue;
             rack::Rack rack(config);
             for (const std::string& fault : words_of(values[p].text))
-                if (const auto plan = rack::FaultPlan::create(rack, {fault}); !plan)
+                if (const auto plan = rack::FaultSchedule::create(rack, {fault}); !plan)
                     tell(values[p].value_place, plan.error().message);
         }
     }

@@ -87,7 +87,7 @@ py::dict dict_of(const rack::AxisOutcome& axis) {
 py::list blocks_of(const rack::Monitor& monitor) {
     static constexpr const char* kinds[] = {"traverse", "feed", "arc", "dwell"};
     py::list out;
-    for (const rack::DrivenBlock& block : monitor.blocks()) {
+    for (const rack::ExecutedMove& block : monitor.blocks()) {
         py::dict one;
         one["block"] = block.block;
         one["line"] = block.line;

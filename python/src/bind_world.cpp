@@ -63,7 +63,7 @@ py::dict quantities_of(World& world) {
 
 py::dict wires_of(World& world) {
     py::dict out;
-    for (const rack::WireDesk::Named& wire : world.desk().names())
+    for (const rack::WireAccess::Named& wire : world.desk().names())
         out[py::str(std::string(wire.name))] = py::bool_(wire.drivable);
     return out;
 }

@@ -7,9 +7,9 @@ namespace motionrack::python {
 
 namespace {
 
-Result<Channel> channel_of(rack::Rack& rack, const rack::WireDesk& desk, const std::string& name) {
+Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& desk, const std::string& name) {
     Channel out{name};
-    for (const rack::WireDesk::Named& wire : desk.names()) {
+    for (const rack::WireAccess::Named& wire : desk.names()) {
         if (wire.name != name) continue;
         out.whole = !wire.volts;
         out.look = [&desk, name] { return *desk.get(name); };
@@ -43,7 +43,7 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireDesk& desk, const s
 
 }  // namespace
 
-Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names,
+Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
                                 std::size_t most) {
     Sampler out;
     out.most_ = most;

@@ -26,7 +26,7 @@ struct Channel {
 class Sampler {
   public:
     /// Errors: bad_input, with what there is, for a name that is neither a wire, nor of a card, nor of a part.
-    static Result<Sampler> create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names,
+    static Result<Sampler> create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
                                   std::size_t most);
 
     /// Between runs. Where there are more than `most`, every second one is dropped, and from then on only every second

@@ -21,7 +21,7 @@ World::World(const rack::RackConfig& config) : config_(config) {
 void World::build() {
     desk_.reset();
     rack_ = std::make_unique<rack::Rack>(config_);
-    desk_ = std::make_unique<rack::WireDesk>(*rack_);
+    desk_ = std::make_unique<rack::WireAccess>(*rack_);
 }
 
 World::~World() {
@@ -65,7 +65,7 @@ rack::JobSettings World::job_settings() {
 }
 
 void World::start() {
-    plan_ = value_of(rack::FaultPlan::create(*rack_, fault_texts_));
+    plan_ = value_of(rack::FaultSchedule::create(*rack_, fault_texts_));
     if (!rack_->axes().empty()) job_ = std::make_unique<rack::Job>(*rack_, job_settings());
     bell_ = std::make_unique<Bell>(rack_->kernel());
     tap_ = std::make_unique<rack::WireTap>(rack_->kernel());

@@ -1,8 +1,8 @@
 // A rack as Python has it: not started until something needs its time, then run in slices between which Python is
 // heard.
 //
-//   Python ──► World ──┬─► Rack, Job (a part program), FaultPlan
-//                      ├─► WireDesk, WireTap, WaveRecorder
+//   Python ──► World ──┬─► Rack, Job (a part program), FaultSchedule
+//                      ├─► WireAccess, WireTap, WaveRecorder
 //                      └─► Bell ──break_run──► between(): faults that are due, samples, recordings, Ctrl-C
 #pragma once
 
@@ -42,15 +42,15 @@ class World final : public Host {
     rack::Rack& rack();
     /// The same, started.
     rack::Rack& running();
-    const rack::WireDesk& desk() { return running(), *desk_; }
+    const rack::WireAccess& desk() { return running(), *desk_; }
     bool started() const { return rack_ && rack_->started(); }
     bool closed() const { return rack_ == nullptr; }
     Instant now() override { return rack().kernel().now(); }
     void close();
 
     // ---- before it is started
-    /// "X.limit_plus=0@0.5s": see FaultPlan. Errors: refused in a started rack, and those of the plan; none is planned
-    /// then.
+    /// "X.limit_plus=0@0.5s": see FaultSchedule. Errors: refused in a started rack, and those of the plan; none is
+    /// planned then.
     Result<void> plan_faults(const std::vector<std::string>& texts);
     std::vector<std::string> not_done() const { return plan_ ? plan_->not_done() : std::vector<std::string>(); }
     /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
@@ -127,8 +127,8 @@ class World final : public Host {
     std::function<void(const rack::JobProgress&)> progress_;
 
     std::unique_ptr<rack::Rack> rack_;
-    std::unique_ptr<rack::WireDesk> desk_;
-    std::unique_ptr<rack::FaultPlan> plan_;
+    std::unique_ptr<rack::WireAccess> desk_;
+    std::unique_ptr<rack::FaultSchedule> plan_;
     std::unique_ptr<rack::Job> job_;
     std::unique_ptr<Bell> bell_;
     std::unique_ptr<rack::WireTap> tap_;

@@ -16,7 +16,7 @@ Result<void> World::plan_faults(const std::vector<std::string>& texts) {
             "Faults are planned before the rack's time begins, and it has begun; nothing was planned. Advance to the "
             "instant and break it then (Rack.fault, Rack.wires), or plan it for Rack.fresh().");
     rack::Rack other(config_);
-    MOTIONRACK_CHECK(rack::FaultPlan::create(other, texts));
+    MOTIONRACK_CHECK(rack::FaultSchedule::create(other, texts));
     fault_texts_.insert(fault_texts_.end(), texts.begin(), texts.end());
     return {};
 }

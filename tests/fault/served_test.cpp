@@ -39,7 +39,7 @@ struct Breaking {
         }
     }
     void apply(Machine& machine, Instant since) {
-        std::erase_if(todo, [&](const rack::TimedText& one) {
+        std::erase_if(todo, [&](const rack::ScheduledText& one) {
             if (one.at > machine.now() - since) return false;
             const std::string action(one.action), name = action.substr(0, action.find('='));
             const std::size_t dot = name.find('.');
@@ -51,7 +51,7 @@ struct Breaking {
             return true;
         });
     }
-    std::vector<rack::TimedText> todo;
+    std::vector<rack::ScheduledText> todo;
 };
 
 /// A machine of the case's rack that drives its program, or homes, from 0.2 s on until it has stood for half a second.

@@ -33,7 +33,7 @@ void check_config(const RackConfig& config) {
         MOTIONRACK_ASSERT(axis.min_position < axis.max_position);
         MOTIONRACK_ASSERT(axis.start_position >= axis.min_position && axis.start_position <= axis.max_position);
     }
-    for (const RackTrack& track : config.tracks) MOTIONRACK_ASSERT(parts::Conveyor::make(track.settings()));
+    for (const RackConveyor& track : config.tracks) MOTIONRACK_ASSERT(parts::Conveyor::make(track.settings()));
     for (const RackScanner& scanner : config.scanners) {
         MOTIONRACK_ASSERT(config.card(scanner.card) != nullptr &&
                           (!scanner.track || config.track(*scanner.track) != nullptr));

@@ -246,7 +246,7 @@ void mend_all(Machine& machine) {
     for (const auto& target : rack::fault_targets(machine.rack()))
         for (const std::string_view fault : target.faults)
             (void)rack::inject_fault(machine.rack(), fmt::format("{}=0", fault), target.name);
-    for (const rack::WireDesk::Named& wire : machine.wires().names())
+    for (const rack::WireAccess::Named& wire : machine.wires().names())
         if (wire.drivable) (void)machine.wires().set(wire.name, released);
 }
 

@@ -51,11 +51,11 @@ int check_rack(const std::string& path, nlohmann::json* json) {
         for (const Error& error : reading.errors) print_error(error.text());
         if (reading.config)
             fmt::print("{}: good. {}: {}, {}, {}.\n", path, reading.config->name,
-                       counted(reading.config->cards.size(), "card"),
-                       counted(reading.config->axes.size(), "axis", "axes"),
-                       counted(reading.config->wires.size(), "wire"));
+                       count_noun(reading.config->cards.size(), "card"),
+                       count_noun(reading.config->axes.size(), "axis", "axes"),
+                       count_noun(reading.config->wires.size(), "wire"));
         else
-            fmt::print("{}: {}.\n", path, counted(reading.errors.size(), "error"));
+            fmt::print("{}: {}.\n", path, count_noun(reading.errors.size(), "error"));
     }
     return reading.errors.empty() ? exit_done : exit_code(reading.errors.front().trouble);
 }
@@ -83,8 +83,8 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
         return check.problems.empty() ? exit_done : exit_bad_input;
     }
     if (const int bad = print_problems(check, path); bad != exit_done) return bad;
-    fmt::print("{}: good. {}, {}, {}", path, counted(check.lines, "line"), counted(check.moves, "move"),
-               counted(check.dwells, "dwell"));
+    fmt::print("{}: good. {}, {}, {}", path, count_noun(check.lines, "line"), count_noun(check.moves, "move"),
+               count_noun(check.dwells, "dwell"));
     for (const rack::RackAxis& axis : config->axes) {
         const auto i = static_cast<std::size_t>(axis.index());
         fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.least[i], check.greatest[i],

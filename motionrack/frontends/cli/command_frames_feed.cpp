@@ -36,14 +36,14 @@ void run_to(sim::Kernel& kernel, Instant at) {
     }
 }
 
-void show(const FeedOptions& options, const rack::FrameWatch& watch, Instant now) {
+void show(const FeedOptions& options, const rack::FrameMonitor& watch, Instant now) {
     if (options.quiet) return;
     fmt::print("{}", options.json ? frames_json(watch, now) + "\n" : frames_table(watch, now));
     std::fflush(stdout);
 }
 
 /// The rack's time is the time since the start. Gives the number of frames that were handed over.
-std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack::FrameWatch& watch,
+std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack::FrameMonitor& watch,
                        dds::RemoteFeed& feed) {
     const std::vector<grating_bus::Card*> cards = remote_cards(rack);
     sim::Kernel& kernel = rack.kernel();
@@ -93,7 +93,7 @@ int feed_rack(const FeedOptions& options) {
     auto subscriber = dds::Subscriber::open(settings);
     if (!subscriber) return report(subscriber.error());
     dds::RemoteFeed feed(std::move(*subscriber));
-    const rack::FrameWatch watch(rack);
+    const rack::FrameMonitor watch(rack);
     rack.start();
     stop_on_signals();
     const std::uint64_t given = run_feed(options, rack, watch, feed);

@@ -33,15 +33,16 @@ struct PublishOptions {
 /// The frames of a rack's card.
 class RackFrames final : public dds::FrameSource {
   public:
-    RackFrames(rack::FrameTap& tap, rack::FaultPlan& faults, Instant end) : tap_(tap), faults_(faults), end_(end) {}
+    RackFrames(rack::FrameStepper& tap, rack::FaultSchedule& faults, Instant end)
+        : tap_(tap), faults_(faults), end_(end) {}
     Result<bool> next(dds::Frame& frame) override {
         tap_.next(frame, [this] { faults_.apply_due(); });
         return frame.instant() < end_;
     }
 
   private:
-    rack::FrameTap& tap_;
-    rack::FaultPlan& faults_;
+    rack::FrameStepper& tap_;
+    rack::FaultSchedule& faults_;
     Instant end_;
 };
 
@@ -75,8 +76,8 @@ void report_published(const dds::Publisher& publisher, const dds::Published& don
 struct Run {
     const PublishOptions& options;
     rack::Rack& rack;
-    rack::FrameTap& tap;
-    rack::FaultPlan& faults;
+    rack::FrameStepper& tap;
+    rack::FaultSchedule& faults;
     dds::Publisher& publisher;
     dds::PublishingSettings settings;
 };
@@ -170,9 +171,9 @@ int publish(const PublishOptions& options) {
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
     rack::Rack rack(*config);
-    const auto tap = rack::FrameTap::create(rack, options.card);
+    const auto tap = rack::FrameStepper::create(rack, options.card);
     if (!tap) return report(tap.error());
-    const auto faults = rack::FaultPlan::create(rack, options.faults);
+    const auto faults = rack::FaultSchedule::create(rack, options.faults);
     if (!faults) return report(faults.error());
     dds::PublishingSettings settings;
     settings.speed = options.speed;

@@ -30,7 +30,7 @@ struct ShowOptions {
 /// The table on the screen, rewritten in place on a terminal.
 class Screen {
   public:
-    Screen(const rack::FrameWatch& watch, const ShowOptions& options)
+    Screen(const rack::FrameMonitor& watch, const ShowOptions& options)
         : watch_(watch),
           options_(options),
           live_(is_terminal(1) && !options.json && !options.quiet),
@@ -54,7 +54,7 @@ class Screen {
     }
 
   private:
-    const rack::FrameWatch& watch_;
+    const rack::FrameMonitor& watch_;
     const ShowOptions& options_;
     bool live_;
     Instant begun_, next_{};
@@ -64,7 +64,7 @@ class Screen {
 /// A running rack with all that looks at it.
 struct Show {
     rack::Rack& rack;
-    rack::FaultPlan& faults;
+    rack::FaultSchedule& faults;
     rack::WaveRecorder* recorder;
     Screen& screen;
 
@@ -118,7 +118,7 @@ int run_program(Show& show, const ReadProgram& program) {
     return outcome.ended ? static_cast<int>(exit_done) : report(outcome.ended.error());
 }
 
-int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options) {
+int finish(Show& show, const rack::FrameMonitor& watch, const ShowOptions& options) {
     int code = exit_done;
     const auto wrote = [&](const Result<void>& done, const std::string& path) {
         if (!done)
@@ -173,7 +173,7 @@ int show_frames(const ShowOptions& options) {
     if (!options.program.empty())
         if (code = read_program(options.program, *config, program, inputs); code != exit_done) return code;
     if (!may_write(inputs, {options.vcd, options.picture})) return exit_refused;
-    rack::FrameWatch watch(rack);
+    rack::FrameMonitor watch(rack);
     std::unique_ptr<rack::WireTap> tap;
     std::unique_ptr<rack::WaveRecorder> recorder;
     if (!options.vcd.empty()) {
@@ -186,7 +186,7 @@ int show_frames(const ShowOptions& options) {
         if (!made) return report(made.error());
         recorder = std::move(*made);
     }
-    const auto faults = rack::FaultPlan::create(rack, options.faults);
+    const auto faults = rack::FaultSchedule::create(rack, options.faults);
     if (!faults) return report(faults.error());
     stop_on_signals();
     Screen screen(watch, options);

@@ -59,9 +59,9 @@ int home(const HomeOptions& options) {
     if (!config) return code;
     if (!may_write({options.rack}, pictures_of(options, *config))) return exit_refused;
     rack::Rack rack(*config);
-    std::unique_ptr<rack::FaultPlan> faults;
+    std::unique_ptr<rack::FaultSchedule> faults;
     if (!options.faults.empty()) {
-        auto plan = rack::FaultPlan::create(rack, options.faults);
+        auto plan = rack::FaultSchedule::create(rack, options.faults);
         if (!plan) return report(plan.error());
         faults = std::move(*plan);
         rack.on_slice(milliseconds(50), [&faults] { faults->apply_due(); });

@@ -105,7 +105,7 @@ double part_of(double value, double limit) {
 }
 
 void print_plans(const Plans& plans, const rack::RackConfig& config) {
-    fmt::print("{} on {}: {}.\n", plans.name, config.name, rack::counted(plans.moves, "move"));
+    fmt::print("{} on {}: {}.\n", plans.name, config.name, rack::count_noun(plans.moves, "move"));
     fmt::print("{:>51}    stops\n", "time");
     const auto row = [](const char* name, const Planned& planned) {
         fmt::print("  {:<37} {:>9.3f} s  {:>6}\n", name, planned.seconds, planned.stops);

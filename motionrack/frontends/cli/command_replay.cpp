@@ -41,7 +41,7 @@ int run_again(const trace::RecordingReader& recording, const std::string& path, 
     Result<rack::JobRequest> request = rack::request_of(recording);
     if (!request) return report(request.error());
     request->version = MOTIONRACK_VERSION;
-    rack::JobWatchers watchers;
+    rack::JobObservers watchers;
     watchers.recording = path;
     const auto job = rack::RecordedJob::create(*request, watchers);
     if (!job) return report(job.error());

@@ -116,7 +116,7 @@ int run(const RunOptions& options) {
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
     if (!may_write(inputs, outputs)) return exit_refused;
 
-    rack::JobWatchers watchers;
+    rack::JobObservers watchers;
     watchers.recording = options.record;
     if (!options.vcd.empty()) {
         rack::WaveSettings& waves = watchers.waves.emplace();

@@ -179,9 +179,9 @@ class Serving {
     void greet(const rack::RackConfig& config) {
         const std::string code = served_->door().start_code();
         const auto live = served_->machine().service().live_places();
-        say(fmt::format("{} runs ({}, {}; simulated{}).", config.name,
-                        rack::counted(config.axes.size(), "axis", "axes"), rack::counted(config.cards.size(), "card"),
-                        live.empty() ? "" : ", but for the real cards below"));
+        say(fmt::format(
+            "{} runs ({}, {}; simulated{}).", config.name, rack::count_noun(config.axes.size(), "axis", "axes"),
+            rack::count_noun(config.cards.size(), "card"), live.empty() ? "" : ", but for the real cards below"));
         for (const operate::LivePlace& one : live)
             say(fmt::format("  real     {} at {}: its axes move in service; have an emergency stop of its wires",
                             one.card, one.place));

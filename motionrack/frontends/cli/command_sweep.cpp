@@ -101,7 +101,7 @@ int write_tables(const sweep::Sweep& sweep, sweep::Results& results, const Sweep
         if (const Result<void> drawn = write_text(options.picture, sweep::picture_of(sweep, results)); !drawn)
             return report(drawn.error());
     if (!options.quiet)
-        fmt::print("{}: {}\nwritten: {}{}{}\n", rack::counted(sweep.points(), "point"), endings(sweep, results),
+        fmt::print("{}: {}\nwritten: {}{}{}\n", rack::count_noun(sweep.points(), "point"), endings(sweep, results),
                    options.results, options.picture.empty() ? "" : ", ", options.picture);
     return exit_done;
 }
@@ -140,14 +140,14 @@ int sweep_all(const SweepOptions& options) {
     if (!results) return report(results.error());
     const std::int64_t before = (*results)->done();
     if (before > 0 && !options.quiet)
-        fmt::print("{} of {} were done before\n", before, rack::counted(all.points(), "point"));
+        fmt::print("{} of {} were done before\n", before, rack::count_noun(all.points(), "point"));
     stop_on_signals();
     const Result<void> done = run_missing(all, **results, options);
     if (done) return write_tables(all, **results, options);
     if (done.error().trouble != Trouble::stopped) return report(done.error());
     return report({Trouble::stopped,
                    fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.",
-                               (*results)->done(), rack::counted(all.points(), "point"), (*results)->part())});
+                               (*results)->done(), rack::count_noun(all.points(), "point"), (*results)->part())});
 }
 
 }  // namespace

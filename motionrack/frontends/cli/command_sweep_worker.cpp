@@ -22,7 +22,7 @@ int work(nats::WorkerSettings settings) {
     stop_on_signals();
     std::int64_t count = 0;
     const Result<void> ended = nats::work(settings, stop_asked, [&count](std::int64_t done) { count = done; });
-    fmt::print("{} done\n", rack::counted(count, "point"));
+    fmt::print("{} done\n", rack::count_noun(count, "point"));
     if (ended) return exit_done;
     if (ended.error().trouble != Trouble::stopped) return report(ended.error());
     return report({Trouble::stopped, "Stopped; what was begun goes to another worker."});

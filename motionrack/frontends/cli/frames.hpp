@@ -30,13 +30,13 @@ std::string status_line(const dds::Subscriber& subscriber, Instant now);
 // ---- a rack's own frames
 
 /// What every card of the rack's bus holds, as a table of several lines, each ended.
-std::string frames_table(const rack::FrameWatch& watch, Instant now);
+std::string frames_table(const rack::FrameMonitor& watch, Instant now);
 /// The same as one line of JSON.
-std::string frames_json(const rack::FrameWatch& watch, Instant now);
+std::string frames_json(const rack::FrameMonitor& watch, Instant now);
 /// The oldest `most` conflicts that are remembered, each with time, line and drivers; empty if there were none.
 std::string conflicts_text(const grating_bus::Bus& bus, std::size_t most);
 /// No conflicts, no bad frames, nothing stale, and all frames true and the same.
-bool frames_agree(const rack::FrameWatch& watch);
+bool frames_agree(const rack::FrameMonitor& watch);
 
 void add_frames_show(CLI::App& frames, Action& chosen);
 void add_frames_publish(CLI::App& frames, Action& chosen);

@@ -41,7 +41,7 @@ std::string column_text(const std::vector<rack::FrameRow>& rows, std::size_t k) 
 
 }  // namespace
 
-std::string frames_table(const rack::FrameWatch& watch, Instant now) {
+std::string frames_table(const rack::FrameMonitor& watch, Instant now) {
     const auto rows = watch.rows();
     std::size_t scales = 0, width = 4;
     for (const rack::FrameRow& row : rows) {
@@ -83,7 +83,7 @@ std::string conflicts_text(const gb::Bus& bus, std::size_t most) {
     return out + '\n';
 }
 
-std::string frames_json(const rack::FrameWatch& watch, Instant now) {
+std::string frames_json(const rack::FrameMonitor& watch, Instant now) {
     nlohmann::ordered_json cards = nlohmann::ordered_json::array();
     for (const rack::FrameRow& row : watch.rows()) {
         nlohmann::ordered_json card = {{"card", row.card},     {"role", row.role},  {"state", state_of(row)},
@@ -108,7 +108,7 @@ std::string frames_json(const rack::FrameWatch& watch, Instant now) {
         .dump();
 }
 
-bool frames_agree(const rack::FrameWatch& watch) {
+bool frames_agree(const rack::FrameMonitor& watch) {
     if (watch.bus().lines().all_conflicts() != 0) return false;
     for (const rack::FrameRow& row : watch.rows())
         if (row.stale || row.untrue != 0 || row.unlike != 0 || row.broken != 0) return false;

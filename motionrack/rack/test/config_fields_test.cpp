@@ -237,8 +237,8 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
                 EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", type.chip_pins[i].name)));
             }
     }
-    for (const AxisEnd& end : axis_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`X.{}`", end.name)));
-    for (const TrackEnd& end : track_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`NAME.{}`", end.name)));
+    for (const AxisSignal& end : axis_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`X.{}`", end.name)));
+    for (const ConveyorSignal& end : track_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`NAME.{}`", end.name)));
 }
 
 TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {

@@ -19,9 +19,9 @@ scales = 6
 period_us = 250
 )";
 
-TEST(FrameTap, GivesEveryFrameOfTheHost) {
+TEST(FrameStepper, GivesEveryFrameOfTheHost) {
     Rack rack(*read_rack_text(two_cards).config);
-    const auto tap = FrameTap::create(rack, "");
+    const auto tap = FrameStepper::create(rack, "");
     ASSERT_TRUE(tap) << tap.error().text();
     EXPECT_TRUE((*tap)->card().is_host());
     EXPECT_EQ((*tap)->period(), microseconds(250));
@@ -36,9 +36,9 @@ TEST(FrameTap, GivesEveryFrameOfTheHost) {
     }
 }
 
-TEST(FrameTap, GivesTheFramesOfACardThatListens) {
+TEST(FrameStepper, GivesTheFramesOfACardThatListens) {
     Rack rack(*read_rack_text(two_cards).config);
-    const auto tap = FrameTap::create(rack, "scan");
+    const auto tap = FrameStepper::create(rack, "scan");
     ASSERT_TRUE(tap) << tap.error().text();
     EXPECT_FALSE((*tap)->card().is_host());
     rack.start();
@@ -49,9 +49,9 @@ TEST(FrameTap, GivesTheFramesOfACardThatListens) {
     }
 }
 
-TEST(FrameTap, GoesOnWhileTheHostIsOff) {
+TEST(FrameStepper, GoesOnWhileTheHostIsOff) {
     Rack rack(*read_rack_text(two_cards).config);
-    const auto tap = FrameTap::create(rack, "");
+    const auto tap = FrameStepper::create(rack, "");
     ASSERT_TRUE(tap);
     rack.start();
     grating_bus::Frame frame;
@@ -70,14 +70,14 @@ TEST(FrameTap, GoesOnWhileTheHostIsOff) {
     EXPECT_TRUE(sound(frame));
 }
 
-TEST(FrameTap, NamesTheCardsThatThereAre) {
+TEST(FrameStepper, NamesTheCardsThatThereAre) {
     Rack rack(*read_rack_text(two_cards).config);
-    const auto wrong = FrameTap::create(rack, "nobody");
+    const auto wrong = FrameStepper::create(rack, "nobody");
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().message,
               "The rack's grating bus has no card 'nobody'; its cards are: host, scan. Nothing was done.");
     Rack router(*read_rack_text(*rack_template("router")).config);
-    const auto none = FrameTap::create(router, "");
+    const auto none = FrameStepper::create(router, "");
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().message,
               "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");

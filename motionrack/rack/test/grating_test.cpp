@@ -124,7 +124,7 @@ TEST(GratingBusInARack, ASlaveHoldsTheScalesThatItsHostAddresses) {
         "[card.c2]\ntype = \"grating_bus\"\nscales = 3\n[card.d]\ntype = \"grating_decoder\"\nscales = 10\n");
     ASSERT_TRUE(reading.config) << reading.errors[0].text();
     Rack rack(*reading.config);
-    FrameWatch watch(rack);
+    FrameMonitor watch(rack);
     rack.start();
     while (rack.kernel().run_until(milliseconds(1)) == sim::RunEnd::broken) {
     }
@@ -191,7 +191,7 @@ TEST(GratingBusInARack, AxesThatAPartProgramDrivesAreReadByAllCards) {
     const RackReading reading = read_rack_text(router_with_bus);
     ASSERT_TRUE(reading.config) << reading.errors[0].text();
     Rack rack(*reading.config);
-    FrameWatch watch(rack);
+    FrameMonitor watch(rack);
     JobSettings settings;
     settings.program = "G21 G90\nG1 X12 Y5 F3000\nG1 X3\nM2\n";
     Job job(rack, settings);

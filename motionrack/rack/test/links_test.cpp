@@ -191,7 +191,7 @@ TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
     };
     const RackConfig config = good(rack_with(""));
     Rack rack(config);
-    MirroredMotion mirrored(rack.axes()[0].machine->encoder());
+    InvertedPosition mirrored(rack.axes()[0].machine->encoder());
     Ear ear;
     const int slot = mirrored.listen(ear);
     JobSettings settings;

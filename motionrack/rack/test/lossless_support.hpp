@@ -42,7 +42,7 @@ class FlagAt final : public sim::Device {
 inline Driven drive_with(const RackConfig& config, const std::string& program, const Wishes& wishes,
                          const std::function<void(Rack&)>& slice = {}, double accel_parts = 1) {
     Rack rack(config);
-    std::vector<TimedText> texts;
+    std::vector<ScheduledText> texts;
     Instant ctrl_c = never, flag_at = never;
     for (const auto& [seconds, action] : wishes) {
         const Instant at = Instant{} + from_seconds(seconds);
@@ -53,7 +53,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
         else
             texts.push_back({at, action, action});
     }
-    auto plan = OrderPlan::create(rack, texts);
+    auto plan = CommandSchedule::create(rack, texts);
     EXPECT_TRUE(plan);
     FlagAt flag(rack.kernel(), flag_at);
     JobSettings settings;

@@ -134,8 +134,8 @@ TEST(Probing, LoopsSubsAndConditionsGoByWhatTheProbeDid) {
 
 TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
     Rack rack(good(rack_text("z_to_mm = 12.34\n")));
-    auto orders =
-        OrderPlan::create(rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
+    auto orders = CommandSchedule::create(
+        rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
     ASSERT_TRUE(orders) << orders.error().message;
     JobSettings settings;
     settings.program = measures;

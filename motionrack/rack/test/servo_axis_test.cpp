@@ -32,7 +32,7 @@ struct Machine {
     void here_is(double mm) { ASSERT_TRUE(axis->set_position(mm)); }
 
     Rack rack;
-    WireDesk desk;
+    WireAccess desk;
     control::Axis* axis = nullptr;
 };
 
