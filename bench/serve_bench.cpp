@@ -115,7 +115,7 @@ std::unique_ptr<server::ServedRack> serve() {
     std::exit(1);
 }
 
-void tell(const operate::Pacer& pacer) {
+void tell(const operate::ClockPacer& pacer) {
     const operate::Lateness& late = pacer.lateness();
     const auto ms = [](Duration duration) { return to_seconds(duration) * 1000; };
     fmt::print(

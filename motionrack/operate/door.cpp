@@ -21,9 +21,9 @@ std::optional<std::string> Door::take_opening(MachineState state) {
     const bool in_work = state == MachineState::moving || state == MachineState::hold;
     return fmt::format("The door was opened at {:.3f} s: {}, the spindle is off. Close it, then {}.",
                        to_seconds(contacts_.door_opened()),
-                       in_work         ? "the feed is held"
-                       : stands(state) ? "nothing was moving"
-                                       : "the motion was stopped",
+                       in_work                ? "the feed is held"
+                       : is_stationary(state) ? "nothing was moving"
+                                              : "the motion was stopped",
                        in_work ? "resume" : "go on");
 }
 

@@ -46,7 +46,7 @@ std::string sentence(std::string text) {
 
 }  // namespace
 
-void Logbook::see(const Status& status) {
+void JournalWriter::see(const Status& status) {
     if (std::exchange(first_, false)) {
         state_ = status.state;
         feed_ = status.feed_override;
@@ -59,10 +59,10 @@ void Logbook::see(const Status& status) {
     see_settings(status);
     see_positions(status);
     see_state(status);
-    if ((!stands(status.state) || has_shifted(status)) && status.at - kept_ >= keep_every) keep(status);
+    if ((!is_stationary(status.state) || has_shifted(status)) && status.at - kept_ >= keep_every) keep(status);
 }
 
-void Logbook::stopped(const StopReport& report) {
+void JournalWriter::stopped(const StopReport& report) {
     const std::optional<StopReport> before = std::exchange(stopped_, report);
     if (report.releases) return;  // an order like any other
     const bool again = before && !before->releases && before->source == report.source;
@@ -76,7 +76,7 @@ void Logbook::stopped(const StopReport& report) {
               .dump());
 }
 
-bool Logbook::may_repeat(Instant at) {
+bool JournalWriter::may_repeat(Instant at) {
     if (repeats_ > 0 && at - repeated_ >= repeat_every) {
         repeats_ -= std::min<std::int64_t>(repeats_, (at - repeated_) / repeat_every);
         repeated_ = at;
@@ -85,24 +85,24 @@ bool Logbook::may_repeat(Instant at) {
     return repeats_ < max_repeats && ++repeats_ > 0;
 }
 
-void Logbook::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {
+void JournalWriter::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {
     if (journal_ != nullptr) journal_->write(at, kind, text, data);
     if (told_) told_(at, kind, text, data);
 }
 
-void Logbook::see_state(const Status& status) {
+void JournalWriter::see_state(const Status& status) {
     const MachineState before = std::exchange(state_, status.state);
     if (before == state_) return;
     write(status.at, "state",
           sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
           json{{"state", name_of(state_)}, {"before", name_of(before)}}.dump());
-    if (stands(state_) && !stands(before))
+    if (is_stationary(state_) && !is_stationary(before))
         write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)),
               json{{"axes", axes_json(status.axes)}}.dump());
     keep(status);
 }
 
-void Logbook::see_job(const Status& status) {
+void JournalWriter::see_job(const Status& status) {
     const bool ran = std::exchange(program_runs_, status.program_runs);
     if (ran == program_runs_) return;
     const char* event = "began";
@@ -123,7 +123,7 @@ void Logbook::see_job(const Status& status) {
     keep(status);
 }
 
-void Logbook::see_alarms(const Status& status) {
+void JournalWriter::see_alarms(const Status& status) {
     const auto tell = [&](const Alarm& alarm, const char* event, const std::string& text) {
         write(status.at, "alarm", text, json{{"number", alarm.number}, {"event", event}}.dump());
     };
@@ -141,7 +141,7 @@ void Logbook::see_alarms(const Status& status) {
     }
 }
 
-void Logbook::see_settings(const Status& status) {
+void JournalWriter::see_settings(const Status& status) {
     const auto percent = [&](const char* what, double& before, double value) {
         if (std::exchange(before, value) == value) return;
         write(status.at, "setting", fmt::format("{} override {:g} %.", what, value * 100),
@@ -154,7 +154,7 @@ void Logbook::see_settings(const Status& status) {
               json{{"name", "single step"}, {"value", single_step_}}.dump());
 }
 
-void Logbook::see_positions(const Status& status) {
+void JournalWriter::see_positions(const Status& status) {
     for (std::size_t i = 0; i < status.axes.size() && i < trusted_.size(); ++i) {
         const AxisStatus& axis = status.axes[i];
         if (axis.trusted == trusted_[i]) continue;
@@ -168,13 +168,13 @@ void Logbook::see_positions(const Status& status) {
 }
 
 /// A servo may be pushed, or come to rest late, while the machine stands.
-bool Logbook::has_shifted(const Status& status) const {
+bool JournalWriter::has_shifted(const Status& status) const {
     for (std::size_t i = 0; i < kept_axes_.size() && i < status.axes.size(); ++i)
         if (std::fabs(status.axes[i].commanded - kept_axes_[i]) > min_shift) return true;
     return false;
 }
 
-void Logbook::keep(const Status& status) {
+void JournalWriter::keep(const Status& status) {
     kept_ = status.at;
     kept_axes_.clear();
     for (const AxisStatus& axis : status.axes) kept_axes_.push_back(axis.commanded);
@@ -207,8 +207,8 @@ std::string at_the_end(const json& kept, const std::string& where) {
                        where.empty() ? "" : fmt::format(", near {}", where));
 }
 
-std::vector<Standing> standings_of(const json& kept, const rack::RackConfig& config, bool trusted) {
-    std::vector<Standing> out;
+std::vector<InitialAxisState> standings_of(const json& kept, const rack::RackConfig& config, bool trusted) {
+    std::vector<InitialAxisState> out;
     if (!kept.contains("axes") || !kept["axes"].is_array()) return out;
     for (const json& one : kept["axes"]) {
         if (!one.is_object() || one.value("letter", json()).type() != json::value_t::string) continue;
@@ -223,20 +223,20 @@ std::vector<Standing> standings_of(const json& kept, const rack::RackConfig& con
 
 }  // namespace
 
-LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config) {
-    LastStanding out;
+LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfig& config) {
+    LastKnownPositions out;
     const json kept = kept_of(last);
     std::vector<std::string> doubts = last.doubts;
     if (last.clean && doubts.empty() && kept.empty()) doubts.push_back("it does not say where the machine stood");
     const bool trusted = last.clean && doubts.empty();
     out.axes = standings_of(kept, config, trusted);
     std::string where;
-    for (const Standing& one : out.axes)
+    for (const InitialAxisState& one : out.axes)
         where += fmt::format("{}{} {:.3f}", where.empty() ? "" : ", ", one.letter, one.commanded);
     // An axis without a record may have moved, too.
     for (const rack::RackAxis& axis : config.axes)
         if (!trusted && std::none_of(out.axes.begin(), out.axes.end(),
-                                     [&](const Standing& one) { return one.letter == axis.letter; }))
+                                     [&](const InitialAxisState& one) { return one.letter == axis.letter; }))
             out.axes.push_back({axis.letter, axis.start_position, axis.start_position, false});
     const auto say = [&](const std::string& sentence) {
         out.sentence += fmt::format("{}{}", out.sentence.empty() ? "" : " ", sentence);

@@ -17,14 +17,14 @@
 namespace motionrack::operate {
 
 /// Only the motion thread uses it; the journal must outlive it.
-class Logbook {
+class JournalWriter {
   public:
     /// Hears every entry, too. `data`: JSON.
     using Told =
         std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
-    explicit Logbook(journal::Journal& journal) : Logbook(&journal, {}) {}
+    explicit JournalWriter(journal::Journal& journal) : JournalWriter(&journal, {}) {}
     /// `journal` may be nullptr, `told` empty.
-    Logbook(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
+    JournalWriter(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
     /// Of every picture; writes what is another than in the one before.
     void see(const Status& status);
     /// Of every stop that somebody ordered: who, from where, how. What the same one orders again within a second is
@@ -59,13 +59,13 @@ class Logbook {
     Instant repeated_{};
 };
 
-struct LastStanding {
-    std::vector<Standing> axes;  ///< those that this rack has and that stood where they may
+struct LastKnownPositions {
+    std::vector<InitialAxisState> axes;  ///< those that this rack has and that stood where they may
     /// How it ended, if it was cut off, and what is wrong with the journal; empty: it ended by itself, and all is well.
     std::string sentence;
 };
 /// Nothing is trusted after a run that was cut off, and nothing that does not fit its checksum. Axes without a record
 /// are left out where the rest is trusted.
-LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config);
+LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfig& config);
 
 }  // namespace motionrack::operate

@@ -55,8 +55,8 @@ Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
     return fail(Trouble::refused, fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
 }
 
-rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& standing) {
-    for (const Standing& one : standing)
+rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
+    for (const InitialAxisState& one : standing)
         for (rack::RackAxis& axis : config.axes)
             if (axis.letter == one.letter) axis.start_position = one.place;
     return config;
@@ -101,7 +101,7 @@ void Machine::quit() {
 
 // ---- what may be asked
 
-/// Standing and enabled.
+/// InitialAxisState and enabled.
 Result<void> Machine::ready(const char* what) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {

@@ -47,9 +47,9 @@ struct MachineSettings {
     Duration jog_lease = milliseconds(250);             ///< of that clock: a jog that was not renewed for so long ends
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
     std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
-    std::vector<Standing> standing = {};  ///< axes that do not begin where the rack's file says
-    std::string alarm = {};               ///< the machine begins with it, if there is one
-    std::vector<LivePlace> live = {};     ///< cards for which real ones stand, in service only
+    std::vector<InitialAxisState> standing = {};  ///< axes that do not begin where the rack's file says
+    std::string alarm = {};                       ///< the machine begins with it, if there is one
+    std::vector<LivePlace> live = {};             ///< cards for which real ones stand, in service only
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
     std::size_t most_alarms = 100;      ///< those that are over and acknowledged go, then the oldest
@@ -180,7 +180,7 @@ class Machine {
     void failed(const Error& error);
     void raise(std::string source, std::string text, char axis = '\0');
     std::string at_work() const;
-    void come_to_rest();
+    void wait_for_standstill();
     void take_stop();
     void enter_error_stop(std::string source, std::string text);
     Result<void> ready(const char* what);

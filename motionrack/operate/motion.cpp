@@ -17,8 +17,8 @@ bool can_home(const rack::RackConfig& config) {
 namespace {
 
 /// Where an axis stands at the start. `known`: nobody could find out by homing.
-Standing standing_of(const rack::RackAxis& axis, const std::vector<Standing>& told, bool known) {
-    for (const Standing& one : told)
+InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& told, bool known) {
+    for (const InitialAxisState& one : told)
         if (one.letter == axis.letter) return one;
     return {axis.letter, axis.start_position, axis.start_position, known};
 }
@@ -30,7 +30,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     const bool known = !can_home(rack_.config());
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
-        const Standing here = standing_of(axis.config, settings_.standing, known);
+        const InitialAxisState here = standing_of(axis.config, settings_.standing, known);
         if (here.trusted) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
     }
     MOTIONRACK_TRY(control::AxisGroup * group, rack_.path_axes_here());
@@ -94,7 +94,7 @@ void Machine::slice() {
         for (const std::function<void()>& one : work) one();
         take_stop();
         if (hands_over_) continue;
-        if (!stands(state_))  // a move may take long
+        if (!is_stationary(state_))  // a move may take long
             for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
         tell();
     }
@@ -153,7 +153,7 @@ void Machine::step() {
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     if (walk_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::driving) return drive();
-    if (stop_wanted_) return come_to_rest();
+    if (stop_wanted_) return wait_for_standstill();
     if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
         const rack::StopLatch& latch = rack_.stop_latch();
         return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
@@ -186,7 +186,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
 }
 
 /// Nothing moves any more after a stop.
-void Machine::come_to_rest() {
+void Machine::wait_for_standstill() {
     stop_wanted_ = false;
     home_stop_ = false;
     rack::StopLatch& latch = rack_.stop_latch();

@@ -42,9 +42,10 @@ Duration Lateness::within(double part) const {
     return Duration{0};
 }
 
-Pacer::Pacer(live::Clock& clock, ClockMode mode, double factor) : clock_(clock), mode_(mode), factor_(factor) {}
+ClockPacer::ClockPacer(live::Clock& clock, ClockMode mode, double factor)
+    : clock_(clock), mode_(mode), factor_(factor) {}
 
-Result<void> Pacer::set(ClockMode mode, double factor) {
+Result<void> ClockPacer::set(ClockMode mode, double factor) {
     if (!(factor >= least_factor && factor <= greatest_factor))
         return fail(Trouble::bad_input,
                     fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor,
@@ -56,7 +57,7 @@ Result<void> Pacer::set(ClockMode mode, double factor) {
     return {};
 }
 
-Result<void> Pacer::step(Duration duration) {
+Result<void> ClockPacer::step(Duration duration) {
     if (mode_ != ClockMode::paused)
         return fail(
             Trouble::refused,
@@ -69,17 +70,17 @@ Result<void> Pacer::step(Duration duration) {
     return {};
 }
 
-Instant Pacer::due(Instant now) const {
+Instant ClockPacer::due(Instant now) const {
     return real_base_ + Duration{static_cast<std::int64_t>(static_cast<double>((now - rack_base_).count()) / factor_)};
 }
 
-void Pacer::begin_here(Instant now) {
+void ClockPacer::begin_here(Instant now) {
     rack_base_ = now;
     real_base_ = clock_.now();
     begun_ = true;
 }
 
-bool Pacer::pace(Instant now) {
+bool ClockPacer::pace(Instant now) {
     last_ = now;
     if (mode_ == ClockMode::free) return true;
     if (mode_ == ClockMode::paused) {

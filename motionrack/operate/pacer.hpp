@@ -42,10 +42,10 @@ class Lateness {
 };
 
 /// Only the motion thread uses it.
-class Pacer {
+class ClockPacer {
   public:
     /// Factors are 0.001 .. 1000.
-    Pacer(live::Clock& clock, ClockMode mode, double factor);
+    ClockPacer(live::Clock& clock, ClockMode mode, double factor);
 
     /// True: the rack may run on from `now`. Waits 5 ms at most.
     bool pace(Instant now);

@@ -29,7 +29,7 @@ constexpr bool idle(MachineState state) {
     return state == MachineState::disabled || state == MachineState::standstill || state == MachineState::error_stop;
 }
 /// Whether nothing moves in it.
-constexpr bool stands(MachineState state) {
+constexpr bool is_stationary(MachineState state) {
     return idle(state) || state == MachineState::hold;
 }
 
@@ -77,7 +77,7 @@ struct StopReport {
 };
 
 /// Where an axis stands when a machine is made.
-struct Standing {
+struct InitialAxisState {
     char letter = 'X';
     double place = 0;      ///< of the table
     double commanded = 0;  ///< as the card's counter has it

@@ -66,7 +66,7 @@ std::vector<Alarm> Trust::look(Instant now, MachineState state) {
     lose_reset(comes_to_rest, out);
     if (comes_to_rest) return out;
     due_ = now + look_every;
-    const bool stand = stands(state), stood = std::exchange(stood_, stand);
+    const bool stand = is_stationary(state), stood = std::exchange(stood_, stand);
     for (const rack::TrustFinding& found : watch_.look(stand && stood)) {
         if (found.axis == rack::TrustFinding::no_axis) {
             Alarm& alarm = out.emplace_back();

@@ -50,13 +50,13 @@ void access(Desk& desk, const json& fields, Ready ready) {
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
 
-Result<operate::Pacer*> pacer_of(Desk& desk) {
+Result<operate::ClockPacer*> pacer_of(Desk& desk) {
     if (desk.settings.pacer != nullptr) return desk.settings.pacer;
     return fail(Trouble::refused, "The clock of this machine cannot be changed.");
 }
 
 Result<json> set_clock(Desk& desk, const json& fields) {
-    MOTIONRACK_TRY(operate::Pacer * pacer, pacer_of(desk));
+    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
     if (const auto live = desk.machine.service().live_places(); !live.empty())
         return fail(
             Trouble::refused,
@@ -72,7 +72,7 @@ Result<json> set_clock(Desk& desk, const json& fields) {
 }
 
 Result<json> step_clock(Desk& desk, const json& fields) {
-    MOTIONRACK_TRY(operate::Pacer * pacer, pacer_of(desk));
+    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
     return taken(pacer->step(from_seconds(fields.at("seconds").get<double>())));
 }
 

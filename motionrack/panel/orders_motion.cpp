@@ -18,7 +18,7 @@ constexpr std::array control = {
     Doer{"take_control",
          [](Desk& desk, const Caller& caller, const json& fields) {
              return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false),
-                                          operate::stands(desk.machine.state())));
+                                          operate::is_stationary(desk.machine.state())));
          }},
     Doer{"release_control",
          [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},

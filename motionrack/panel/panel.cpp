@@ -168,7 +168,7 @@ class Panel::Inside {
     Panel& panel_;
     Desk desk_;
     StatusWriter writer_;
-    operate::Logbook logbook_;
+    operate::JournalWriter logbook_;
     RecordLoss loss_;
     std::map<std::string_view, const Doer*> doers_;
     std::vector<Taken> taken_;

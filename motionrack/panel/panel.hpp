@@ -34,8 +34,8 @@ using Handler = std::function<Answer(const Caller& caller, const nlohmann::json&
 
 struct PanelSettings {
     std::string version = {}, boot = {};
-    std::string rack_text = {};       ///< the rack file, for the query rack
-    operate::Pacer* pacer = nullptr;  ///< of the machine; nullptr: its clock cannot be changed
+    std::string rack_text = {};            ///< the rack file, for the query rack
+    operate::ClockPacer* pacer = nullptr;  ///< of the machine; nullptr: its clock cannot be changed
     journal::Journal* journal =
         nullptr;  ///< orders and what the machine does are written to it, and orders are answered when they are safe
     std::function<nlohmann::json()> link = {};  ///< status' "link"; called on the motion thread, never waits

@@ -29,7 +29,7 @@ struct Noted {
     json link, clock;
 };
 
-json clock_of(const operate::Pacer* pacer) {
+json clock_of(const operate::ClockPacer* pacer) {
     if (pacer == nullptr) return {{"mode", "free"}, {"factor", 1}, {"late_ms", 0}};
     return {{"mode", operate::name_of(pacer->mode())},
             {"factor", pacer->factor()},
@@ -132,7 +132,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
     if (now.program_runs && desk.plan)
         noted->remaining_s = desk.plan->after(now.line) / std::max(0.01, now.feed_override);
     return [facts = facts_, noted](const operate::Status& status) {
-        const bool stands = operate::stands(status.state);
+        const bool stands = operate::is_stationary(status.state);
         json axes = json::array();
         for (std::size_t i = 0; i < status.axes.size(); ++i) {
             const operate::AxisStatus& axis = status.axes[i];

@@ -105,7 +105,7 @@ class Served {
             EXPECT_TRUE(begun) << begun.error().text();
         }
         breaking_.apply(*machine, begun_);
-        if (!operate::stands(machine->state())) moved_ = now;
+        if (!operate::is_stationary(machine->state())) moved_ = now;
         if (now > moved_ + milliseconds(500) && breaking_.todo.empty() && !std::exchange(over_, true)) quit();
     }
     std::string by_;

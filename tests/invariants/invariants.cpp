@@ -24,7 +24,7 @@ constexpr Duration off_standing = milliseconds(100), off_moving = milliseconds(4
 constexpr double home_tolerance = 0.5;
 
 bool moves(MachineState state) {
-    return !operate::stands(state);
+    return !operate::is_stationary(state);
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ namespace motionrack::swarm {
 namespace {
 
 using journal::BadDisk;
+using operate::InitialAxisState;
 using operate::Machine;
 using operate::MachineState;
-using operate::Standing;
 using operate::Status;
 using test::Finding;
 using test::Rule;
@@ -144,14 +144,14 @@ class Lives {
         EXPECT_TRUE(machine_->enable(true));
         laws.ordered(Order::enable);
         if (draws_.one_in(4)) return;
-        for (const Standing& axis : truth_.empty() ? places() : truth_) {
+        for (const InitialAxisState& axis : truth_.empty() ? places() : truth_) {
             static_cast<void>(machine_->declare_position(axis.letter, axis.place));
             laws.ordered(Order::position);
         }
     }
 
-    std::vector<Standing> places() const {
-        std::vector<Standing> out;
+    std::vector<InitialAxisState> places() const {
+        std::vector<InitialAxisState> out;
         for (const operate::AxisStatus& axis : machine_->status().axes)
             out.push_back({axis.letter, axis.place, axis.place, false});
         return out;
@@ -170,12 +170,12 @@ class Lives {
     }
 
     /// Where the next life finds the axes: where they were left, trusted as the record says.
-    std::vector<Standing> standing() {
-        std::vector<Standing> out = truth_;
+    std::vector<InitialAxisState> standing() {
+        std::vector<InitialAxisState> out = truth_;
         if (!journal_->before()) return out;
-        for (const Standing& kept : operate::read_last(*journal_->before(), config_).axes) {
-            const auto real =
-                std::find_if(out.begin(), out.end(), [&](const Standing& one) { return one.letter == kept.letter; });
+        for (const InitialAxisState& kept : operate::read_last(*journal_->before(), config_).axes) {
+            const auto real = std::find_if(out.begin(), out.end(),
+                                           [&](const InitialAxisState& one) { return one.letter == kept.letter; });
             if (real == out.end() || !kept.trusted) continue;
             if (cut_off_)
                 found({Rule::position_is_true,
@@ -362,7 +362,7 @@ class Lives {
     std::string folder_;
     SeedEnd out_;
     rack::RackConfig config_;
-    std::vector<Standing> truth_;  ///< where the life before left the axes
+    std::vector<InitialAxisState> truth_;  ///< where the life before left the axes
     std::vector<Taken> taken_;
     bool cut_off_ = false, lost_at_end_ = false;  ///< the life before
     // of a life
@@ -371,7 +371,7 @@ class Lives {
     const BadDisk* disk_ = nullptr;
     std::int64_t lose_power_after_ = 0;
     std::unique_ptr<journal::Journal> journal_;
-    std::optional<operate::Logbook> book_;
+    std::optional<operate::JournalWriter> book_;
     std::unique_ptr<Machine> machine_;
     std::optional<test::MachineWatch> watch_;
     Instant next_{}, ends_{}, wait_until_{};

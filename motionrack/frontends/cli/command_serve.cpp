@@ -111,7 +111,7 @@ class Serving {
         book.on_quota = [this](const std::string& sentence) { say(sentence); };
         MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal, std::move(book)));
         if (!journal_->before()) return {};
-        operate::LastStanding last = operate::read_last(*journal_->before(), config);
+        operate::LastKnownPositions last = operate::read_last(*journal_->before(), config);
         if (!last.sentence.empty()) print_warning(last.sentence);
         settings.standing = std::move(last.axes);
         settings.alarm = std::move(last.sentence);
@@ -163,7 +163,7 @@ class Serving {
         say("Stopping: the axes come to rest.");
         tell_service_manager("STOPPING=1");
         // A clock that stands would let nothing come to rest.
-        operate::Pacer& pacer = served_->pacer();
+        operate::ClockPacer& pacer = served_->pacer();
         if (pacer.mode() != operate::ClockMode::free)
             (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
         served_->machine().quit();
@@ -241,7 +241,7 @@ void add_serve(CLI::App& app, Action& chosen) {
                      "address to serve; other than this computer's loopback only with TLS")
         ->capture_default_str();
     command->add_option("--speed", options->speed, "seconds of the rack for a second")
-        ->check(CLI::Range(operate::Pacer::least_factor, operate::Pacer::greatest_factor))
+        ->check(CLI::Range(operate::ClockPacer::least_factor, operate::ClockPacer::greatest_factor))
         ->capture_default_str();
     command->add_flag("--free", options->free, "as fast as the computer can");
     command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");

@@ -52,7 +52,7 @@ class ServedRack {
     /// Closes the ports; nobody is served any more.
     void stop();
 
-    operate::Pacer& pacer() { return pacer_; }
+    operate::ClockPacer& pacer() { return pacer_; }
     authority::ControlLease& lease() { return lease_; }
     operate::Machine& machine() { return *machine_; }
     authority::Doorkeeper& door() { return *door_; }
@@ -66,7 +66,7 @@ class ServedRack {
     void write_down(const AuditEntry& entry);
 
     live::MonotonicClock clock_;
-    operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
+    operate::ClockPacer pacer_{clock_, operate::ClockMode::real, 1};
     authority::ControlLease lease_;
     journal::Journal* journal_ = nullptr;
     authority::RateLimit settings_of_senders_{20, 1};  ///< in the journal; a sender needs no token

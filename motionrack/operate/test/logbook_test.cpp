@@ -78,7 +78,7 @@ class ALogbook : public testing::Test {
 
     std::string path_;
     std::unique_ptr<journal::Journal> journal_;
-    std::optional<Logbook> book_;
+    std::optional<JournalWriter> book_;
     std::optional<MachineState> quit_on_;
     Status last_;
 };
@@ -98,7 +98,7 @@ TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
     EXPECT_THAT(texts("state"), ElementsAre("moving.", "standstill."));
     EXPECT_THAT(texts("position"), ElementsAre("Stands at X 12.0000 mm, Y 3.0000 mm."));
     ASSERT_TRUE(journal_->before());
-    const LastStanding last = read_last(*journal_->before(), table());
+    const LastKnownPositions last = read_last(*journal_->before(), table());
     EXPECT_EQ(last.sentence, "");
     ASSERT_EQ(last.axes.size(), 2u);
     EXPECT_NEAR(last.axes[0].place, 12, 1e-9);
@@ -167,7 +167,7 @@ TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
     EXPECT_EQ(last_.state, MachineState::standstill);
     end(true);
     open();
-    const LastStanding last = read_last(*journal_->before(), table());
+    const LastKnownPositions last = read_last(*journal_->before(), table());
     ASSERT_EQ(last.axes.size(), 2u);
     EXPECT_GT(last.axes[0].place, 20.5) << "it took some way to stop";
     EXPECT_EQ(last.axes[0].place, last_.axes[0].place);
@@ -184,7 +184,7 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
             journal_.reset();
             open();
             EXPECT_FALSE(journal_->before()->clean);
-            const LastStanding last = read_last(*journal_->before(), table());
+            const LastKnownPositions last = read_last(*journal_->before(), table());
             EXPECT_THAT(last.sentence, HasSubstr("was cut off"));
             EXPECT_THAT(last.sentence, HasSubstr("'part.ngc' ran and was at line 2"));
             EXPECT_THAT(last.sentence, HasSubstr("No position is trusted"));
@@ -230,9 +230,9 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
                              "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"place\": 1, "
                              "\"commanded\": 1}, {\"letter\": \"Q\", \"place\": 1, \"commanded\": 1}]}",
                              "{\"line\": \"x\", \"state\": 4"}) {
-        const LastStanding last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
+        const LastKnownPositions last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
         ASSERT_EQ(last.axes.size(), table().axes.size()) << kept;
-        for (const Standing& one : last.axes) EXPECT_FALSE(one.trusted) << kept;
+        for (const InitialAxisState& one : last.axes) EXPECT_FALSE(one.trusted) << kept;
         EXPECT_THAT(last.sentence, HasSubstr("cut off")) << kept;
     }
 }
@@ -240,14 +240,15 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
 TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
     const std::string kept = R"({"axes": [{"letter": "X", "place": 5, "commanded": 5, "trusted": true}]})";
     EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].trusted);
-    const LastStanding last = read_last({1, true, 0, {{"machine", kept}}, {"its end does not fit"}, {}}, table());
+    const LastKnownPositions last = read_last({1, true, 0, {{"machine", kept}}, {"its end does not fit"}, {}}, table());
     EXPECT_FALSE(last.axes[0].trusted);
     EXPECT_THAT(last.sentence, HasSubstr("The journal is not to be trusted: its end does not fit. No position is"));
-    const LastStanding none = read_last({1, true, 0, {}, {}, {}}, table());
+    const LastKnownPositions none = read_last({1, true, 0, {}, {}, {}}, table());
     ASSERT_FALSE(none.axes.empty());
     EXPECT_FALSE(none.axes[0].trusted) << "without a record it may stand anywhere";
     EXPECT_THAT(none.sentence, HasSubstr("does not say where the machine stood"));
-    const LastStanding changed = read_last({1, true, 0, {{"machine", kept}}, {}, "Entry 3 was changed."}, table());
+    const LastKnownPositions changed =
+        read_last({1, true, 0, {{"machine", kept}}, {}, "Entry 3 was changed."}, table());
     EXPECT_TRUE(changed.axes[0].trusted);
     EXPECT_EQ(changed.sentence, "Entry 3 was changed.");
 }
@@ -267,7 +268,7 @@ TEST_F(ALogbook, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {
     journal_.reset();
     open();
     ASSERT_TRUE(journal_->before());
-    const std::vector<Standing> kept = read_last(*journal_->before(), table()).axes;
+    const std::vector<InitialAxisState> kept = read_last(*journal_->before(), table()).axes;
     ASSERT_EQ(kept.size(), 1u);
     EXPECT_DOUBLE_EQ(kept[0].commanded, 1.57);
 }

@@ -25,16 +25,16 @@ class SleepingClock final : public live::Clock {
 };
 
 /// Asks for one slice until it may go on; how often it asked.
-int let_on(Pacer& pacer, Instant now) {
+int let_on(ClockPacer& pacer, Instant now) {
     int asked = 1;
     while (!pacer.pace(now)) ++asked;
     return asked;
 }
 
-TEST(Pacer, KeepsStepWithTheComputerAndDoesNotDrift) {
+TEST(ClockPacer, KeepsStepWithTheComputerAndDoesNotDrift) {
     SleepingClock clock;
     clock.too_long = microseconds(70);
-    Pacer pacer(clock, ClockMode::real, 1);
+    ClockPacer pacer(clock, ClockMode::real, 1);
     const Instant begin = clock.now();
     for (int i = 0; i <= 5000; ++i) let_on(pacer, milliseconds(2) * i);
     EXPECT_EQ(clock.now() - begin, whole_seconds(10) + microseconds(70));
@@ -42,26 +42,26 @@ TEST(Pacer, KeepsStepWithTheComputerAndDoesNotDrift) {
     EXPECT_EQ(pacer.lateness().count(), 5001);
 }
 
-TEST(Pacer, HasTimeGoFasterAndSlower) {
+TEST(ClockPacer, HasTimeGoFasterAndSlower) {
     for (const double factor : {0.001, 0.1, 3.0, 1000.0}) {
         SleepingClock clock;
-        Pacer pacer(clock, ClockMode::real, factor);
+        ClockPacer pacer(clock, ClockMode::real, factor);
         const Instant begin = clock.now();
         for (int i = 0; i <= 50; ++i) let_on(pacer, milliseconds(2) * i);
         EXPECT_NEAR(to_seconds(clock.now() - begin), 0.1 / factor, 1e-6 / factor) << factor;
     }
 }
 
-TEST(Pacer, WaitsInPartsSoThatEverybodyIsHeard) {
+TEST(ClockPacer, WaitsInPartsSoThatEverybodyIsHeard) {
     SleepingClock clock;
-    Pacer pacer(clock, ClockMode::real, 0.01);
+    ClockPacer pacer(clock, ClockMode::real, 0.01);
     EXPECT_EQ(let_on(pacer, milliseconds(0)), 1);
     EXPECT_EQ(let_on(pacer, milliseconds(2)), 40);  // 200 ms, 5 ms at a time
 }
 
-TEST(Pacer, HurriesAfterASmallDelayAndGivesUpALargeOne) {
+TEST(ClockPacer, HurriesAfterASmallDelayAndGivesUpALargeOne) {
     SleepingClock clock;
-    Pacer pacer(clock, ClockMode::real, 1);
+    ClockPacer pacer(clock, ClockMode::real, 1);
     let_on(pacer, Instant{0});
     clock.pass(milliseconds(100));
     for (int i = 1; i <= 50; ++i) let_on(pacer, milliseconds(2) * i);
@@ -75,9 +75,9 @@ TEST(Pacer, HurriesAfterASmallDelayAndGivesUpALargeOne) {
     EXPECT_EQ(clock.slept, milliseconds(2));
 }
 
-TEST(Pacer, PausesAndStepsAndGoesOnWithoutAJump) {
+TEST(ClockPacer, PausesAndStepsAndGoesOnWithoutAJump) {
     SleepingClock clock;
-    Pacer pacer(clock, ClockMode::paused, 1);
+    ClockPacer pacer(clock, ClockMode::paused, 1);
     EXPECT_FALSE(pacer.pace(Instant{0}));
     EXPECT_FALSE(pacer.pace(Instant{0}));
     ASSERT_TRUE(pacer.step(milliseconds(4)));
@@ -92,17 +92,17 @@ TEST(Pacer, PausesAndStepsAndGoesOnWithoutAJump) {
     EXPECT_EQ(pacer.lost(), Duration{0});
 }
 
-TEST(Pacer, NeverWaitsWhenItIsFree) {
+TEST(ClockPacer, NeverWaitsWhenItIsFree) {
     SleepingClock clock;
-    Pacer pacer(clock, ClockMode::free, 1);
+    ClockPacer pacer(clock, ClockMode::free, 1);
     for (int i = 0; i < 1000; ++i) EXPECT_TRUE(pacer.pace(whole_seconds(i)));
     EXPECT_EQ(clock.slept, Duration{0});
     EXPECT_EQ(pacer.lateness().count(), 0);
 }
 
-TEST(Pacer, RefusesFactorsAndStepsWithASentence) {
+TEST(ClockPacer, RefusesFactorsAndStepsWithASentence) {
     SleepingClock clock;
-    Pacer pacer(clock, ClockMode::real, 1);
+    ClockPacer pacer(clock, ClockMode::real, 1);
     for (const double factor : {0.0, -1.0, 1001.0, 0.0 / 0.0 * 1.0}) {
         const Result<void> set = pacer.set(ClockMode::real, factor);
         ASSERT_FALSE(set);

@@ -103,7 +103,7 @@ TEST(ARealCardOnThePage, IsReadInServiceOnly) {
 
 TEST(ARealCardOnThePage, IsTouchedByNoOrderOfTheVirtualOne) {
     live::MonotonicClock clock;
-    operate::Pacer pacer(clock, operate::ClockMode::real, 1);
+    operate::ClockPacer pacer(clock, operate::ClockMode::real, 1);
     PanelSettings settings;
     settings.pacer = &pacer;
     Asked a(with_bench(), std::move(settings), with_live());

@@ -298,7 +298,7 @@ TEST_F(SenderPorts, LockASenderThatLosesControlInItsWork) {
     Client client = tcp();
     EXPECT_EQ(client.ask("G1 X1 F600\nM0\n"), banner + "ok\r\n");
     EXPECT_THAT(client.until("Hold:0"), HasSubstr("Hold:0"));
-    machine_->post([this] { EXPECT_TRUE(lease_.take("anna", "w1", true, operate::stands(machine_->state()))); });
+    machine_->post([this] { EXPECT_TRUE(lease_.take("anna", "w1", true, operate::is_stationary(machine_->state()))); });
     EXPECT_EQ(client.hear("]\r\n"), "ALARM:3\r\n[MSG:anna has taken control]\r\n");
     EXPECT_EQ(client.hear("\r\n"), "error:9\r\n") << "the pause";
     EXPECT_EQ(client.ask("~G1 X0\n", "\r\n"), "error:9\r\n");
