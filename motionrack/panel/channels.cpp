@@ -25,13 +25,13 @@ std::string_view unit_of(std::string_view name) {
 
 }  // namespace
 
-std::string_view name_of(ChannelLooks looks) {
+std::string_view name_of(ChannelReader looks) {
     switch (looks) {
-        case ChannelLooks::edges:
+        case ChannelReader::edges:
             return "edges";
-        case ChannelLooks::anytime:
+        case ChannelReader::anytime:
             return "anytime";
-        case ChannelLooks::slices:
+        case ChannelReader::slices:
             return "slices";
     }
     return "";
@@ -49,22 +49,22 @@ std::vector<std::string> register_names(const rack::CardType& type, const Regist
     return out;
 }
 
-ChannelBook::ChannelBook(operate::Machine& machine) : service_(machine.service()) {
+ChannelRegistry::ChannelRegistry(operate::Machine& machine) : service_(machine.service()) {
     add_axes(machine);
     add_wires(machine);  // before the quantities: where a switch and its wire have one name, it is the wire's
     add_quantities(machine.rack());
     add_cards(machine.rack());
 }
 
-void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks,
-                      std::function<double()> read) {
+void ChannelRegistry::add(std::string name, std::string_view unit, std::string_view text, ChannelReader looks,
+                          std::function<double()> read) {
     if (service_.live_place(card_part(name)) != nullptr) return;
     std::string key = name;
     channels_.try_emplace(std::move(key),
                           Channel{std::move(name), std::string(unit), std::string(text), looks, std::move(read)});
 }
 
-void ChannelBook::add_axes(operate::Machine& machine) {
+void ChannelRegistry::add_axes(operate::Machine& machine) {
     using operate::AxisStatus;
     struct Shown {
         std::string_view name, unit, text;
@@ -81,39 +81,39 @@ void ChannelBook::add_axes(operate::Machine& machine) {
     for (std::size_t i = 0; i < axes.size(); ++i)
         for (const Shown& one : shown)
             add(fmt::format("{}.{}", axes[i].config.letter, one.name), rack::with_unit(one.unit, axes[i].config.unit()),
-                one.text, ChannelLooks::slices, [&machine, i, get = one.get] {
+                one.text, ChannelReader::slices, [&machine, i, get = one.get] {
                     return i < machine.status().axes.size() ? get(machine.status().axes[i]) : unknown;
                 });
 }
 
-void ChannelBook::add_quantities(rack::Rack& rack) {
+void ChannelRegistry::add_quantities(rack::Rack& rack) {
     const sim::Kernel& kernel = rack.kernel();
     for (rack::QuantitiesOfPart& of : rack::quantities_of(rack))
         for (rack::Quantity& one : of.quantities)
-            add(of.part + "." + one.name, unit_of(one.name), one.doc, ChannelLooks::anytime,
+            add(of.part + "." + one.name, unit_of(one.name), one.doc, ChannelReader::anytime,
                 [&kernel, get = std::move(one.get)] { return get(kernel.now()); });
 }
 
-void ChannelBook::add_wires(operate::Machine& machine) {
+void ChannelRegistry::add_wires(operate::Machine& machine) {
     rack::WireAccess& wires = machine.wires();
     for (const rack::WireAccess::Named& wire : wires.names()) {
         const std::string name(wire.name);
-        const ChannelLooks looks = wire.volts || !wire.recorded ? ChannelLooks::anytime : ChannelLooks::edges;
+        const ChannelReader looks = wire.volts || !wire.recorded ? ChannelReader::anytime : ChannelReader::edges;
         add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", looks,
             [&wires, name] { return wires.get(name).value_or(unknown); });
     }
 }
 
-void ChannelBook::add_cards(rack::Rack& rack) {
+void ChannelRegistry::add_cards(rack::Rack& rack) {
     for (const auto& card : rack.cards()) {
         const auto inspected = [&](const std::string& name, std::string_view text) {
-            add(card->name() + "." + name, "", text, ChannelLooks::slices, [&one = *card, name] {
+            add(card->name() + "." + name, "", text, ChannelReader::slices, [&one = *card, name] {
                 const Result<std::int64_t> value = one.inspect(name);
                 return value ? static_cast<double>(*value) : unknown;
             });
         };
         for (const std::string_view name : card->quantity_names())
-            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a number of the card", ChannelLooks::slices,
+            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a number of the card", ChannelReader::slices,
                 [&one = *card, name] { return one.quantity(name).value_or(unknown); });
         for (const std::string& name : card->value_names()) inspected(name, "a value of the card");
         const rack::CardType& type = *rack::find_card_type(rack.config().card(card->name())->type);
@@ -125,12 +125,12 @@ void ChannelBook::add_cards(rack::Rack& rack) {
     }
 }
 
-const Channel* ChannelBook::find(std::string_view name) const {
+const Channel* ChannelRegistry::find(std::string_view name) const {
     const auto found = channels_.find(name);
     return found == channels_.end() ? nullptr : &found->second;
 }
 
-Result<std::shared_ptr<ChannelSet>> ChannelBook::set_of(const std::vector<std::string>& names) {
+Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<std::string>& names) {
     if (names.size() > Panel::most_channels)
         return fail(Trouble::bad_input,
                     fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.",
@@ -154,7 +154,7 @@ Result<std::shared_ptr<ChannelSet>> ChannelBook::set_of(const std::vector<std::s
     return set;
 }
 
-void ChannelBook::show(std::int64_t sequence, Instant at) {
+void ChannelRegistry::show(std::int64_t sequence, Instant at) {
     for (auto it = sets_.begin(); it != sets_.end();) {
         const auto set = it->second.set.lock();
         if (!set) {

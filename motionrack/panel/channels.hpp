@@ -17,18 +17,18 @@
 namespace motionrack::panel {
 
 /// When a channel can be looked at.
-enum class ChannelLooks : std::uint8_t {
+enum class ChannelReader : std::uint8_t {
     edges,    ///< a digital wire: a recording has every change
     anytime,  ///< also within a run of the kernel: reading it does not allocate
     slices    ///< between runs
 };
-std::string_view name_of(ChannelLooks looks);
+std::string_view name_of(ChannelReader looks);
 
 struct Channel {
     std::string name;
     std::string unit;
     std::string text;  ///< one sentence
-    ChannelLooks looks = ChannelLooks::slices;
+    ChannelReader looks = ChannelReader::slices;
     std::function<double()> read;  ///< on the motion thread; without effects
 };
 
@@ -38,10 +38,10 @@ std::string_view card_part(std::string_view name);
 /// Names by which a card's inspect knows a register: one, or one a channel.
 std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg);
 
-class ChannelBook {
+class ChannelRegistry {
   public:
     /// Those of the virtual chip are left out where a real card stands for it.
-    explicit ChannelBook(operate::Machine& machine);
+    explicit ChannelRegistry(operate::Machine& machine);
 
     /// All channels by name.
     const std::map<std::string, Channel, std::less<>>& all() const { return channels_; }
@@ -53,7 +53,7 @@ class ChannelBook {
     void show(std::int64_t sequence, Instant at);
 
   private:
-    void add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks,
+    void add(std::string name, std::string_view unit, std::string_view text, ChannelReader looks,
              std::function<double()> read);
     void add_axes(operate::Machine& machine);
     void add_quantities(rack::Rack& rack);

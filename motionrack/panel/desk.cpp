@@ -11,7 +11,7 @@ Reply::Call::~Call() {
     if (call) call(refused_answer(503, "machine", "The machine was shut down before the order was carried out."));
 }
 
-const Event& EventBook::add(Event event) {
+const Event& EventLog::add(Event event) {
     event.number = next_++;
     if (events_.size() >= most) events_.pop_front();
     events_.push_back(std::move(event));
@@ -19,8 +19,8 @@ const Event& EventBook::add(Event event) {
     return events_.back();
 }
 
-void DrivenPath::add(const operate::Status& status) {
-    Driven point;
+void ActualPath::add(const operate::Status& status) {
+    ActualPoint point;
     point.at = status.at;
     double linear = 0, rotary = 0;
     for (const operate::AxisStatus& axis : status.axes) {
@@ -42,7 +42,7 @@ void DrivenPath::add(const operate::Status& status) {
     points_.push_back(point);
 }
 
-Result<json> taken(const Result<void>& result) {
+Result<json> accepted(const Result<void>& result) {
     if (!result) return tl::unexpected<Error>(result.error());
     return json::object();
 }

@@ -38,7 +38,7 @@ class Reply {
 };
 
 /// Events since the start, the last of them kept.
-class EventBook {
+class EventLog {
   public:
     static constexpr std::size_t most = 1000;
     const Event& add(Event event);
@@ -52,11 +52,11 @@ class EventBook {
 };
 
 /// Where the machine was, in bounded memory: places nearer than `apart` to the one before are left out.
-class DrivenPath {
+class ActualPath {
   public:
     static constexpr std::size_t most = 20'000;
     static constexpr double apart = 0.05;
-    struct Driven {
+    struct ActualPoint {
         Instant at{};
         control::Point place = {};  ///< as the encoders say
         double error =
@@ -64,14 +64,14 @@ class DrivenPath {
     };
     void add(const operate::Status& status);
     void clear() { points_.clear(); }
-    const std::deque<Driven>& points() const { return points_; }
+    const std::deque<ActualPoint>& points() const { return points_; }
 
   private:
-    std::deque<Driven> points_;
+    std::deque<ActualPoint> points_;
 };
 
-struct Desk {
-    Desk(operate::Machine& machine_here, authority::ControlLease& lease_here, PanelSettings settings_here)
+struct PanelContext {
+    PanelContext(operate::Machine& machine_here, authority::ControlLease& lease_here, PanelSettings settings_here)
         : machine(machine_here),
           lease(lease_here),
           settings(std::move(settings_here)),
@@ -83,20 +83,20 @@ struct Desk {
     operate::Machine& machine;
     authority::ControlLease& lease;
     PanelSettings settings;
-    EventBook book;
-    ChannelBook channels;
+    EventLog book;
+    ChannelRegistry channels;
     Scope scope;
-    DrivenPath driven;
+    ActualPath driven;
     std::shared_ptr<const ProgramPlan> plan;  ///< of the program that was begun last; nullptr until it is made
     std::int64_t programs = 0;                ///< begun so far: whose plan it is
     std::string program;                      ///< its text
     std::string letters;                      ///< of the axes
     nlohmann::json facts;                     ///< of the rack
-    Worker worker;                            ///< last, so that it ends first: its work posts to the machine
+    BackgroundWorker worker;                  ///< last, so that it ends first: its work posts to the machine
 
     /// Runs `work` on the worker; `ready` hears what it gives on the motion thread. Refused: too much waits.
     template <class Made>
-    void aside(std::function<Result<Made>()> work, std::function<void(Result<Made>)> ready) {
+    void run_async(std::function<Result<Made>()> work, std::function<void(Result<Made>)> ready) {
         const bool taken = worker.post([this, work = std::move(work), ready]() mutable {
             machine.post([made = work(), ready = std::move(ready)]() mutable { ready(std::move(made)); });
         });
@@ -105,35 +105,37 @@ struct Desk {
                        "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
     }
     /// The same of what is the answer itself.
-    void aside(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {
-        aside<nlohmann::json>(std::move(work), std::move(ready));
+    void run_async(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {
+        run_async<nlohmann::json>(std::move(work), std::move(ready));
     }
 };
 
 /// One order or query: gives the answer's members.
-using Doing = Result<nlohmann::json> (*)(Desk& desk, const Caller& caller, const nlohmann::json& fields);
+using HandlerFunction = Result<nlohmann::json> (*)(PanelContext& desk, const Caller& caller,
+                                                   const nlohmann::json& fields);
 /// One that ends later.
 using Ready = std::function<void(Result<nlohmann::json>)>;
-using LongDoing = void (*)(Desk& desk, const Caller& caller, const nlohmann::json& fields, Ready ready);
-struct Doer {
+using AsyncHandlerFunction = void (*)(PanelContext& desk, const Caller& caller, const nlohmann::json& fields,
+                                      Ready ready);
+struct OperationHandler {
     std::string_view name;
-    Doing now = nullptr;
-    LongDoing later = nullptr;
+    HandlerFunction now = nullptr;
+    AsyncHandlerFunction later = nullptr;
 };
-std::span<const Doer> control_doers();
-std::span<const Doer> motion_doers();
-std::span<const Doer> program_doers();
-std::span<const Doer> card_doers();
-std::span<const Doer> library_doers();
-std::span<const Doer> scope_doers();
-std::span<const Doer> mark_doers();
-std::span<const Doer> looking_doers();
+std::span<const OperationHandler> control_doers();
+std::span<const OperationHandler> motion_doers();
+std::span<const OperationHandler> program_doers();
+std::span<const OperationHandler> card_doers();
+std::span<const OperationHandler> library_doers();
+std::span<const OperationHandler> scope_doers();
+std::span<const OperationHandler> mark_doers();
+std::span<const OperationHandler> looking_doers();
 /// An order that answers nothing but that it was taken.
-Result<nlohmann::json> taken(const Result<void>& result);
+Result<nlohmann::json> accepted(const Result<void>& result);
 /// A number of the fields that may be missing.
 double number_of(const nlohmann::json& fields, std::string_view name, double otherwise);
 
 /// The letter of a field that names an axis of the rack. Errors: bad_input.
-Result<char> axis_of(Desk& desk, const nlohmann::json& fields);
+Result<char> axis_of(PanelContext& desk, const nlohmann::json& fields);
 
 }  // namespace motionrack::panel

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-tl::unexpected<Error> wrong(const AskRow& row, std::string_view what) {
+tl::unexpected<Error> wrong(const OperationSpec& row, std::string_view what) {
     return fail(Trouble::bad_input, fmt::format("{} was not done: {}", row.name, what));
 }
 
@@ -26,11 +26,11 @@ bool one_of(std::string_view words, std::string_view text) {
     }
 }
 
-std::string range_of(const FieldRow& field) {
+std::string range_of(const FieldSpec& field) {
     return fmt::format("{} to {}{}{}", field.least, field.greatest, field.unit.empty() ? "" : " ", field.unit);
 }
 
-Result<void> check_number(const AskRow& row, const FieldRow& field, const json& value) {
+Result<void> check_number(const OperationSpec& row, const FieldSpec& field, const json& value) {
     if (!value.is_number())
         return wrong(row,
                      fmt::format("{} must be a number ({}), not {}.", field.name, range_of(field), value.type_name()));
@@ -42,7 +42,7 @@ Result<void> check_number(const AskRow& row, const FieldRow& field, const json& 
     return {};
 }
 
-Result<void> check_text(const AskRow& row, const FieldRow& field, const json& value) {
+Result<void> check_text(const OperationSpec& row, const FieldSpec& field, const json& value) {
     if (!value.is_string()) return wrong(row, fmt::format("{} must be a text, not {}.", field.name, value.type_name()));
     const auto& text = value.get_ref<const std::string&>();
     if (static_cast<double>(text.size()) > field.greatest)
@@ -54,7 +54,7 @@ Result<void> check_text(const AskRow& row, const FieldRow& field, const json& va
 /// Whole numbers that a double holds exactly.
 constexpr double max_whole = 9e15;
 
-Result<void> check_numbers(const AskRow& row, const FieldRow& field, const json& value) {
+Result<void> check_numbers(const OperationSpec& row, const FieldSpec& field, const json& value) {
     if (!value.is_object())
         return wrong(
             row, fmt::format("{} must be an object of whole numbers by name, not {}.", field.name, value.type_name()));
@@ -68,7 +68,7 @@ Result<void> check_numbers(const AskRow& row, const FieldRow& field, const json&
     return {};
 }
 
-Result<void> check_field(const AskRow& row, const FieldRow& field, const json& value) {
+Result<void> check_field(const OperationSpec& row, const FieldSpec& field, const json& value) {
     if (value.is_null() && field.or_null) return {};
     switch (field.type) {
         case FieldType::number:
@@ -103,31 +103,31 @@ Result<void> check_field(const AskRow& row, const FieldRow& field, const json& v
 
 }  // namespace
 
-Result<void> check_fields(const AskRow& row, const json& fields) {
+Result<void> check_fields(const OperationSpec& row, const json& fields) {
     if (!fields.is_object())
         return wrong(row, fmt::format("its fields must be a JSON object, not {}.", fields.type_name()));
     for (const auto& [name, value] : fields.items()) {
         const auto found = std::find_if(row.fields.begin(), row.fields.end(),
-                                        [&name = name](const FieldRow& field) { return field.name == name; });
+                                        [&name = name](const FieldSpec& field) { return field.name == name; });
         if (found == row.fields.end()) {
             std::string known;
-            for (const FieldRow& field : row.fields) known += (known.empty() ? "" : ", ") + std::string(field.name);
+            for (const FieldSpec& field : row.fields) known += (known.empty() ? "" : ", ") + std::string(field.name);
             return wrong(row, fmt::format("it has no field {}; it has: {}.", rack::in_quotes(name),
                                           known.empty() ? "none" : known));
         }
         MOTIONRACK_CHECK(check_field(row, *found, value));
     }
-    for (const FieldRow& field : row.fields)
+    for (const FieldSpec& field : row.fields)
         if (field.required && !fields.contains(field.name))
             return wrong(row, fmt::format("the field {} is missing: {}.", field.name, field.text));
     return {};
 }
 
-Result<json> fields_of_texts(const AskRow& row, const std::vector<std::pair<std::string, std::string>>& texts) {
+Result<json> fields_of_texts(const OperationSpec& row, const std::vector<std::pair<std::string, std::string>>& texts) {
     json fields = json::object();
     for (const auto& [name, text] : texts) {
         const auto found = std::find_if(row.fields.begin(), row.fields.end(),
-                                        [&name = name](const FieldRow& field) { return field.name == name; });
+                                        [&name = name](const FieldSpec& field) { return field.name == name; });
         const FieldType type = found == row.fields.end() ? FieldType::text : found->type;
         double number = 0;
         if (type == FieldType::number || type == FieldType::integer) {

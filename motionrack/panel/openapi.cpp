@@ -21,7 +21,7 @@ json words_of(std::string_view words) {
     }
 }
 
-json schema_of(const FieldRow& field) {
+json schema_of(const FieldSpec& field) {
     json schema = {{"description", fmt::format("{}{}{}", field.text, field.unit.empty() ? "" : "; ", field.unit)}};
     switch (field.type) {
         case FieldType::number:
@@ -56,12 +56,12 @@ json schema_of(const FieldRow& field) {
     return schema;
 }
 
-std::string who_may(const AskRow& row) {
+std::string who_may(const OperationSpec& row) {
     if (row.role == authority::Role::nobody) return "Anybody, without a token.";
     return fmt::format("Needs the role {}{}.", authority::name_of(row.role), row.lease ? " and the control lease" : "");
 }
 
-json operation_of(const AskRow& row) {
+json operation_of(const OperationSpec& row) {
     json answers = {
         {"200",
          {{"description", row.gives.empty() ? std::string("done") : fmt::format("done; with {}", row.gives)},
@@ -76,10 +76,10 @@ json operation_of(const AskRow& row) {
     return operation;
 }
 
-json path_of_order(const AskRow& row) {
+json path_of_order(const OperationSpec& row) {
     json operation = operation_of(row);
     json schema = {{"type", "object"}, {"additionalProperties", false}};
-    for (const FieldRow& field : row.fields) {
+    for (const FieldSpec& field : row.fields) {
         schema["properties"][std::string(field.name)] = schema_of(field);
         if (field.required) schema["required"].push_back(field.name);
     }
@@ -89,9 +89,9 @@ json path_of_order(const AskRow& row) {
     return {{"post", std::move(operation)}};
 }
 
-json path_of_query(const AskRow& row) {
+json path_of_query(const OperationSpec& row) {
     json operation = operation_of(row);
-    for (const FieldRow& field : row.fields)
+    for (const FieldSpec& field : row.fields)
         operation["parameters"].push_back(
             {{"name", field.name}, {"in", "query"}, {"required", field.required}, {"schema", schema_of(field)}});
     return {{"get", std::move(operation)}};
@@ -103,8 +103,8 @@ json make_openapi() {
         {"info",
          {{"title", "Motionrack"}, {"version", "1"}, {"description", "A rack of motion-control cards, operated."}}},
         {"security", {{{"token", json::array()}}}}};
-    for (const AskRow& row : orders()) api["paths"]["/api/" + std::string(row.name)] = path_of_order(row);
-    for (const AskRow& row : queries()) api["paths"]["/api/" + std::string(row.name)] = path_of_query(row);
+    for (const OperationSpec& row : commands()) api["paths"]["/api/" + std::string(row.name)] = path_of_order(row);
+    for (const OperationSpec& row : queries()) api["paths"]["/api/" + std::string(row.name)] = path_of_query(row);
     api["components"] = {
         {"securitySchemes",
          {{"token",
@@ -131,7 +131,7 @@ json make_openapi() {
     return api;
 }
 
-std::string kind_of(const FieldRow& field) {
+std::string kind_of(const FieldSpec& field) {
     switch (field.type) {
         case FieldType::number:
         case FieldType::integer:
@@ -156,13 +156,13 @@ std::string kind_of(const FieldRow& field) {
     return {};
 }
 
-std::string section_of(const AskRow& row, std::string_view verb) {
+std::string section_of(const OperationSpec& row, std::string_view verb) {
     std::string out = fmt::format("### {}\n\n{} `{} /api/{}` {}", row.name, row.text, verb, row.name, who_may(row));
     if (!row.gives.empty()) out += fmt::format(" The answer has: {}.", row.gives);
     out += "\n\n";
     if (row.fields.empty()) return out;
     out += "| field | what it may be | |\n|---|---|---|\n";
-    for (const FieldRow& field : row.fields)
+    for (const FieldSpec& field : row.fields)
         out += fmt::format("| `{}`{} | {} | {} |\n", field.name, field.required ? "" : " (optional)", kind_of(field),
                            field.text);
     return out + "\n";
@@ -185,9 +185,9 @@ std::string api_reference() {
         "`{\"done\":true,...}` or\n"
         "`{\"error\":{\"trouble\":...,\"message\":...}}` with a sentence that says what was not done, and why.\n\n"
         "## Orders\n\n";
-    for (const AskRow& row : orders()) out += section_of(row, "POST");
+    for (const OperationSpec& row : commands()) out += section_of(row, "POST");
     out += "## Queries\n\n";
-    for (const AskRow& row : queries()) out += section_of(row, "GET");
+    for (const OperationSpec& row : queries()) out += section_of(row, "GET");
     return out;
 }
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 namespace {
 
 /// Refused for a card for which a real one stands: what is done to the virtual one would be taken for its own.
-Result<void> check_virtual(Desk& desk, std::string_view name, std::string_view what) {
+Result<void> check_virtual(PanelContext& desk, std::string_view name, std::string_view what) {
     const operate::LivePlace* const live = desk.machine.service().live_place(card_part(name));
     if (live == nullptr) return {};
     return fail(Trouble::refused,
@@ -22,21 +22,21 @@ Result<void> check_virtual(Desk& desk, std::string_view name, std::string_view w
                             what, live->card, live->place));
 }
 
-Result<json> set_wire(Desk& desk, const json& fields) {
+Result<json> set_wire(PanelContext& desk, const json& fields) {
     const auto& name = fields.at("name").get_ref<const std::string&>();
     const json& value = fields.at("value");
     MOTIONRACK_CHECK(check_virtual(desk, name, "The wire was not driven"));
-    return taken(desk.machine.wires().set(
+    return accepted(desk.machine.wires().set(
         name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
 }
 
-Result<json> inject_fault(Desk& desk, const json& fields) {
+Result<json> inject_fault(PanelContext& desk, const json& fields) {
     const auto& target = fields.at("target").get_ref<const std::string&>();
     MOTIONRACK_CHECK(check_virtual(desk, target, "Nothing was broken"));
-    return taken(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(), target));
+    return accepted(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(), target));
 }
 
-void access(Desk& desk, const json& fields, Ready ready) {
+void access(PanelContext& desk, const json& fields, Ready ready) {
     operate::Machine::BusAccess access{fields.at("card").get<std::string>(),
                                        static_cast<int>(fields.at("bits").get<double>()),
                                        static_cast<std::uint32_t>(fields.at("address").get<double>()),
@@ -50,12 +50,12 @@ void access(Desk& desk, const json& fields, Ready ready) {
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
 
-Result<operate::ClockPacer*> pacer_of(Desk& desk) {
+Result<operate::ClockPacer*> pacer_of(PanelContext& desk) {
     if (desk.settings.pacer != nullptr) return desk.settings.pacer;
     return fail(Trouble::refused, "The clock of this machine cannot be changed.");
 }
 
-Result<json> set_clock(Desk& desk, const json& fields) {
+Result<json> set_clock(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
     if (const auto live = desk.machine.service().live_places(); !live.empty())
         return fail(
@@ -67,37 +67,46 @@ Result<json> set_clock(Desk& desk, const json& fields) {
     for (const operate::ClockMode mode :
          {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
         if (operate::name_of(mode) == name)
-            return taken(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
+            return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
     return fail(Trouble::bad_input, "There is no such mode of the clock.");
 }
 
-Result<json> step_clock(Desk& desk, const json& fields) {
+Result<json> step_clock(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
-    return taken(pacer->step(from_seconds(fields.at("seconds").get<double>())));
+    return accepted(pacer->step(from_seconds(fields.at("seconds").get<double>())));
 }
 
 constexpr std::array card_rows = {
-    Doer{"set_wire", [](Desk& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
-    Doer{"press_estop",
-         [](Desk& desk, const Caller&, const json& fields) {
-             return taken(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1));
-         }},
-    Doer{"inject_fault", [](Desk& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},
-    Doer{"start_part",
-         [](Desk& desk, const Caller&, const json& fields) {
-             return taken(rack::start_part(desk.machine.rack(), fields.at("part").get_ref<const std::string&>()));
-         }},
-    Doer{"write_register", nullptr,
-         [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},
-    Doer{"read_register", nullptr,
-         [](Desk& desk, const Caller&, const json& fields, Ready ready) { access(desk, fields, std::move(ready)); }},
-    Doer{"set_clock", [](Desk& desk, const Caller&, const json& fields) { return set_clock(desk, fields); }},
-    Doer{"step_clock", [](Desk& desk, const Caller&, const json& fields) { return step_clock(desk, fields); }},
+    OperationHandler{"set_wire",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
+    OperationHandler{"press_estop",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return accepted(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1));
+                     }},
+    OperationHandler{"inject_fault",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},
+    OperationHandler{"start_part",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return accepted(
+                             rack::start_part(desk.machine.rack(), fields.at("part").get_ref<const std::string&>()));
+                     }},
+    OperationHandler{"write_register", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         access(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"read_register", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         access(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"set_clock",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return set_clock(desk, fields); }},
+    OperationHandler{"step_clock",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return step_clock(desk, fields); }},
 };
 
 }  // namespace
 
-std::span<const Doer> card_doers() {
+std::span<const OperationHandler> card_doers() {
     return card_rows;
 }
 

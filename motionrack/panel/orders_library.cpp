@@ -30,7 +30,7 @@ json function_json(const FunctionInfo& function) {
             {"own", function.own}};
 }
 
-Result<json> library_of(Desk& desk, const json& fields) {
+Result<json> library_of(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(const auto functions,
                    operate::library_of(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
     json out = json::array();
@@ -44,7 +44,7 @@ operate::StopOrigin origin_of(const Caller& caller) {
     return {caller.user, caller.address, {}};
 }
 
-void service(Desk& desk, const Caller& caller, const json& fields, const Ready& ready) {
+void service(PanelContext& desk, const Caller& caller, const json& fields, const Ready& ready) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
     const auto told = [ready](const Result<std::string>& text) {
         ready(text ? Result<json>(json{{"text", *text}}) : tl::unexpected<Error>(text.error()));
@@ -60,14 +60,14 @@ void service(Desk& desk, const Caller& caller, const json& fields, const Ready& 
 
 /// Of a call that the library refused, or that ended otherwise, and of the begin of one that waits: whatever becomes of
 /// the program meanwhile, what it drove is known.
-void note_call(Desk& desk, const Caller& caller, const std::string& function, const std::string& what) {
+void note_call(PanelContext& desk, const Caller& caller, const std::string& function, const std::string& what) {
     const json data = {{"order", "call"}, {"user", caller.user}};
     const Event& event = desk.book.add(
         {0, desk.machine.now(), "order", fmt::format("{}: call {}: {}", caller.user, function, what), data});
     if (desk.settings.journal != nullptr) desk.settings.journal->write(event.at, event.kind, event.text, text_of(data));
 }
 
-void call(Desk& desk, const Caller& caller, const json& fields, const Ready& ready) {
+void call(PanelContext& desk, const Caller& caller, const json& fields, const Ready& ready) {
     operate::Service::Call call{fields.at("card").get<std::string>(), fields.at("function").get<std::string>(), {}};
     const json arguments = fields.value("arguments", json::object());
     for (const auto& [name, value] : arguments.items())
@@ -92,18 +92,21 @@ void call(Desk& desk, const Caller& caller, const json& fields, const Ready& rea
 }
 
 constexpr std::array library_rows = {
-    Doer{"service", nullptr,
-         [](Desk& desk, const Caller& caller, const json& fields, Ready ready) {
-             service(desk, caller, fields, ready);
-         }},
-    Doer{"call", nullptr,
-         [](Desk& desk, const Caller& caller, const json& fields, Ready ready) { call(desk, caller, fields, ready); }},
-    Doer{"library", [](Desk& desk, const Caller&, const json& fields) { return library_of(desk, fields); }},
+    OperationHandler{"service", nullptr,
+                     [](PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
+                         service(desk, caller, fields, ready);
+                     }},
+    OperationHandler{"call", nullptr,
+                     [](PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
+                         call(desk, caller, fields, ready);
+                     }},
+    OperationHandler{"library",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return library_of(desk, fields); }},
 };
 
 }  // namespace
 
-std::span<const Doer> library_doers() {
+std::span<const OperationHandler> library_doers() {
     return library_rows;
 }
 

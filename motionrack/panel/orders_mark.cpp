@@ -79,14 +79,14 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
     return out;
 }
 
-Result<void> not_stopped(Desk& desk) {
+Result<void> not_stopped(PanelContext& desk) {
     const rack::StopLatch& latch = desk.machine.rack().stop_latch();
     if (!latch.latched()) return {};
     return fail(Trouble::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
 }
 
 /// On the motion thread, between runs.
-Result<json> begin_marking(Desk& desk, const std::string& card, const Lists& lists) {
+Result<json> begin_marking(PanelContext& desk, const std::string& card, const Lists& lists) {
     MOTIONRACK_CHECK(not_stopped(desk));
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
     if (!engine.at_rest())
@@ -114,13 +114,13 @@ Result<json> begin_marking(Desk& desk, const std::string& card, const Lists& lis
     return json{{"commands", lists.main.size()}, {"notes", lists.notes}};
 }
 
-Result<void> check_card(Desk& desk, const std::string& card) {
+Result<void> check_card(PanelContext& desk, const std::string& card) {
     MOTIONRACK_CHECK(rack::card_named(desk.machine.rack(), card));
     if (rack::rtc5_card_of(desk.machine.rack(), card) != nullptr) return {};
     return fail(Trouble::bad_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
 }
 
-void mark(Desk& desk, const json& fields, Ready ready) {
+void mark(PanelContext& desk, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
     if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
     if (const Result<void> may = not_stopped(desk); !may) return ready(tl::unexpected<Error>(may.error()));
@@ -128,13 +128,13 @@ void mark(Desk& desk, const json& fields, Ready ready) {
                        drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
         return lists_of(config, card, text, drawing, on_parts);
     };
-    desk.aside<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) {
+    desk.run_async<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) {
         ready(lists ? begin_marking(desk, card, *lists) : tl::unexpected<Error>(lists.error()));
     });
 }
 
 /// Starts are no longer taken, and what runs ends.
-Result<json> stop(Desk& desk, const json& fields) {
+Result<json> stop(PanelContext& desk, const json& fields) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
     MOTIONRACK_CHECK(check_card(desk, card));
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
@@ -144,14 +144,17 @@ Result<json> stop(Desk& desk, const json& fields) {
 }
 
 constexpr std::array mark_rows = {
-    Doer{"mark", nullptr,
-         [](Desk& desk, const Caller&, const json& fields, Ready ready) { mark(desk, fields, std::move(ready)); }},
-    Doer{"mark_stop", [](Desk& desk, const Caller&, const json& fields) { return stop(desk, fields); }},
+    OperationHandler{"mark", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         mark(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"mark_stop",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return stop(desk, fields); }},
 };
 
 }  // namespace
 
-std::span<const Doer> mark_doers() {
+std::span<const OperationHandler> mark_doers() {
     return mark_rows;
 }
 

@@ -15,64 +15,66 @@ operate::JogOrigin origin_of(const Caller& caller, const json& fields) {
 }
 
 constexpr std::array control = {
-    Doer{"take_control",
-         [](Desk& desk, const Caller& caller, const json& fields) {
-             return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false),
-                                          operate::is_stationary(desk.machine.state())));
-         }},
-    Doer{"release_control",
-         [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
-    Doer{"keep_control",
-         [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
-    Doer{"stop",
-         [](Desk& desk, const Caller& caller, const json&) -> Result<json> {
-             desk.machine.stop({caller.user, caller.address, "STOP"});
-             desk.lease.revoke(caller.user, caller.session);
-             return json::object();
-         }},
+    OperationHandler{"take_control",
+                     [](PanelContext& desk, const Caller& caller, const json& fields) {
+                         return accepted(desk.lease.take(caller.user, caller.session, fields.value("force", false),
+                                                         operate::is_stationary(desk.machine.state())));
+                     }},
+    OperationHandler{"release_control", [](PanelContext& desk, const Caller& caller,
+                                           const json&) { return accepted(desk.lease.release(caller.session)); }},
+    OperationHandler{"keep_control", [](PanelContext& desk, const Caller& caller,
+                                        const json&) { return accepted(desk.lease.keep(caller.session)); }},
+    OperationHandler{"stop",
+                     [](PanelContext& desk, const Caller& caller, const json&) -> Result<json> {
+                         desk.machine.stop({caller.user, caller.address, "STOP"});
+                         desk.lease.revoke(caller.user, caller.session);
+                         return json::object();
+                     }},
 };
 
 constexpr std::array motion = {
-    Doer{"enable",
-         [](Desk& desk, const Caller&, const json& fields) {
-             return taken(desk.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
-         }},
-    Doer{"home", [](Desk& desk, const Caller&,
-                    const json& fields) { return taken(desk.machine.home(fields.value("axes", ""))); }},
-    Doer{"jog",
-         [](Desk& desk, const Caller& caller, const json& fields) -> Result<json> {
-             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-             const bool again = desk.machine.state() == operate::MachineState::jogging;
-             MOTIONRACK_CHECK(desk.machine.jog(letter, fields.at("speed").get<double>(), origin_of(caller, fields)));
-             return json{{"again", again}};
-         }},
-    Doer{"jog_by",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-             return taken(
-                 desk.machine.jog_by(letter, fields.at("distance").get<double>(), fields.at("speed").get<double>()));
-         }},
-    Doer{"jog_stop",
-         [](Desk& desk, const Caller& caller, const json& fields) -> Result<json> {
-             static_cast<void>(desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is never too old
-             if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
-             return json::object();
-         }},
-    Doer{"set_work_zero",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-             return taken(desk.machine.set_work_zero(letter, fields.at("value").get<double>()));
-         }},
-    Doer{"declare_position",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-             return taken(desk.machine.declare_position(letter, fields.at("position").get<double>()));
-         }},
+    OperationHandler{"enable",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return accepted(desk.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
+                     }},
+    OperationHandler{"home", [](PanelContext& desk, const Caller&,
+                                const json& fields) { return accepted(desk.machine.home(fields.value("axes", ""))); }},
+    OperationHandler{"jog",
+                     [](PanelContext& desk, const Caller& caller, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+                         const bool again = desk.machine.state() == operate::MachineState::jogging;
+                         MOTIONRACK_CHECK(
+                             desk.machine.jog(letter, fields.at("speed").get<double>(), origin_of(caller, fields)));
+                         return json{{"again", again}};
+                     }},
+    OperationHandler{"jog_by",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+                         return accepted(desk.machine.jog_by(letter, fields.at("distance").get<double>(),
+                                                             fields.at("speed").get<double>()));
+                     }},
+    OperationHandler{"jog_stop",
+                     [](PanelContext& desk, const Caller& caller, const json& fields) -> Result<json> {
+                         static_cast<void>(
+                             desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is never too old
+                         if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
+                         return json::object();
+                     }},
+    OperationHandler{"set_work_zero",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+                         return accepted(desk.machine.set_work_zero(letter, fields.at("value").get<double>()));
+                     }},
+    OperationHandler{"declare_position",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+                         return accepted(desk.machine.declare_position(letter, fields.at("position").get<double>()));
+                     }},
 };
 
 }  // namespace
 
-Result<char> axis_of(Desk& desk, const json& fields) {
+Result<char> axis_of(PanelContext& desk, const json& fields) {
     const auto& text = fields.at("axis").get_ref<const std::string&>();
     std::string known;
     for (const rack::RackAxis& axis : desk.machine.rack().config().axes) {
@@ -83,10 +85,10 @@ Result<char> axis_of(Desk& desk, const json& fields) {
                                                 text_of(fields.at("axis")), known));
 }
 
-std::span<const Doer> control_doers() {
+std::span<const OperationHandler> control_doers() {
     return control;
 }
-std::span<const Doer> motion_doers() {
+std::span<const OperationHandler> motion_doers() {
     return motion;
 }
 

@@ -15,12 +15,12 @@ struct Reading {
     control::gcode::Settings settings;
     double accel_reserve = 0;
 };
-Reading reading_of(Desk& desk) {
+Reading reading_of(PanelContext& desk) {
     return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->accel_reserve()};
 }
 
 /// The plan is there a little later than the motion.
-void plan_aside(Desk& desk, const Reading& reading, std::string text, std::string name) {
+void plan_aside(PanelContext& desk, const Reading& reading, std::string text, std::string name) {
     desk.plan.reset();
     desk.worker.post([&desk, number = ++desk.programs, reading, text = std::move(text), name = std::move(name)] {
         auto plan =
@@ -31,7 +31,7 @@ void plan_aside(Desk& desk, const Reading& reading, std::string text, std::strin
     });
 }
 
-Result<json> begin_program(Desk& desk, const json& fields) {
+Result<json> begin_program(PanelContext& desk, const json& fields) {
     const auto &text = fields.at("text").get_ref<const std::string&>(),
                &name = fields.at("name").get_ref<const std::string&>();
     const Reading reading = reading_of(desk);
@@ -42,8 +42,8 @@ Result<json> begin_program(Desk& desk, const json& fields) {
     return json::object();
 }
 
-void check(Desk& desk, const json& fields, Ready ready) {
-    desk.aside(
+void check(PanelContext& desk, const json& fields, Ready ready) {
+    desk.run_async(
         [reading = reading_of(desk), text = fields.at("text").get<std::string>(), name = fields.value("name", ""),
          letters = desk.letters]() -> Result<json> {
             return to_json(plan_program(text, name, reading.settings, reading.accel_reserve), letters);
@@ -52,46 +52,53 @@ void check(Desk& desk, const json& fields, Ready ready) {
 }
 
 constexpr std::array program = {
-    Doer{"begin", [](Desk& desk, const Caller&, const json& fields) { return begin_program(desk, fields); }},
-    Doer{"check", nullptr,
-         [](Desk& desk, const Caller&, const json& fields, Ready ready) { check(desk, fields, std::move(ready)); }},
-    Doer{"line",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             if (const auto read = desk.machine.line(fields.at("text").get_ref<const std::string&>(), 1); !read)
-                 return tl::unexpected<Error>(read.error());
-             return json::object();
-         }},
-    Doer{"hold", [](Desk& desk, const Caller&, const json&) { return taken(desk.machine.hold()); }},
-    Doer{"resume", [](Desk& desk, const Caller&, const json&) { return taken(desk.machine.resume()); }},
-    Doer{"reset",
-         [](Desk& desk, const Caller& caller, const json&) -> Result<json> {
-             desk.machine.reset({caller.user, caller.address, "Reset"});
-             return json::object();
-         }},
-    Doer{"set_overrides",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             const operate::Status& status = desk.machine.status();
-             desk.machine.set_overrides(fields.value("feed", status.feed_override),
-                                        fields.value("rapid", status.rapid_override));
-             return json::object();
-         }},
-    Doer{"set_single_step",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             desk.machine.set_single_step(fields.at("on").get<bool>());
-             return json::object();
-         }},
-    Doer{"acknowledge",
-         [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
-             const auto number = fields.at("alarm").get<std::int64_t>();
-             if (desk.machine.acknowledge(number)) return json::object();
-             return fail(Trouble::bad_input,
-                         fmt::format("There is no alarm {} that is still there. Nothing was changed.", number));
-         }},
+    OperationHandler{"begin",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return begin_program(desk, fields); }},
+    OperationHandler{"check", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         check(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"line",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         if (const auto read = desk.machine.line(fields.at("text").get_ref<const std::string&>(), 1);
+                             !read)
+                             return tl::unexpected<Error>(read.error());
+                         return json::object();
+                     }},
+    OperationHandler{"hold",
+                     [](PanelContext& desk, const Caller&, const json&) { return accepted(desk.machine.hold()); }},
+    OperationHandler{"resume",
+                     [](PanelContext& desk, const Caller&, const json&) { return accepted(desk.machine.resume()); }},
+    OperationHandler{"reset",
+                     [](PanelContext& desk, const Caller& caller, const json&) -> Result<json> {
+                         desk.machine.reset({caller.user, caller.address, "Reset"});
+                         return json::object();
+                     }},
+    OperationHandler{"set_overrides",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         const operate::Status& status = desk.machine.status();
+                         desk.machine.set_overrides(fields.value("feed", status.feed_override),
+                                                    fields.value("rapid", status.rapid_override));
+                         return json::object();
+                     }},
+    OperationHandler{"set_single_step",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         desk.machine.set_single_step(fields.at("on").get<bool>());
+                         return json::object();
+                     }},
+    OperationHandler{"acknowledge",
+                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
+                         const auto number = fields.at("alarm").get<std::int64_t>();
+                         if (desk.machine.acknowledge(number)) return json::object();
+                         return fail(
+                             Trouble::bad_input,
+                             fmt::format("There is no alarm {} that is still there. Nothing was changed.", number));
+                     }},
 };
 
 }  // namespace
 
-std::span<const Doer> program_doers() {
+std::span<const OperationHandler> program_doers() {
     return program;
 }
 

@@ -8,7 +8,7 @@ using nlohmann::json;
 
 namespace {
 
-Result<json> arm(Desk& desk, const json& fields) {
+Result<json> arm(PanelContext& desk, const json& fields) {
     ScopeSettings settings;
     settings.channels = fields.at("channels").get<std::vector<std::string>>();
     settings.trigger = fields.value("trigger", "");
@@ -19,11 +19,11 @@ Result<json> arm(Desk& desk, const json& fields) {
     settings.length = from_seconds(number_of(fields, "length", 0.1));
     settings.pre = from_seconds(number_of(fields, "pre", 0));
     settings.again = mode == "run";
-    return taken(desk.scope.arm(settings));
+    return accepted(desk.scope.arm(settings));
 }
 
 /// The data are written as JSON beside the motion.
-void look(Desk& desk, const json& fields, Ready ready) {
+void look(PanelContext& desk, const json& fields, Ready ready) {
     const ScopeSettings& settings = desk.scope.settings();
     json out = {{"state", name_of(desk.scope.state())},
                 {"channels", settings.channels},
@@ -32,7 +32,7 @@ void look(Desk& desk, const json& fields, Ready ready) {
     const std::shared_ptr<const Capture> capture = desk.scope.capture();
     if (!capture || capture->number <= static_cast<std::int64_t>(number_of(fields, "since", 0)))
         return ready(std::move(out));
-    desk.aside(
+    desk.run_async(
         [out = std::move(out), capture]() mutable -> Result<json> {
             out["capture"] = to_json(*capture);
             return out;
@@ -41,19 +41,22 @@ void look(Desk& desk, const json& fields, Ready ready) {
 }
 
 constexpr std::array scope_rows = {
-    Doer{"scope_arm", [](Desk& desk, const Caller&, const json& fields) { return arm(desk, fields); }},
-    Doer{"scope_stop",
-         [](Desk& desk, const Caller&, const json&) -> Result<json> {
-             desk.scope.stop();
-             return json::object();
-         }},
-    Doer{"scope", nullptr,
-         [](Desk& desk, const Caller&, const json& fields, Ready ready) { look(desk, fields, std::move(ready)); }},
+    OperationHandler{"scope_arm",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return arm(desk, fields); }},
+    OperationHandler{"scope_stop",
+                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
+                         desk.scope.stop();
+                         return json::object();
+                     }},
+    OperationHandler{"scope", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         look(desk, fields, std::move(ready));
+                     }},
 };
 
 }  // namespace
 
-std::span<const Doer> scope_doers() {
+std::span<const OperationHandler> scope_doers() {
     return scope_rows;
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t longest_arguments = 400;
 
 }  // namespace
 
-const std::string& Picture::status_text() const {
+const std::string& StatusSnapshot::status_text() const {
     std::call_once(written_, [this] { text_ = write_(status_); });
     return text_;
 }
@@ -41,11 +41,12 @@ class Panel::Inside {
                        desk_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
                    }),
           loss_(desk_) {
-        for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), card_doers(),
-                                                  library_doers(), scope_doers(), mark_doers(), looking_doers()})
-            for (const Doer& doer : table) doers_[doer.name] = &doer;
-        for (const std::span<const AskRow> table : {orders(), queries()})
-            for (const AskRow& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
+        for (const std::span<const OperationHandler> table :
+             {control_doers(), motion_doers(), program_doers(), card_doers(), library_doers(), scope_doers(),
+              mark_doers(), looking_doers()})
+            for (const OperationHandler& doer : table) doers_[doer.name] = &doer;
+        for (const std::span<const OperationSpec> table : {commands(), queries()})
+            for (const OperationSpec& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
         machine.listen([this](const operate::Status& status) { look(status); },
                        [this](const operate::StopReport& report) { logbook_.stopped(report); });
         show(machine.status());
@@ -66,12 +67,12 @@ class Panel::Inside {
         show(status);
     }
 
-    void carry_out(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply) {
+    void carry_out(const OperationSpec& row, const Caller& caller, const json& fields, const Reply& reply) {
         if (row.lease)
             if (const Result<void> held = desk_.lease.check(caller.session); !held)
                 return reply(error_answer(held.error()));
         if (const Result<void> may = loss_.may(row); !may) return reply(error_answer(may.error()));
-        const Doer& doer = *doers_.at(row.name);
+        const OperationHandler& doer = *doers_.at(row.name);
         const auto ready = [this, &row, caller, fields, reply](Result<json> result) {
             finish(row, caller, fields, reply, std::move(result));
         };
@@ -79,7 +80,7 @@ class Panel::Inside {
         ready(doer.now(desk_, caller, fields));
     }
 
-    Desk& desk() { return desk_; }
+    PanelContext& desk() { return desk_; }
 
   private:
     /// A service ends with the control of the session that began it.
@@ -92,7 +93,7 @@ class Panel::Inside {
     }
 
     void show(const operate::Status& status) {
-        std::atomic_store(&panel_.picture_, std::make_shared<const Picture>(status, writer_.writer(desk_)));
+        std::atomic_store(&panel_.picture_, std::make_shared<const StatusSnapshot>(status, writer_.writer(desk_)));
         desk_.channels.show(status.sequence, status.at);
     }
 
@@ -115,7 +116,8 @@ class Panel::Inside {
     }
 
     /// Orders that were done are events; the answer waits for the journal.
-    void finish(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply, Result<json> result) {
+    void finish(const OperationSpec& row, const Caller& caller, const json& fields, const Reply& reply,
+                Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
         Answer answer = done(std::move(*result));
         const bool told = row.role != authority::Role::observe && !row.passing && !answer.body.value("again", false);
@@ -146,7 +148,7 @@ class Panel::Inside {
         }
     }
 
-    static std::string sentence(const AskRow& row, const Caller& caller, const json& fields) {
+    static std::string sentence(const OperationSpec& row, const Caller& caller, const json& fields) {
         std::string out = fmt::format("{}: {}", caller.user.empty() ? "somebody" : caller.user, row.name);
         for (const auto& [name, value] : fields.items()) {
             std::string shown = text_of(value);
@@ -159,18 +161,18 @@ class Panel::Inside {
 
     /// An order that was carried out; `safe` hears when it is in the journal.
     struct Taken {
-        const AskRow* row;
+        const OperationSpec* row;
         Caller caller;
         json fields;
         journal::Journal::Done safe;
     };
 
     Panel& panel_;
-    Desk desk_;
+    PanelContext desk_;
     StatusWriter writer_;
     operate::JournalWriter logbook_;
     RecordLoss loss_;
-    std::map<std::string_view, const Doer*> doers_;
+    std::map<std::string_view, const OperationHandler*> doers_;
     std::vector<Taken> taken_;
     std::chrono::steady_clock::time_point shown_{}, looked_{};
     std::uint64_t told_ = 0;
@@ -182,7 +184,7 @@ Panel::Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSet
 Panel::~Panel() = default;
 
 void Panel::ask(const Caller& caller, std::string_view name, const json& fields, std::function<void(Answer)> reply) {
-    const AskRow* row = find_row(name);
+    const OperationSpec* row = find_row(name);
     if (row == nullptr)
         return reply(
             refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));

@@ -81,7 +81,7 @@ class Panel {
     /// bad_input, unknown names or more than most_channels.
     void subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready);
     /// The newest picture of the machine; never nullptr.
-    std::shared_ptr<const Picture> picture() const { return std::atomic_load(&picture_); }
+    std::shared_ptr<const StatusSnapshot> picture() const { return std::atomic_load(&picture_); }
     /// Everybody who is to hear of events; `call` is called on the motion thread and must not wait. Before
     /// Machine::run.
     void on_event(std::function<void(const Event&)> call);
@@ -91,7 +91,7 @@ class Panel {
 
   private:
     class Inside;
-    std::shared_ptr<const Picture> picture_;
+    std::shared_ptr<const StatusSnapshot> picture_;
     std::unique_ptr<Inside> inside_;  // last: it shows pictures from its begin to its end
 };
 

@@ -14,10 +14,10 @@
 namespace motionrack::panel {
 
 /// The machine at one instant.
-class Picture {
+class StatusSnapshot {
   public:
     /// `write` makes the JSON text; it must not look at anything that changes.
-    Picture(operate::Status status, std::function<std::string(const operate::Status&)> write)
+    StatusSnapshot(operate::Status status, std::function<std::string(const operate::Status&)> write)
         : status_(std::move(status)), write_(std::move(write)) {}
 
     std::int64_t sequence() const { return status_.sequence; }

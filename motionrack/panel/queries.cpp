@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-Result<json> channels_of(Desk& desk) {
+Result<json> channels_of(PanelContext& desk) {
     json list = json::array();
     for (const auto& [name, channel] : desk.channels.all())
         list.push_back(
@@ -21,20 +21,20 @@ Result<json> channels_of(Desk& desk) {
     return json{{"channels", std::move(list)}};
 }
 
-Result<json> rack_of(Desk& desk) {
+Result<json> rack_of(PanelContext& desk) {
     json out = desk.facts;
     out["text"] = desk.settings.rack_text;
     return out;
 }
 
-Result<json> card_of(Desk& desk, const json& fields) {
+Result<json> card_of(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(rack::Card * card,
                    rack::card_named(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
     return card_now(desk.machine, *card);
 }
 
 /// Planned and driven, as JSON.
-json path_json(const ProgramPlan* plan, const std::vector<DrivenPath::Driven>& driven, const std::string& letters,
+json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoint>& driven, const std::string& letters,
                std::int64_t number) {
     json out = plan != nullptr ? to_json(*plan, letters) : json::object();
     out["number"] = number;
@@ -42,7 +42,7 @@ json path_json(const ProgramPlan* plan, const std::vector<DrivenPath::Driven>& d
     if (plan != nullptr) out["planned"] = std::move(out["path"]);
     out.erase("path");
     json places = json::array(), errors = json::array();
-    for (const DrivenPath::Driven& point : driven) {
+    for (const ActualPath::ActualPoint& point : driven) {
         json place = place_json(point.place, letters);
         place.insert(place.begin(), to_seconds(point.at));
         places.push_back(std::move(place));
@@ -54,27 +54,27 @@ json path_json(const ProgramPlan* plan, const std::vector<DrivenPath::Driven>& d
 }
 
 /// Written beside the motion. `have`: number of the plan that is known; `since`: only what was driven later.
-void write_path(Desk& desk, const json& fields, Ready ready) {
+void write_path(PanelContext& desk, const json& fields, Ready ready) {
     const Instant since = from_seconds(number_of(fields, "since", -1));
-    std::vector<DrivenPath::Driven> driven;
-    for (const DrivenPath::Driven& point : desk.driven.points())
+    std::vector<ActualPath::ActualPoint> driven;
+    for (const ActualPath::ActualPoint& point : desk.driven.points())
         if (point.at > since) driven.push_back(point);
     const auto plan = desk.programs == static_cast<std::int64_t>(number_of(fields, "have", 0)) ? nullptr : desk.plan;
-    desk.aside([plan, driven = std::move(driven), letters = desk.letters, number = desk.plan ? desk.programs : 0]()
-                   -> Result<json> { return path_json(plan.get(), driven, letters, number); },
-               std::move(ready));
+    desk.run_async([plan, driven = std::move(driven), letters = desk.letters, number = desk.plan ? desk.programs : 0]()
+                       -> Result<json> { return path_json(plan.get(), driven, letters, number); },
+                   std::move(ready));
 }
 
 /// Once the worker is through with what came before: the plan of a program that has just begun.
-void path_of(Desk& desk, const json& fields, Ready ready) {
-    desk.aside([]() -> Result<json> { return json(); },
-               [&desk, fields, ready = std::move(ready)](Result<json> through) {
-                   if (!through) return ready(std::move(through));
-                   write_path(desk, fields, ready);
-               });
+void path_of(PanelContext& desk, const json& fields, Ready ready) {
+    desk.run_async([]() -> Result<json> { return json(); },
+                   [&desk, fields, ready = std::move(ready)](Result<json> through) {
+                       if (!through) return ready(std::move(through));
+                       write_path(desk, fields, ready);
+                   });
 }
 
-Result<json> events_of(Desk& desk, const json& fields) {
+Result<json> events_of(PanelContext& desk, const json& fields) {
     const auto since = static_cast<std::int64_t>(number_of(fields, "since", 0));
     const auto limit = static_cast<std::size_t>(number_of(fields, "limit", 200));
     json list = json::array();
@@ -86,11 +86,11 @@ Result<json> events_of(Desk& desk, const json& fields) {
     return json{{"events", std::move(list)}};
 }
 
-void journal_of(Desk& desk, const json& fields, Ready ready) {
+void journal_of(PanelContext& desk, const json& fields, Ready ready) {
     if (desk.settings.journal == nullptr) return ready(fail(Trouble::refused, "No journal is kept."));
     journal::Question question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""),
                                static_cast<int>(number_of(fields, "limit", 100))};
-    desk.aside(
+    desk.run_async(
         [book = desk.settings.journal, question]() -> Result<json> {
             MOTIONRACK_TRY(const std::vector<journal::Entry> entries, book->read(question));
             json list = json::array();
@@ -107,9 +107,9 @@ void journal_of(Desk& desk, const json& fields, Ready ready) {
         std::move(ready));
 }
 
-void journal_check(Desk& desk, const Ready& ready) {
+void journal_check(PanelContext& desk, const Ready& ready) {
     if (desk.settings.journal == nullptr) return ready(fail(Trouble::refused, "No journal is kept."));
-    desk.aside(
+    desk.run_async(
         [book = desk.settings.journal]() -> Result<json> {
             MOTIONRACK_TRY(const journal::ChainCheck check, book->check());
             return json{{"whole", check.problem.empty()}, {"entries", check.entries}, {"problem", check.problem}};
@@ -117,55 +117,60 @@ void journal_check(Desk& desk, const Ready& ready) {
         ready);
 }
 
-Result<json> control_of(Desk& desk) {
+Result<json> control_of(PanelContext& desk) {
     const auto holder = desk.lease.holder();
     if (!holder) return json{{"holder", nullptr}};
     return json{{"holder", holder->user}, {"since", holder->since}, {"holder_session", session_mark(holder->session)}};
 }
 
-Result<json> homing_of(Desk& desk) {
+Result<json> homing_of(PanelContext& desk) {
     const auto& homed = desk.machine.homed();
     return json{{"homing", homed ? json::parse(rack::homing_json(*homed)) : json()}};
 }
 
 constexpr std::array looking = {
-    Doer{"status",
-         [](Desk& desk, const Caller&, const json&) -> Result<json> {
-             const StatusWriter writer(desk.machine);
-             return json{{"status", json::parse(writer.writer(desk)(desk.machine.status()))}};
-         }},
-    Doer{"channels", [](Desk& desk, const Caller&, const json&) { return channels_of(desk); }},
-    Doer{"rack", [](Desk& desk, const Caller&, const json&) { return rack_of(desk); }},
-    Doer{"card", [](Desk& desk, const Caller&, const json& fields) { return card_of(desk, fields); }},
-    Doer{"slopes",
-         [](Desk& desk, const Caller&, const json& fields) {
-             return slopes_now(desk.machine.rack(), fields.at("name").get<std::string>());
-         }},
-    Doer{"frames", [](Desk& desk, const Caller&, const json&) { return frames_now(desk.machine); }},
-    Doer{"workpiece",
-         [](Desk& desk, const Caller&, const json& fields) {
-             return workpiece_now(desk.machine, fields.at("scanner").get<std::string>(),
-                                  static_cast<std::size_t>(number_of(fields, "points", 5000)));
-         }},
-    Doer{"path", nullptr,
-         [](Desk& desk, const Caller&, const json& fields, Ready ready) { path_of(desk, fields, std::move(ready)); }},
-    Doer{"events", [](Desk& desk, const Caller&, const json& fields) { return events_of(desk, fields); }},
-    Doer{
-        "journal", nullptr,
-        [](Desk& desk, const Caller&, const json& fields, Ready ready) { journal_of(desk, fields, std::move(ready)); }},
-    Doer{"journal_check", nullptr,
-         [](Desk& desk, const Caller&, const json&, Ready ready) { journal_check(desk, ready); }},
-    Doer{"program",
-         [](Desk& desk, const Caller&, const json&) -> Result<json> {
-             return json{{"name", desk.machine.status().program}, {"text", desk.program}};
-         }},
-    Doer{"homing", [](Desk& desk, const Caller&, const json&) { return homing_of(desk); }},
-    Doer{"control", [](Desk& desk, const Caller&, const json&) { return control_of(desk); }},
+    OperationHandler{"status",
+                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
+                         const StatusWriter writer(desk.machine);
+                         return json{{"status", json::parse(writer.writer(desk)(desk.machine.status()))}};
+                     }},
+    OperationHandler{"channels", [](PanelContext& desk, const Caller&, const json&) { return channels_of(desk); }},
+    OperationHandler{"rack", [](PanelContext& desk, const Caller&, const json&) { return rack_of(desk); }},
+    OperationHandler{"card",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return card_of(desk, fields); }},
+    OperationHandler{"slopes",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return slopes_now(desk.machine.rack(), fields.at("name").get<std::string>());
+                     }},
+    OperationHandler{"frames", [](PanelContext& desk, const Caller&, const json&) { return frames_now(desk.machine); }},
+    OperationHandler{"workpiece",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return workpiece_now(desk.machine, fields.at("scanner").get<std::string>(),
+                                              static_cast<std::size_t>(number_of(fields, "points", 5000)));
+                     }},
+    OperationHandler{"path", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         path_of(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"events",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return events_of(desk, fields); }},
+    OperationHandler{"journal", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         journal_of(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"journal_check", nullptr,
+                     [](PanelContext& desk, const Caller&, const json&, Ready ready) { journal_check(desk, ready); }},
+    OperationHandler{"program",
+                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
+                         return json{{"name", desk.machine.status().program}, {"text", desk.program}};
+                     }},
+    OperationHandler{"homing", [](PanelContext& desk, const Caller&, const json&) { return homing_of(desk); }},
+    OperationHandler{"control", [](PanelContext& desk, const Caller&, const json&) { return control_of(desk); }},
 };
 
 }  // namespace
 
-std::span<const Doer> looking_doers() {
+std::span<const OperationHandler> looking_doers() {
     return looking;
 }
 

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 12> taken_without_record = {
     "stop", "hold",   "reset",    "mark_stop",    "press_estop",     "acknowledge",
     "jog",  "jog_by", "jog_stop", "take_control", "release_control", "keep_control"};
 
-bool is_taken_without_record(const AskRow& row) {
+bool is_taken_without_record(const OperationSpec& row) {
     return row.role == authority::Role::observe ||
            std::find(taken_without_record.begin(), taken_without_record.end(), row.name) != taken_without_record.end();
 }
@@ -35,12 +35,12 @@ void RecordLoss::look() {
         if (rtc5::Card* marks = rack::rtc5_card_of(rack, card->name())) marks->engine().set_control_mode(0);
 }
 
-Result<void> RecordLoss::may(const AskRow& row) const {
+Result<void> RecordLoss::may(const OperationSpec& row) const {
     if (!lost_ || is_taken_without_record(row)) return {};
     return desk_.machine.may_start(std::string(row.name).c_str());
 }
 
-Answer RecordLoss::answer(const AskRow& row, Answer answer, const Result<std::int64_t>& kept) {
+Answer RecordLoss::answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept) {
     if (kept) return answer;
     if (is_taken_without_record(row)) {
         answer.body["unrecorded"] = kept.error().message;

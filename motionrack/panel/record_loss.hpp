@@ -7,17 +7,17 @@ namespace motionrack::panel {
 
 class RecordLoss {
   public:
-    explicit RecordLoss(Desk& desk) : desk_(desk) {}
+    explicit RecordLoss(PanelContext& desk) : desk_(desk) {}
     /// Every slice. The first time that the journal has failed: holds the machine, raises its alarm, and lets no card
     /// begin a list by itself.
     void look();
     /// Errors: refused. What looks, stops, lets go or jogs is taken although it is not recorded.
-    Result<void> may(const AskRow& row) const;
+    Result<void> may(const OperationSpec& row) const;
     /// The answer to an order that was taken, whose entry in the journal is `kept`.
-    static Answer answer(const AskRow& row, Answer answer, const Result<std::int64_t>& kept);
+    static Answer answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept);
 
   private:
-    Desk& desk_;
+    PanelContext& desk_;
     bool lost_ = false;
 };
 

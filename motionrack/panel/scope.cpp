@@ -43,7 +43,7 @@ class Scope::Sink final : public rack::WaveSink {
     std::vector<rack::WaveSignal> signals_;
 };
 
-Scope::Scope(operate::Machine& machine, ChannelBook& channels) : machine_(machine), book_(channels) {}
+Scope::Scope(operate::Machine& machine, ChannelRegistry& channels) : machine_(machine), book_(channels) {}
 
 Scope::~Scope() {
     detach();
@@ -64,7 +64,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
             return fail(Trouble::bad_input,
                         fmt::format("There is no channel {}; the query channels lists those that there are.",
                                     rack::in_quotes(settings.channels[i])));
-        if (channel->looks == ChannelLooks::edges)
+        if (channel->looks == ChannelReader::edges)
             wires.push_back(channel->name);
         else
             numbers.push_back({channel, i, 0});
@@ -125,7 +125,7 @@ void Scope::begin_numbers() {
 void Scope::sample(Instant) {
     double* row = &samples_[static_cast<std::size_t>(written_ % rows_) * numbers_.size()];
     for (const Number& number : numbers_)
-        *row++ = number.channel->looks == ChannelLooks::anytime ? number.channel->read() : number.slow;
+        *row++ = number.channel->looks == ChannelReader::anytime ? number.channel->read() : number.slow;
     ++written_;
 }
 
@@ -197,7 +197,7 @@ void Scope::slice(Instant now) {
     if (state_ != ScopeState::armed && state_ != ScopeState::triggered) return;
     if (recorder_) recorder_->drain();
     for (Number& number : numbers_)
-        if (number.channel->looks != ChannelLooks::anytime) number.slow = number.channel->read();
+        if (number.channel->looks != ChannelReader::anytime) number.slow = number.channel->read();
     if (state_ == ScopeState::armed) {
         look_for_trigger();
         if (trigger_place_ == nowhere && now - armed_at_ >= settings_.pre) {
@@ -221,7 +221,7 @@ void Scope::finish() {
     for (std::size_t i = 0; i < settings_.channels.size(); ++i) {
         const Channel* channel = book_.find(settings_.channels[i]);
         capture->traces.push_back(
-            {channel->name, channel->unit, channel->looks == ChannelLooks::edges, base_[i], {}, {}});
+            {channel->name, channel->unit, channel->looks == ChannelReader::edges, base_[i], {}, {}});
     }
     for (const Edge& edge : edges_) {
         if (edge.at > to) break;

@@ -58,7 +58,7 @@ class Scope {
   public:
     static constexpr std::size_t most_channels = 16, most_samples = 20'000, most_edges = 100'000;
 
-    Scope(operate::Machine& machine, ChannelBook& channels);
+    Scope(operate::Machine& machine, ChannelRegistry& channels);
     ~Scope();
 
     /// Errors: bad_input, a channel that there is not, a trigger that is no channel of it; refused, too many samples.
@@ -101,7 +101,7 @@ class Scope {
     }
 
     operate::Machine& machine_;
-    ChannelBook& book_;
+    ChannelRegistry& book_;
     ScopeSettings settings_;
     ScopeState state_ = ScopeState::idle;
     std::unique_ptr<rack::WaveRecorder> recorder_;

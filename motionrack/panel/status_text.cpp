@@ -117,7 +117,7 @@ StatusWriter::StatusWriter(operate::Machine& machine) {
     facts_ = std::move(facts);
 }
 
-std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& desk) const {
+std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelContext& desk) const {
     auto noted = std::make_shared<Noted>();
     for (const Facts::Axis& axis : facts_->axes) {
         auto& leds = noted->leds.emplace_back();

@@ -8,13 +8,13 @@
 
 namespace motionrack::panel {
 
-struct Desk;
+struct PanelContext;
 
 class StatusWriter {
   public:
     explicit StatusWriter(operate::Machine& machine);
     /// Notes on the motion thread what only that may look at; gives what makes the text, in any thread.
-    std::function<std::string(const operate::Status&)> writer(Desk& desk) const;
+    std::function<std::string(const operate::Status&)> writer(PanelContext& desk) const;
 
   private:
     struct Facts;

@@ -11,36 +11,37 @@ using authority::Role;
 
 constexpr double far = 1e6, longest_text = 8 << 20;
 
-constexpr FieldRow number(std::string_view name, double least, double greatest, std::string_view unit,
-                          std::string_view text, bool required = true) {
+constexpr FieldSpec number(std::string_view name, double least, double greatest, std::string_view unit,
+                           std::string_view text, bool required = true) {
     return {name, FieldType::number, required, least, greatest, unit, {}, text};
 }
-constexpr FieldRow integer(std::string_view name, double least, double greatest, std::string_view text,
-                           bool required = true) {
+constexpr FieldSpec integer(std::string_view name, double least, double greatest, std::string_view text,
+                            bool required = true) {
     return {name, FieldType::integer, required, least, greatest, {}, {}, text};
 }
-constexpr FieldRow text(std::string_view name, double longest, std::string_view about, bool required = true) {
+constexpr FieldSpec text(std::string_view name, double longest, std::string_view about, bool required = true) {
     return {name, FieldType::text, required, 0, longest, {}, {}, about};
 }
-constexpr FieldRow choice(std::string_view name, std::string_view words, std::string_view about, bool required = true) {
+constexpr FieldSpec choice(std::string_view name, std::string_view words, std::string_view about,
+                           bool required = true) {
     return {name, FieldType::choice, required, 0, 0, {}, words, about};
 }
-constexpr FieldRow flag(std::string_view name, std::string_view about, bool required = true) {
+constexpr FieldSpec flag(std::string_view name, std::string_view about, bool required = true) {
     return {name, FieldType::flag, required, 0, 0, {}, {}, about};
 }
-constexpr FieldRow texts(std::string_view name, double most, std::string_view about, bool required = true) {
+constexpr FieldSpec texts(std::string_view name, double most, std::string_view about, bool required = true) {
     return {name, FieldType::texts, required, 0, most, {}, {}, about};
 }
 
-constexpr FieldRow numbers(std::string_view name, double most, std::string_view about, bool required = true) {
+constexpr FieldSpec numbers(std::string_view name, double most, std::string_view about, bool required = true) {
     return {name, FieldType::numbers, required, 0, most, {}, {}, about};
 }
 
-constexpr FieldRow axis = text("axis", 1, "letter of an axis");
-constexpr FieldRow card_name = text("card", 32, "name of a card of the rack");
-constexpr FieldRow sequence = integer(
+constexpr FieldSpec axis = text("axis", 1, "letter of an axis");
+constexpr FieldSpec card_name = text("card", 32, "name of a card of the rack");
+constexpr FieldSpec sequence = integer(
     "sequence", 1, 9e15, "grows with each jog and jog_stop of a connection or token; an older one is refused", false);
-constexpr FieldRow speed = number("speed", 0, far, "mm/s or degrees/s", "above 0, at most the axis' greatest");
+constexpr FieldSpec speed = number("speed", 0, far, "mm/s or degrees/s", "above 0, at most the axis' greatest");
 
 constexpr std::array take_control_fields = {
     flag("force", "take it from another holder; only while the machine stands", false)};
@@ -70,15 +71,15 @@ constexpr std::array clock_fields = {
     number("factor", 0.001, 1000, "", "seconds of the rack for a second; mode real", false)};
 constexpr std::array step_clock_fields = {number("seconds", 1e-10, 3600, "s", "of the rack's time")};
 constexpr std::array wire_fields = {text("name", 80, "CARD.PIN, NAME.END or estop"),
-                                    FieldRow{"value",
-                                             FieldType::number,
-                                             true,
-                                             -100,
-                                             4294967295.0,
-                                             "V on analog pins",
-                                             {},
-                                             "0 or 1; null releases it",
-                                             true}};
+                                    FieldSpec{"value",
+                                              FieldType::number,
+                                              true,
+                                              -100,
+                                              4294967295.0,
+                                              "V on analog pins",
+                                              {},
+                                              "0 or 1; null releases it",
+                                              true}};
 constexpr std::array fault_fields = {text("target", 32, "an axis, a stage, a belt, a table or a card"),
                                      text("fault", 80, "NAME or NAME=VALUE; NAME=0 mends it")};
 constexpr std::array estop_fields = {flag("pressed", "the simulated emergency stop button")};
@@ -125,142 +126,150 @@ constexpr std::array invite_fields = {choice("role", "observe|operate|maintain",
 constexpr std::array unpair_fields = {text("user", 64, "whose tokens are void from now on")};
 
 constexpr std::array order_rows = {
-    AskRow{"take_control", Role::operate, false, take_control_fields,
-           "Takes the control lease, which ends 10 s after the last sign of its session."},
-    AskRow{"release_control", Role::operate, false, {}, "Gives the control lease back."},
-    AskRow{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
-    AskRow{
+    OperationSpec{"take_control", Role::operate, false, take_control_fields,
+                  "Takes the control lease, which ends 10 s after the last sign of its session."},
+    OperationSpec{"release_control", Role::operate, false, {}, "Gives the control lease back."},
+    OperationSpec{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
+    OperationSpec{
         "stop",
         Role::nobody,
         false,
         {},
         "Stops whatever moves, puts out lasers, and forgets programs and lines; a reset ends it, and another's control "
         "ends with it. Never refused."},
-    AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
-    AskRow{"home", Role::operate, true, home_fields, "Searches home."},
-    AskRow{
+    OperationSpec{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
+    OperationSpec{"home", Role::operate, true, home_fields, "Searches home."},
+    OperationSpec{
         "jog", Role::operate, true, jog_fields,
         "Jogs for as long as it is asked again within 250 ms of real time, and to the end of the travel at most; ends "
         "with the connection that asked."},
-    AskRow{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},
-    AskRow{"jog_stop", Role::operate, true, jog_stop_fields, "Ends all jogs; a program goes on."},
-    AskRow{"declare_position", Role::operate, true, declare_fields,
-           "Says where an axis stands; its position is trusted then."},
-    AskRow{"set_work_zero", Role::operate, true, work_zero_fields,
-           "Touches off: moves the zero of the active work coordinates."},
-    AskRow{"begin", Role::operate, true, begin_fields, "Checks a program whole and begins it."},
-    AskRow{"line", Role::operate, true, line_fields, "Drives one line of G-code, behind those that are there."},
-    AskRow{"hold", Role::operate, false, {}, "Decelerates along the path; resume goes on."},
-    AskRow{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single step."},
-    AskRow{"reset",
-           Role::operate,
-           true,
-           {},
-           "Ends an error stop and moves nothing; programs and modes are forgotten, work zero and positions stay."},
-    AskRow{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", ""},
-    AskRow{"set_single_step", Role::operate, true, step_fields, "Pauses after each line, or no longer."},
-    AskRow{"acknowledge", Role::operate, false, acknowledge_fields, "Says that an alarm was seen."},
-    AskRow{"set_clock", Role::maintain, true, clock_fields, "Changes how fast the rack's time goes."},
-    AskRow{"step_clock", Role::maintain, true, step_clock_fields, "Lets so much time go by while the clock is paused."},
-    AskRow{"set_wire", Role::maintain, true, wire_fields, "Drives a wire by hand until it is released."},
-    AskRow{"inject_fault", Role::maintain, true, fault_fields, "Breaks something on purpose, or mends it."},
-    AskRow{"press_estop", Role::operate, false, estop_fields, "Presses or releases the simulated emergency stop."},
-    AskRow{"write_register", Role::maintain, true, write_fields,
-           "Writes to a card through its bus, while the machine stands; to one that only measures at any time."},
-    AskRow{"read_register", Role::maintain, true, read_fields,
-           "Reads from a card through its bus, with all effects that reading has, while the machine stands; from one "
-           "that only measures at any time.",
-           "value"},
-    AskRow{
+    OperationSpec{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},
+    OperationSpec{"jog_stop", Role::operate, true, jog_stop_fields, "Ends all jogs; a program goes on."},
+    OperationSpec{"declare_position", Role::operate, true, declare_fields,
+                  "Says where an axis stands; its position is trusted then."},
+    OperationSpec{"set_work_zero", Role::operate, true, work_zero_fields,
+                  "Touches off: moves the zero of the active work coordinates."},
+    OperationSpec{"begin", Role::operate, true, begin_fields, "Checks a program whole and begins it."},
+    OperationSpec{"line", Role::operate, true, line_fields, "Drives one line of G-code, behind those that are there."},
+    OperationSpec{"hold", Role::operate, false, {}, "Decelerates along the path; resume goes on."},
+    OperationSpec{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single step."},
+    OperationSpec{
+        "reset",
+        Role::operate,
+        true,
+        {},
+        "Ends an error stop and moves nothing; programs and modes are forgotten, work zero and positions stay."},
+    OperationSpec{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", ""},
+    OperationSpec{"set_single_step", Role::operate, true, step_fields, "Pauses after each line, or no longer."},
+    OperationSpec{"acknowledge", Role::operate, false, acknowledge_fields, "Says that an alarm was seen."},
+    OperationSpec{"set_clock", Role::maintain, true, clock_fields, "Changes how fast the rack's time goes."},
+    OperationSpec{"step_clock", Role::maintain, true, step_clock_fields,
+                  "Lets so much time go by while the clock is paused."},
+    OperationSpec{"set_wire", Role::maintain, true, wire_fields, "Drives a wire by hand until it is released."},
+    OperationSpec{"inject_fault", Role::maintain, true, fault_fields, "Breaks something on purpose, or mends it."},
+    OperationSpec{"press_estop", Role::operate, false, estop_fields,
+                  "Presses or releases the simulated emergency stop."},
+    OperationSpec{"write_register", Role::maintain, true, write_fields,
+                  "Writes to a card through its bus, while the machine stands; to one that only measures at any time."},
+    OperationSpec{
+        "read_register", Role::maintain, true, read_fields,
+        "Reads from a card through its bus, with all effects that reading has, while the machine stands; from one "
+        "that only measures at any time.",
+        "value"},
+    OperationSpec{
         "service", Role::maintain, true, service_fields,
         "Takes a card out of the controller's hands, so that its library's functions can be called, or gives it back; "
         "its positions are not trusted then. Begins while the machine stands; its session must keep control.",
         "text"},
-    AskRow{
+    OperationSpec{
         "call", Role::maintain, true, call_fields,
         "Calls a function of a card's library and waits until it has ended; of a card that the controller drives, in "
         "its service.",
         "text, value (the returned number)"},
-    AskRow{"check", Role::observe, false, check_fields_,
-           "Reads and plans a program as if it began here; nothing moves.",
-           "ok, problems, lines, moves, seconds, length_mm, least, greatest, axes, path"},
-    AskRow{"scope_arm", Role::operate, false, arm_fields, "Arms the scope.", ""},
-    AskRow{"scope_stop", Role::operate, false, {}, "Disarms the scope.", ""},
-    AskRow{"mark", Role::operate, true, mark_fields, "Marks with a laser card of the rack while the rack runs.",
-           "commands, notes"},
-    AskRow{"mark_stop", Role::operate, true, mark_stop_fields,
-           "Ends what a laser card marks, and takes no further starts.", ""},
-    AskRow{"start_part", Role::operate, true, start_part_fields,
-           "Lets a belt, a table or a stage go on that a stop has brought to rest, after the reset.", ""},
-    AskRow{"invite", Role::maintain, false, invite_fields, "Makes a code with which somebody can be paired.", "code",
-           true},
-    AskRow{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true},
+    OperationSpec{"check", Role::observe, false, check_fields_,
+                  "Reads and plans a program as if it began here; nothing moves.",
+                  "ok, problems, lines, moves, seconds, length_mm, least, greatest, axes, path"},
+    OperationSpec{"scope_arm", Role::operate, false, arm_fields, "Arms the scope.", ""},
+    OperationSpec{"scope_stop", Role::operate, false, {}, "Disarms the scope.", ""},
+    OperationSpec{"mark", Role::operate, true, mark_fields, "Marks with a laser card of the rack while the rack runs.",
+                  "orders, notes"},
+    OperationSpec{"mark_stop", Role::operate, true, mark_stop_fields,
+                  "Ends what a laser card marks, and takes no further starts.", ""},
+    OperationSpec{"start_part", Role::operate, true, start_part_fields,
+                  "Lets a belt, a table or a stage go on that a stop has brought to rest, after the reset.", ""},
+    OperationSpec{"invite", Role::maintain, false, invite_fields, "Makes a code with which somebody can be paired.",
+                  "code", true},
+    OperationSpec{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true},
 };
 
 constexpr std::array query_rows = {
-    AskRow{"status", Role::observe, false, {}, "The machine at this moment.", "status"},
-    AskRow{"rack",
-           Role::observe,
-           false,
-           {},
-           "What the rack is made of; it does not change while it runs.",
-           "name, text, axes, cards, parts, stages, tracks, scanners, joined, wires, faults"},
-    AskRow{
+    OperationSpec{"status", Role::observe, false, {}, "The machine at this moment.", "status"},
+    OperationSpec{"rack",
+                  Role::observe,
+                  false,
+                  {},
+                  "What the rack is made of; it does not change while it runs.",
+                  "name, text, axes, cards, parts, stages, tracks, scanners, joined, wires, faults"},
+    OperationSpec{
         "card", Role::observe, false, name_fields,
         "Registers, fields, values and pins of a card at this moment, by peek, so that looking disturbs nothing; of a "
         "real card, as its service has read them last.",
         "registers, values, quantities, pins, why (a real card shows none)"},
-    AskRow{"slopes", Role::observe, false, name_fields, "The slope table of a DataBoard 4002: speed over distance.",
-           "slopes: name, points (counts, Hz); position, rate, hz, moving"},
-    AskRow{"library", Role::observe, false, name_fields, "The functions of a card's library, with their arguments.",
-           "functions: name, group, meaning, arguments (name, least, greatest, unit, meaning, start, values, sum), "
-           "returns, waits, own"},
-    AskRow{"frames",
-           Role::observe,
-           false,
-           {},
-           "What the cards of the grating bus hold, and whether they agree.",
-           "buses: cards with frame, age, skew, positions, agreement; stages: name, unit, position, speed, stopped"},
-    AskRow{"workpiece", Role::observe, false, workpiece_fields, "What a scan head has marked.",
-           "marks, field, beam, laser, marked_mm, energy_j, part"},
-    AskRow{"channels",
-           Role::observe,
-           false,
-           {},
-           "All channels that can be looked at.",
-           "channels: name, unit, text, looks"},
-    AskRow{"path", Role::observe, false, path_fields,
-           "The path that the program plans, and where the machine really was.",
-           "axes, number, planned, driven (time first), errors (commanded - actual at each)"},
-    AskRow{"scope", Role::observe, false, scope_fields, "The scope, with its last capture.",
-           "state, channels, trigger, mode, capture"},
-    AskRow{"events", Role::observe, false, event_fields, "What happened since the start.", "events"},
-    AskRow{"journal", Role::observe, false, journal_fields, "What happened, over all runs.", "journal"},
-    AskRow{"journal_check",
-           Role::observe,
-           false,
-           {},
-           "Reads the whole journal, and tells whether all entries are as they were written.",
-           "whole, entries, problem (the first entry that was changed or removed)"},
-    AskRow{"program", Role::observe, false, {}, "The program that was begun last.", "name, text"},
-    AskRow{"homing", Role::observe, false, {}, "How the last homing went.", "homing: the report of each axis, or null"},
-    AskRow{"control", Role::observe, false, {}, "Who controls the machine.", "holder, since, holder_session"},
-    AskRow{"users", Role::maintain, false, {}, "Who is paired.", "users", true},
+    OperationSpec{"slopes", Role::observe, false, name_fields,
+                  "The slope table of a DataBoard 4002: speed over distance.",
+                  "slopes: name, points (counts, Hz); position, rate, hz, moving"},
+    OperationSpec{
+        "library", Role::observe, false, name_fields, "The functions of a card's library, with their arguments.",
+        "functions: name, group, meaning, arguments (name, least, greatest, unit, meaning, start, values, sum), "
+        "returns, waits, own"},
+    OperationSpec{
+        "frames",
+        Role::observe,
+        false,
+        {},
+        "What the cards of the grating bus hold, and whether they agree.",
+        "buses: cards with frame, age, skew, positions, agreement; stages: name, unit, position, speed, stopped"},
+    OperationSpec{"workpiece", Role::observe, false, workpiece_fields, "What a scan head has marked.",
+                  "marks, field, beam, laser, marked_mm, energy_j, part"},
+    OperationSpec{"channels",
+                  Role::observe,
+                  false,
+                  {},
+                  "All channels that can be looked at.",
+                  "channels: name, unit, text, looks"},
+    OperationSpec{"path", Role::observe, false, path_fields,
+                  "The path that the program plans, and where the machine really was.",
+                  "axes, number, planned, driven (time first), errors (commanded - actual at each)"},
+    OperationSpec{"scope", Role::observe, false, scope_fields, "The scope, with its last capture.",
+                  "state, channels, trigger, mode, capture"},
+    OperationSpec{"events", Role::observe, false, event_fields, "What happened since the start.", "events"},
+    OperationSpec{"journal", Role::observe, false, journal_fields, "What happened, over all runs.", "journal"},
+    OperationSpec{"journal_check",
+                  Role::observe,
+                  false,
+                  {},
+                  "Reads the whole journal, and tells whether all entries are as they were written.",
+                  "whole, entries, problem (the first entry that was changed or removed)"},
+    OperationSpec{"program", Role::observe, false, {}, "The program that was begun last.", "name, text"},
+    OperationSpec{
+        "homing", Role::observe, false, {}, "How the last homing went.", "homing: the report of each axis, or null"},
+    OperationSpec{"control", Role::observe, false, {}, "Who controls the machine.", "holder, since, holder_session"},
+    OperationSpec{"users", Role::maintain, false, {}, "Who is paired.", "users", true},
 };
 
 }  // namespace
 
-std::span<const AskRow> orders() {
+std::span<const OperationSpec> commands() {
     return order_rows;
 }
-std::span<const AskRow> queries() {
+std::span<const OperationSpec> queries() {
     return query_rows;
 }
 
-const AskRow* find_row(std::string_view name) {
-    for (const std::span<const AskRow> table : {orders(), queries()}) {
+const OperationSpec* find_row(std::string_view name) {
+    for (const std::span<const OperationSpec> table : {commands(), queries()}) {
         const auto found =
-            std::find_if(table.begin(), table.end(), [&](const AskRow& row) { return row.name == name; });
+            std::find_if(table.begin(), table.end(), [&](const OperationSpec& row) { return row.name == name; });
         if (found != table.end()) return &*found;
     }
     return nullptr;

@@ -22,7 +22,7 @@ enum class FieldType : std::uint8_t {
     numbers  ///< an object of whole numbers by their names
 };
 
-struct FieldRow {
+struct FieldSpec {
     std::string_view name;
     FieldType type = FieldType::number;
     bool required = true;
@@ -34,27 +34,27 @@ struct FieldRow {
 };
 
 /// An order or a query.
-struct AskRow {
+struct OperationSpec {
     std::string_view name;
     authority::Role role = authority::Role::observe;
     bool lease = false;  ///< whoever asks must hold the control lease
-    std::span<const FieldRow> fields;
+    std::span<const FieldSpec> fields;
     std::string_view text;        ///< one sentence
     std::string_view gives = {};  ///< members of the answer besides "done"
     bool elsewhere = false;       ///< PanelSettings::elsewhere carries it out
     bool passing = false;         ///< repeated many times a second: no event, no journal
 };
 
-std::span<const AskRow> orders();
-std::span<const AskRow> queries();
+std::span<const OperationSpec> commands();
+std::span<const OperationSpec> queries();
 /// Of both tables; nullptr if there is none.
-const AskRow* find_row(std::string_view name);
+const OperationSpec* find_row(std::string_view name);
 
 /// Errors: bad_input; no object, an unknown, missing or wrong field; a sentence that names it.
-Result<void> check_fields(const AskRow& row, const nlohmann::json& fields);
+Result<void> check_fields(const OperationSpec& row, const nlohmann::json& fields);
 
 /// Fields from a query's texts (HTTP): numbers and flags read as their fields say. Errors: bad_input.
-Result<nlohmann::json> fields_of_texts(const AskRow& row,
+Result<nlohmann::json> fields_of_texts(const OperationSpec& row,
                                        const std::vector<std::pair<std::string, std::string>>& texts);
 
 /// The reference page (Markdown) and the OpenAPI description.

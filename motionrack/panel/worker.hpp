@@ -9,13 +9,13 @@
 
 namespace motionrack::panel {
 
-class Worker {
+class BackgroundWorker {
   public:
     static constexpr std::size_t most_waiting = 32;
 
-    Worker() : thread_([this] { work(); }) {}
+    BackgroundWorker() : thread_([this] { work(); }) {}
     /// What waits is dropped.
-    ~Worker() {
+    ~BackgroundWorker() {
         {
             const std::lock_guard<std::mutex> alone(lock_);
             quit_ = true;
@@ -23,8 +23,8 @@ class Worker {
         news_.notify_one();
         thread_.join();
     }
-    Worker(const Worker&) = delete;
-    Worker& operator=(const Worker&) = delete;
+    BackgroundWorker(const BackgroundWorker&) = delete;
+    BackgroundWorker& operator=(const BackgroundWorker&) = delete;
 
     /// Any thread, never waits. False: too much waits already, and `work` was not taken.
     bool post(std::function<void()> work) {

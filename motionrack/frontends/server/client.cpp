@@ -171,7 +171,7 @@ void Client::subscribe(const Request& request) {
 }
 
 void Client::ask(const Request& request, const std::string& name, bool query) {
-    const panel::AskRow* row = panel::find_row(name);
+    const panel::OperationSpec* row = panel::find_row(name);
     if (row == nullptr || query != is_query(*row))
         return refuse(
             request.id, 404, "bad_input",

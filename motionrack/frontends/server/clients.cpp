@@ -10,7 +10,7 @@ namespace motionrack::server {
 
 namespace {
 
-std::string encoded(const panel::Picture& picture, const panel::Values* values) {
+std::string encoded(const panel::StatusSnapshot& picture, const panel::Values* values) {
     std::string out =
         fmt::format("\"at\":{},\"status\":{},\"values\":[", to_seconds(picture.at()), picture.status_text());
     if (values != nullptr) {
@@ -39,7 +39,7 @@ void Clients::remove(const Client* client) {
 }
 
 std::shared_ptr<const std::string> Clients::encode(const std::shared_ptr<panel::ChannelSet>& set,
-                                                   const std::shared_ptr<const panel::Picture>& picture) {
+                                                   const std::shared_ptr<const panel::StatusSnapshot>& picture) {
     Encoded& kept = encoded_[set.get()];
     const std::shared_ptr<const panel::Values> values = set ? set->newest() : nullptr;
     const bool same_set = set ? kept.set.lock() == set : true;
@@ -50,7 +50,7 @@ std::shared_ptr<const std::string> Clients::encode(const std::shared_ptr<panel::
 
 void Clients::tick() {
     const auto now = service_.now().steady;
-    const std::shared_ptr<const panel::Picture> picture = service_.panel().picture();
+    const std::shared_ptr<const panel::StatusSnapshot> picture = service_.panel().picture();
     const std::vector<std::shared_ptr<Client>> clients = clients_;  // one that is let go leaves the list
     for (const std::shared_ptr<Client>& client : clients) {
         client->look_after(now);

@@ -25,12 +25,12 @@ class Clients {
     /// What all who look at one set of channels get, behind their own numbers.
     struct Encoded {
         std::weak_ptr<panel::ChannelSet> set;
-        std::shared_ptr<const panel::Picture> picture;
+        std::shared_ptr<const panel::StatusSnapshot> picture;
         std::shared_ptr<const panel::Values> values;
         std::shared_ptr<const std::string> text;
     };
     std::shared_ptr<const std::string> encode(const std::shared_ptr<panel::ChannelSet>& set,
-                                              const std::shared_ptr<const panel::Picture>& picture);
+                                              const std::shared_ptr<const panel::StatusSnapshot>& picture);
 
     Service& service_;
     std::vector<std::shared_ptr<Client>> clients_;

@@ -52,7 +52,7 @@ std::optional<HttpAnswer> refuse_handshake(const Head& head) {
 
 }  // namespace
 
-bool is_query(const panel::AskRow& row) {
+bool is_query(const panel::OperationSpec& row) {
     const auto queries = panel::queries();
     return &row >= queries.data() && &row < queries.data() + queries.size();
 }
@@ -174,7 +174,7 @@ Admission Service::admit_api(const Head& head, const Target& target) {
                                         query ? "GET" : "POST")),
                  "Allow", query ? "GET" : "POST"));
     const bool long_texts =
-        std::any_of(out.row->fields.begin(), out.row->fields.end(), [&](const panel::FieldRow& field) {
+        std::any_of(out.row->fields.begin(), out.row->fields.end(), [&](const panel::FieldSpec& field) {
             return field.greatest > static_cast<double>(settings_.limits.small_body) / 2;
         });
     out.body_limit = query                             ? 0
@@ -253,7 +253,7 @@ authority::Admitted<authority::Identity> Service::who(const std::string& token, 
 
 // ---- orders and queries
 
-void Service::ask(panel::Caller caller, const std::string& address, const panel::AskRow& row, const json& fields,
+void Service::ask(panel::Caller caller, const std::string& address, const panel::OperationSpec& row, const json& fields,
                   std::function<void(panel::Answer)> reply) {
     // The motion thread answers queries: many connections together must not keep it from its work.
     if (is_query(row) && !requests_.take("queries of " + network_of(address), now().steady))

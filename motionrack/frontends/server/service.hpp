@@ -47,11 +47,11 @@ class Post {
 struct Admission {
     std::optional<HttpAnswer> answer;  ///< all there is to say, and the body does not matter
     std::size_t body_limit = 0;
-    const panel::AskRow* row = nullptr;  ///< nullptr: pairing
+    const panel::OperationSpec* row = nullptr;  ///< nullptr: pairing
     panel::Caller caller;
 };
 
-bool is_query(const panel::AskRow& row);
+bool is_query(const panel::OperationSpec& row);
 
 class Service {
   public:
@@ -68,8 +68,8 @@ class Service {
 
     // ---- WebSocket
     /// Asks the panel; `reply` is called once, on the network thread. Written into the audit unless it is a query.
-    void ask(panel::Caller caller, const std::string& address, const panel::AskRow& row, const nlohmann::json& fields,
-             std::function<void(panel::Answer)> reply);
+    void ask(panel::Caller caller, const std::string& address, const panel::OperationSpec& row,
+             const nlohmann::json& fields, std::function<void(panel::Answer)> reply);
     /// STOP. Never refused, never counted.
     void stop(panel::Caller caller, const std::string& address);
     /// A connection has ended.

@@ -101,7 +101,7 @@ class Asked {
     };
     bool pace(double now) {
         if (!machine || !panel) return true;
-        // Worker and journal answer in the computer's time; an access to a bus needs the rack's.
+        // BackgroundWorker and journal answer in the computer's time; an access to a bus needs the rack's.
         if (open_ == 0) waiting_since_ = std::chrono::steady_clock::now();
         if (open_ > 0 && std::chrono::steady_clock::now() - waiting_since_ < std::chrono::milliseconds(200)) {
             std::this_thread::yield();

@@ -223,8 +223,8 @@ TEST(TheTables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
     const json& api = Panel::openapi();
     const std::string page = api_reference();
     std::set<std::string_view> names;
-    for (const auto table : {orders(), queries()})
-        for (const AskRow& row : table) {
+    for (const auto table : {commands(), queries()})
+        for (const OperationSpec& row : table) {
             EXPECT_TRUE(names.insert(row.name).second) << row.name << " is there twice";
             EXPECT_TRUE(api["paths"].contains("/api/" + std::string(row.name)));
             EXPECT_THAT(page, HasSubstr("### " + std::string(row.name) + "\n"));
@@ -270,13 +270,13 @@ struct Question {
 
 /// Of somebody who does not hold control.
 Question any_question() {
-    std::vector<const AskRow*> rows;
-    for (const auto table : {orders(), queries()})
-        for (const AskRow& row : table)
+    std::vector<const OperationSpec*> rows;
+    for (const auto table : {commands(), queries()})
+        for (const OperationSpec& row : table)
             if (row.name != "take_control" && row.name != "press_estop") rows.push_back(&row);
-    const AskRow& row = **rc::gen::elementOf(rows);
+    const OperationSpec& row = **rc::gen::elementOf(rows);
     Question out{std::string(row.name), json::object()};
-    for (const FieldRow& field : row.fields)
+    for (const FieldSpec& field : row.fields)
         if (*rc::gen::inRange(0, 6) > 0) out.fields[std::string(field.name)] = *any_json();
     if (*rc::gen::inRange(0, 8) == 0) out.fields["more"] = *any_json();
     if (*rc::gen::inRange(0, 20) == 0) out.fields = *any_json();
