@@ -10,8 +10,8 @@ namespace motionrack::authority {
 
 namespace {
 
-tl::unexpected<Denied> deny(Denied::Why why, std::string sentence) {
-    return tl::unexpected<Denied>(Denied{why, std::move(sentence)});
+tl::unexpected<AuthError> deny(AuthError::Why why, std::string sentence) {
+    return tl::unexpected<AuthError>(AuthError{why, std::move(sentence)});
 }
 
 bool may_be_in_a_name(char c) {
@@ -30,13 +30,13 @@ std::string name_problem(std::string_view name) {
     return "";
 }
 
-Doorkeeper::Doorkeeper(DoorkeeperSettings settings)
+Authenticator::Authenticator(AuthSettings settings)
     : settings_(std::move(settings)),
       wrong_(settings_.wrong_at_once, settings_.wrong_per_second),
       all_wrong_(settings_.all_wrong_at_once, settings_.all_wrong_per_second) {}
 
-Result<std::unique_ptr<Doorkeeper>> Doorkeeper::open(DoorkeeperSettings settings) {
-    std::unique_ptr<Doorkeeper> made(new Doorkeeper(std::move(settings)));
+Result<std::unique_ptr<Authenticator>> Authenticator::open(AuthSettings settings) {
+    std::unique_ptr<Authenticator> made(new Authenticator(std::move(settings)));
     MOTIONRACK_CHECK(made->read());
     if (made->settings_.on_start_code) {
         made->start_code_ = random_code();
@@ -45,17 +45,17 @@ Result<std::unique_ptr<Doorkeeper>> Doorkeeper::open(DoorkeeperSettings settings
     return made;
 }
 
-bool Doorkeeper::has(std::string_view name) const {
+bool Authenticator::has(std::string_view name) const {
     return std::any_of(tokens_.begin(), tokens_.end(), [&](const Token& token) { return token.identity.user == name; });
 }
 
-Admitted<Doorkeeper::Paired> Doorkeeper::admit(std::string_view name, Role role, WallTime now) {
+AuthResult<Authenticator::Paired> Authenticator::admit(std::string_view name, Role role, WallTime now) {
     std::vector<Token> before = tokens_;
     std::erase_if(tokens_, [&](const Token& token) { return token.identity.expires <= now; });
     if (tokens_.size() >= settings_.most_tokens) {
         const std::size_t there = tokens_.size();
         tokens_ = std::move(before);
-        return deny(Denied::Why::failed,
+        return deny(AuthError::Why::failed,
                     fmt::format("Not paired: {} devices are paired, which is the most. Unpair somebody first.", there));
     }
     Paired paired;
@@ -69,23 +69,23 @@ Admitted<Doorkeeper::Paired> Doorkeeper::admit(std::string_view name, Role role,
     tokens_.push_back(std::move(token));
     if (const Result<void> written = write(); !written) {
         tokens_ = std::move(before);
-        return deny(Denied::Why::failed, "Not paired: " + written.error().message);
+        return deny(AuthError::Why::failed, "Not paired: " + written.error().message);
     }
     return paired;
 }
 
-Admitted<Doorkeeper::Paired> Doorkeeper::pair(std::string_view code, std::string_view name, std::string_view address,
-                                              Now now) {
+AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std::string_view name,
+                                                      std::string_view address, Now now) {
     const std::lock_guard<std::mutex> alone(lock_);
     if (!wrong_.there_is(address, now.steady) || !all_wrong_.there_is("all", now.steady))
-        return deny(Denied::Why::too_many,
+        return deny(AuthError::Why::too_many,
                     "Too many wrong codes came in. Nothing was tried; wait some seconds and try again.");
     if (const std::string problem = name_problem(name); !problem.empty())
-        return deny(Denied::Why::wrong, "Not paired: " + problem);
+        return deny(AuthError::Why::wrong, "Not paired: " + problem);
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     const std::string plain = plain_code(code), hash = hash_of(plain);
     if (!start_code_.empty() && same_secret(hash, hash_of(plain_code(start_code_)))) {
-        Admitted<Paired> paired = admit(name, Role::maintain, now.wall);
+        AuthResult<Paired> paired = admit(name, Role::maintain, now.wall);
         if (paired) {
             start_code_ = random_code();
             settings_.on_start_code(start_code_);
@@ -98,19 +98,19 @@ Admitted<Doorkeeper::Paired> Doorkeeper::pair(std::string_view code, std::string
         wrong_.take(address, now.steady);
         all_wrong_.take("all", now.steady);
         return deny(
-            Denied::Why::wrong,
+            AuthError::Why::wrong,
             "Not paired: this code is not open. It was mistyped, used already, or its time is over; ask for another.");
     }
     if (has(name))
-        return deny(Denied::Why::wrong,
+        return deny(AuthError::Why::wrong,
                     fmt::format("Not paired: {} is paired already. Choose another name, or have {} unpaired first.",
                                 name, name));
-    Admitted<Paired> paired = admit(name, invitation->role, now.wall);
+    AuthResult<Paired> paired = admit(name, invitation->role, now.wall);
     if (paired) invitations_.erase(invitation);
     return paired;
 }
 
-Result<std::string> Doorkeeper::invite(Role role, Now now) {
+Result<std::string> Authenticator::invite(Role role, Now now) {
     const std::lock_guard<std::mutex> alone(lock_);
     if (role == Role::nobody)
         return fail(Trouble::bad_input, "Nobody was invited: the roles are observe, operate and maintain.");
@@ -125,7 +125,7 @@ Result<std::string> Doorkeeper::invite(Role role, Now now) {
     return code;
 }
 
-Result<void> Doorkeeper::unpair(std::string_view name) {
+Result<void> Authenticator::revoke(std::string_view name) {
     const std::lock_guard<std::mutex> alone(lock_);
     std::vector<Token> before = tokens_;
     if (std::erase_if(tokens_, [&](const Token& token) { return token.identity.user == name; }) == 0)
@@ -135,7 +135,7 @@ Result<void> Doorkeeper::unpair(std::string_view name) {
     return written;
 }
 
-Result<void> Doorkeeper::forget(std::string_view id) {
+Result<void> Authenticator::forget(std::string_view id) {
     const std::lock_guard<std::mutex> alone(lock_);
     std::vector<Token> before = tokens_;
     if (std::erase_if(tokens_, [&](const Token& token) { return token.identity.id == id; }) == 0)
@@ -145,35 +145,35 @@ Result<void> Doorkeeper::forget(std::string_view id) {
     return written;
 }
 
-Admitted<Identity> Doorkeeper::who(std::string_view token, WallTime now) const {
+AuthResult<Identity> Authenticator::authenticate(std::string_view token, WallTime now) const {
     const std::string hash = hash_of(token);
     const std::lock_guard<std::mutex> alone(lock_);
     for (const Token& one : tokens_) {
         if (!same_secret(one.hash, hash)) continue;
         if (one.identity.expires <= now)
-            return deny(Denied::Why::wrong, "The token has expired. Pair again with a new code.");
+            return deny(AuthError::Why::wrong, "The token has expired. Pair again with a new code.");
         return one.identity;
     }
     return deny(
-        Denied::Why::wrong,
+        AuthError::Why::wrong,
         "The token is not known here: it was revoked, or belongs to another machine. Pair again with a new code.");
 }
 
-Role Doorkeeper::role_of(std::string_view id, WallTime now) const {
+Role Authenticator::role_of(std::string_view id, WallTime now) const {
     const std::lock_guard<std::mutex> alone(lock_);
     for (const Token& one : tokens_)
         if (one.identity.id == id) return one.identity.expires <= now ? Role::nobody : one.identity.role;
     return Role::nobody;
 }
 
-std::vector<Identity> Doorkeeper::users() const {
+std::vector<Identity> Authenticator::users() const {
     const std::lock_guard<std::mutex> alone(lock_);
     std::vector<Identity> out;
     for (const Token& one : tokens_) out.push_back(one.identity);
     return out;
 }
 
-std::string Doorkeeper::start_code() const {
+std::string Authenticator::start_code() const {
     const std::lock_guard<std::mutex> alone(lock_);
     return start_code_;
 }

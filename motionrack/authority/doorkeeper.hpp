@@ -31,7 +31,7 @@ struct Now {
     std::chrono::steady_clock::time_point steady;
 };
 
-struct DoorkeeperSettings {
+struct AuthSettings {
     std::filesystem::path users_file = {};  ///< empty: kept in memory only
     std::chrono::minutes invitation_life{10};
     std::chrono::hours token_life{90 * 24};
@@ -51,7 +51,7 @@ struct Identity {
 };
 
 /// Why somebody was not let in.
-struct Denied {
+struct AuthError {
     enum class Why : std::uint8_t {
         wrong,
         too_many,
@@ -60,12 +60,12 @@ struct Denied {
     std::string sentence;
 };
 template <class T>
-using Admitted = tl::expected<T, Denied>;
+using AuthResult = tl::expected<T, AuthError>;
 
-class Doorkeeper {
+class Authenticator {
   public:
     /// Errors: io, bad_input: the users file cannot be read, is not one, or others may write it.
-    static Result<std::unique_ptr<Doorkeeper>> open(DoorkeeperSettings settings);
+    static Result<std::unique_ptr<Authenticator>> open(AuthSettings settings);
 
     struct Paired {
         std::string token;  ///< told this once
@@ -73,15 +73,15 @@ class Doorkeeper {
     };
     /// A code is good for one token. `address` is where the caller comes from: wrong codes are limited for each and for
     /// all. With an invitation only names that are not there yet can be paired.
-    Admitted<Paired> pair(std::string_view code, std::string_view name, std::string_view address, Now now);
+    AuthResult<Paired> pair(std::string_view code, std::string_view name, std::string_view address, Now now);
     /// A code that gives this role once, for ten minutes. Refused: too many are open, role nobody.
     Result<std::string> invite(Role role, Now now);
     /// Forgets all tokens of this name. Refused: there is none.
-    Result<void> unpair(std::string_view name);
+    Result<void> revoke(std::string_view name);
     /// Forgets one token, by its id. Refused: there is none.
     Result<void> forget(std::string_view id);
 
-    Admitted<Identity> who(std::string_view token, WallTime now) const;
+    AuthResult<Identity> authenticate(std::string_view token, WallTime now) const;
     /// Whether the token of this id still holds: role nobody if it was revoked or has expired.
     Role role_of(std::string_view id, WallTime now) const;
     std::vector<Identity> users() const;
@@ -99,13 +99,13 @@ class Doorkeeper {
         Role role;
         std::chrono::steady_clock::time_point expires;
     };
-    explicit Doorkeeper(DoorkeeperSettings settings);
+    explicit Authenticator(AuthSettings settings);
     Result<void> read();
     Result<void> write() const;
-    Admitted<Paired> admit(std::string_view name, Role role, WallTime now);
+    AuthResult<Paired> admit(std::string_view name, Role role, WallTime now);
     bool has(std::string_view name) const;
 
-    DoorkeeperSettings settings_;
+    AuthSettings settings_;
     mutable std::mutex lock_;
     std::vector<Token> tokens_;
     std::vector<Invitation> invitations_;

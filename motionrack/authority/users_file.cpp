@@ -25,7 +25,7 @@ bool is_hash(const std::string& text) {
 
 }  // namespace
 
-Result<void> Doorkeeper::read() {
+Result<void> Authenticator::read() {
     const std::string path = settings_.users_file.string();
     struct stat about {};
     if (path.empty()) return {};
@@ -66,7 +66,7 @@ Result<void> Doorkeeper::read() {
     return {};
 }
 
-Result<void> Doorkeeper::write() const {
+Result<void> Authenticator::write() const {
     if (settings_.users_file.empty()) return {};
     nlohmann::json users = nlohmann::json::array();
     for (const Token& one : tokens_)

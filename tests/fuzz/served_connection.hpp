@@ -39,9 +39,9 @@ class ServedConnection {
             return true;
         };
         machine_ = *operate::Machine::make(config(), std::move(settings));
-        authority::DoorkeeperSettings door;
+        authority::AuthSettings door;
         door.on_start_code = [](const std::string&) {};
-        door_ = *authority::Doorkeeper::open(std::move(door));
+        door_ = *authority::Authenticator::open(std::move(door));
         token_ = door_->pair(door_->start_code(), "anna", "127.0.0.1", now())->token;
         users_ = door_->users().size();
         panel::PanelSettings panel;
@@ -49,7 +49,7 @@ class ServedConnection {
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(panel));
         post_ = std::make_shared<server::Post>(
             [this](std::function<void()> work) { boost::asio::post(*io_, std::move(work)); });
-        hall_ = std::make_shared<server::Hall>(
+        hall_ = std::make_shared<server::ConnectionPool>(
             std::make_shared<server::Service>(server_settings(), *panel_, *door_, lease_, server::Page(), post_));
         history_ = machine_->rack().kernel().trace_hash();
         connect();
@@ -162,11 +162,11 @@ class ServedConnection {
 
     authority::ControlLease lease_;
     std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<authority::Doorkeeper> door_;
+    std::unique_ptr<authority::Authenticator> door_;
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<boost::asio::io_context> io_ = std::make_unique<boost::asio::io_context>(1);
     std::shared_ptr<server::Post> post_;
-    std::shared_ptr<server::Hall> hall_;
+    std::shared_ptr<server::ConnectionPool> hall_;
     std::function<bool()> step_;
     std::chrono::steady_clock::time_point until_;
     std::chrono::nanoseconds passed_ = std::chrono::hours(500'000);  ///< of the clocks that the server sees

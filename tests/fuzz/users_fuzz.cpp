@@ -31,18 +31,18 @@ std::string with_tokens(std::string text) {
     return text;
 }
 
-Result<std::unique_ptr<Doorkeeper>> open() {
-    DoorkeeperSettings settings;
+Result<std::unique_ptr<Authenticator>> open() {
+    AuthSettings settings;
     settings.users_file = file().path();
     settings.on_start_code = [](const std::string&) {};
-    return Doorkeeper::open(std::move(settings));
+    return Authenticator::open(std::move(settings));
 }
 
 WallTime at(std::int64_t seconds) {
     return WallTime(std::chrono::seconds(seconds));
 }
 
-void check_user(const Doorkeeper& door, const Identity& user) {
+void check_user(const Authenticator& door, const Identity& user) {
     require(name_problem(user.user).empty(), "a user has a name", user.user);
     require(user.role != Role::nobody, "a user has a role", user.user);
     require(user.id.size() == 16 && user.id.find_first_not_of("0123456789abcdef") == std::string::npos,
@@ -52,7 +52,7 @@ void check_user(const Doorkeeper& door, const Identity& user) {
 }
 
 /// Nobody knows a token that gives one of the other hashes, nor one whose hash is another's text.
-void check_tokens(const Doorkeeper& door, std::string_view text) {
+void check_tokens(const Authenticator& door, std::string_view text) {
     for (const std::string& wrong :
          {std::string(), std::string("TOKEN"), std::string(64, 'b'), hash_of(known_token()), std::string(64, '\0')})
         require(!door.who(wrong, at(0)), "nobody comes in by a token that was not given out", wrong);
@@ -76,7 +76,7 @@ void check_again(const std::vector<Identity>& users) {
 }
 
 /// Changes the file: a user goes, another one comes.
-void change(Doorkeeper& door) {
+void change(Authenticator& door) {
     const Now now{at(1'000'000), std::chrono::steady_clock::time_point{}};
     const std::vector<Identity> before = door.users();
     if (!before.empty()) {

@@ -26,15 +26,15 @@ class ADoorkeeper : public testing::Test {
         open();
     }
     ~ADoorkeeper() override { fs::remove_all(folder); }
-    void open(DoorkeeperSettings settings = {}) {
+    void open(AuthSettings settings = {}) {
         auto made = try_open(std::move(settings));
         ASSERT_TRUE(made) << made.error().text();
         door = std::move(*made);
     }
-    Result<std::unique_ptr<Doorkeeper>> try_open(DoorkeeperSettings settings = {}) {
+    Result<std::unique_ptr<Authenticator>> try_open(AuthSettings settings = {}) {
         settings.users_file = file();
         settings.on_start_code = [this](const std::string& code) { start_codes.push_back(code); };
-        return Doorkeeper::open(settings);
+        return Authenticator::open(settings);
     }
     fs::path file() const { return folder / "users.json"; }
     std::string text() const {
@@ -53,7 +53,7 @@ class ADoorkeeper : public testing::Test {
     fs::path folder;
     Now now{WallTime(std::chrono::hours(500'000)), {}};
     std::vector<std::string> start_codes;
-    std::unique_ptr<Doorkeeper> door;
+    std::unique_ptr<Authenticator> door;
 };
 
 TEST_F(ADoorkeeper, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
@@ -66,7 +66,7 @@ TEST_F(ADoorkeeper, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
     EXPECT_NE(start_codes[0], start_codes[1]);
     EXPECT_EQ(door->start_code(), start_codes[1]);
     EXPECT_THAT(pair(start_codes[0], "bert").error().sentence, HasSubstr("used already"));
-    const auto who = door->who(anna->token, now.wall);
+    const auto who = door->authenticate(anna->token, now.wall);
     ASSERT_TRUE(who);
     EXPECT_EQ(who->user, "anna");
     EXPECT_EQ(who->id, anna->identity.id);
@@ -103,33 +103,33 @@ TEST_F(ADoorkeeper, PairsATakenNameWithTheStartCodeOnly) {
 }
 
 TEST_F(ADoorkeeper, SlowsWrongCodesDownPerAddressAndForAll) {
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, Denied::Why::wrong);
-    EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().why, Denied::Why::too_many)
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, AuthError::Why::wrong);
+    EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().why, AuthError::Why::too_many)
         << "even a right one is not looked at";
     for (int i = 0; i < 55; ++i)
-        EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.1." + std::to_string(i)).error().why, Denied::Why::wrong);
-    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.2.1").error().why, Denied::Why::too_many);
+        EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.1." + std::to_string(i)).error().why, AuthError::Why::wrong);
+    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.2.1").error().why, AuthError::Why::too_many);
     pass(2s);
-    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, Denied::Why::too_many);
+    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, AuthError::Why::too_many);
     EXPECT_TRUE(pair(start_codes[0], "anna", "10.0.2.1"));
 }
 
 TEST_F(ADoorkeeper, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
     const auto anna = *pair(start_codes[0], "anna");
-    EXPECT_FALSE(door->who("", now.wall));
-    EXPECT_FALSE(door->who(std::string(64, 'a'), now.wall));
-    EXPECT_FALSE(door->who(hash_of(anna.token), now.wall)) << "what stands in the file lets nobody in";
+    EXPECT_FALSE(door->authenticate("", now.wall));
+    EXPECT_FALSE(door->authenticate(std::string(64, 'a'), now.wall));
+    EXPECT_FALSE(door->authenticate(hash_of(anna.token), now.wall)) << "what stands in the file lets nobody in";
     EXPECT_EQ(door->role_of(anna.identity.id, now.wall), Role::maintain);
     pass(90 * 24h - 1s);
-    EXPECT_TRUE(door->who(anna.token, now.wall));
+    EXPECT_TRUE(door->authenticate(anna.token, now.wall));
     pass(1s);
-    EXPECT_THAT(door->who(anna.token, now.wall).error().sentence, HasSubstr("expired"));
+    EXPECT_THAT(door->authenticate(anna.token, now.wall).error().sentence, HasSubstr("expired"));
     EXPECT_EQ(door->role_of(anna.identity.id, now.wall), Role::nobody);
     const auto bert = *pair(start_codes[1], "bert");
-    EXPECT_TRUE(door->unpair("bert"));
-    EXPECT_THAT(door->who(bert.token, now.wall).error().sentence, HasSubstr("revoked"));
+    EXPECT_TRUE(door->revoke("bert"));
+    EXPECT_THAT(door->authenticate(bert.token, now.wall).error().sentence, HasSubstr("revoked"));
     EXPECT_EQ(door->role_of(bert.identity.id, now.wall), Role::nobody);
-    EXPECT_FALSE(door->unpair("bert"));
+    EXPECT_FALSE(door->revoke("bert"));
 }
 
 TEST_F(ADoorkeeper, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
@@ -140,13 +140,13 @@ TEST_F(ADoorkeeper, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
     EXPECT_THAT(text(), HasSubstr(hash_of(anna.token)));
     EXPECT_THAT(text(), testing::Not(HasSubstr(anna.token)));
     open();
-    const auto who = door->who(anna.token, now.wall);
+    const auto who = door->authenticate(anna.token, now.wall);
     ASSERT_TRUE(who);
     EXPECT_EQ(who->role, Role::maintain);
     EXPECT_EQ(who->expires, anna.identity.expires);
-    EXPECT_TRUE(door->unpair("anna"));
+    EXPECT_TRUE(door->revoke("anna"));
     open();
-    EXPECT_FALSE(door->who(anna.token, now.wall));
+    EXPECT_FALSE(door->authenticate(anna.token, now.wall));
 }
 
 TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
@@ -201,9 +201,9 @@ TEST_F(ADoorkeeper, HasKeysCheckedThatOthersMayRead) {
 
 TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
     write("{}");
-    DoorkeeperSettings settings;
+    AuthSettings settings;
     settings.users_file = file() / "users.json";  // in a file, as if it were a folder
-    const auto opened = Doorkeeper::open(settings);
+    const auto opened = Authenticator::open(settings);
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().trouble, Trouble::io);
     EXPECT_THAT(opened.error().message, HasSubstr("Not a directory"));
@@ -214,7 +214,7 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
     fs::remove_all(folder);
     const auto anna = pair(start_codes[0], "anna");
     ASSERT_FALSE(anna);
-    EXPECT_EQ(anna.error().why, Denied::Why::failed);
+    EXPECT_EQ(anna.error().why, AuthError::Why::failed);
     EXPECT_TRUE(door->users().empty());
     fs::create_directories(folder);
     EXPECT_TRUE(pair(start_codes[0], "anna")) << "the code was not used up";
@@ -223,24 +223,24 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
 TEST_F(ADoorkeeper, UnpairsNobodyWhenTheFileCannotBeWritten) {
     const auto anna = *pair(start_codes[0], "anna");
     fs::remove_all(folder);
-    EXPECT_EQ(door->unpair("anna").error().trouble, Trouble::io);
+    EXPECT_EQ(door->revoke("anna").error().trouble, Trouble::io);
     EXPECT_EQ(door->forget(anna.identity.id).error().trouble, Trouble::io);
-    EXPECT_TRUE(door->who(anna.token, now.wall)) << "as the file has it";
+    EXPECT_TRUE(door->authenticate(anna.token, now.wall)) << "as the file has it";
 }
 
 TEST_F(ADoorkeeper, ForgetsOneTokenOfAUser) {
     const auto first = *pair(start_codes[0], "anna"), second = *pair(start_codes[1], "anna");
     EXPECT_FALSE(door->forget("0123"));
     EXPECT_TRUE(door->forget(first.identity.id));
-    EXPECT_FALSE(door->who(first.token, now.wall));
-    EXPECT_TRUE(door->who(second.token, now.wall));
+    EXPECT_FALSE(door->authenticate(first.token, now.wall));
+    EXPECT_TRUE(door->authenticate(second.token, now.wall));
     open();
-    EXPECT_FALSE(door->who(first.token, now.wall));
-    EXPECT_TRUE(door->who(second.token, now.wall));
+    EXPECT_FALSE(door->authenticate(first.token, now.wall));
+    EXPECT_TRUE(door->authenticate(second.token, now.wall));
 }
 
 TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
-    DoorkeeperSettings two;
+    AuthSettings two;
     two.most_tokens = 2;
     open(two);
     ASSERT_TRUE(pair(start_codes.back(), "anna"));
@@ -252,7 +252,7 @@ TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
     EXPECT_TRUE(pair(start_codes.back(), "carl")) << "anna's has expired";
     ASSERT_EQ(door->users().size(), 2u);
     EXPECT_EQ(door->users()[0].user, "bert");
-    DoorkeeperSettings one;
+    AuthSettings one;
     one.most_tokens = 1;
     open(one);
     pass(1h);
@@ -261,7 +261,7 @@ TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
 }
 
 TEST_F(ADoorkeeper, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
-    DoorkeeperSettings two;
+    AuthSettings two;
     two.most_invitations = 2;
     open(two);
     ASSERT_TRUE(door->invite(Role::observe, now));
@@ -305,12 +305,12 @@ TEST_F(ADoorkeeper, TakesNamesThatPeopleCanTellApart) {
 
 TEST_F(ADoorkeeper, WithoutAStartCodeLetsOnlyThoseInWhoAreThere) {
     const auto anna = *pair(start_codes[0], "anna");
-    DoorkeeperSettings settings;
+    AuthSettings settings;
     settings.users_file = file();
-    const auto closed = *Doorkeeper::open(settings);
+    const auto closed = *Authenticator::open(settings);
     EXPECT_EQ(closed->start_code(), "");
     EXPECT_FALSE(closed->pair("", "eve", "127.0.0.1", now));
-    EXPECT_TRUE(closed->who(anna.token, now.wall));
+    EXPECT_TRUE(closed->authenticate(anna.token, now.wall));
 }
 
 TEST(Secrets, AreNotTheSameTwice) {

@@ -118,8 +118,8 @@ class Serving {
         return {};
     }
 
-    authority::DoorkeeperSettings door_settings() {
-        authority::DoorkeeperSettings settings;
+    authority::AuthSettings door_settings() {
+        authority::AuthSettings settings;
         const fs::path folder = options_.users.empty() ? state_folder() : fs::path();
         settings.users_file = !options_.users.empty() ? fs::path(options_.users)
                               : folder.empty()        ? fs::path()

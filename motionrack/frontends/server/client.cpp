@@ -28,7 +28,7 @@ json without(json object, std::initializer_list<const char*> names) {
 
 }  // namespace
 
-Client::Client(Service& service, Peer peer, std::string session, Wire& wire)
+Client::Client(Service& service, Peer peer, std::string session, MessageSink& wire)
     : service_(service),
       peer_(std::move(peer)),
       session_(std::move(session)),
@@ -110,7 +110,7 @@ void Client::message(std::string_view text, bool is_text) {
 
 void Client::token(const Request& request) {
     const json& token = request.fields["token"];
-    const auto who = service_.who(token.is_string() ? token.get<std::string>() : "", peer_);
+    const auto who = service_.authenticate(token.is_string() ? token.get<std::string>() : "", peer_);
     if (!who) return refuse(request.id, 401, "denied", who.error().sentence);
     user_ = who->user;
     token_id_ = who->id;
@@ -208,7 +208,7 @@ void Client::send(Outgoing message) {
     const Limits& limits = service_.settings().limits;
     if (!message.picture &&
         queue_.size() - pictures_ >= (token_id_.empty() ? limits.strange_texts_waiting : limits.texts_waiting))
-        return goodbye(try_again, "Answers and events were not read; connect again.");
+        return close_with_reason(try_again, "Answers and events were not read; connect again.");
     pictures_ += message.picture;
     queue_.push_back(std::move(message));
     if (queue_.size() == 1) wire_->write(queue_.front());
@@ -227,7 +227,7 @@ void Client::closed() {
     service_.left(session_);
 }
 
-void Client::goodbye(int code, std::string_view reason) {
+void Client::close_with_reason(int code, std::string_view reason) {
     if (std::exchange(leaving_, true) || wire_ == nullptr) return;
     wire_->close(code, reason);
 }
@@ -254,16 +254,16 @@ void Client::send_event(std::shared_ptr<const std::string> text) {
     send({"", std::move(text)});
 }
 
-void Client::look_after(Time now) {
+void Client::check_session(Time now) {
     if (leaving_ || now - looked_after_ < std::chrono::milliseconds(500)) return;
     looked_after_ = now;
     const Role mine = role();
     seen_ = seen_ || mine != Role::nobody;
     if (mine != Role::nobody) return;
     if (seen_)
-        goodbye(policy, "The token holds no longer; pair again.");
+        close_with_reason(policy, "The token holds no longer; pair again.");
     else if (now - opened_at_ > service_.settings().limits.header)
-        goodbye(policy, "No token came.");
+        close_with_reason(policy, "No token came.");
 }
 
 }  // namespace motionrack::server

@@ -1,7 +1,7 @@
 // One WebSocket client: what it says, what it looks at, what waits to be sent to it.
 //
 //   message ─► token, subscribe, order, query ─► answers ─┐
-//   tick ─► picture, unless two wait already (then one more is lost) ─┼─► [ queue ] ─► Wire::write, one at a time
+//   tick ─► picture, unless two wait already (then one more is lost) ─┼─► [ queue ] ─► MessageSink::write, one at a time
 //   event ────────────────────────────────────────────────┘      too long a queue: the client is let go
 //
 // The network thread's.
@@ -25,14 +25,14 @@ struct Outgoing {
 };
 
 /// The connection below a client.
-class Wire {
+class MessageSink {
   public:
-    virtual ~Wire() = default;
+    virtual ~MessageSink() = default;
     /// Sends one message, which stays as it is until Client::written().
     virtual void write(const Outgoing& message) = 0;
     /// From now on messages that come in may be so long.
     virtual void allow(std::size_t bytes) = 0;
-    /// Says goodbye with a code of RFC 6455 and a reason.
+    /// Says close_with_reason with a code of RFC 6455 and a reason.
     virtual void close(int code, std::string_view reason) = 0;
 };
 
@@ -40,7 +40,7 @@ class Client : public std::enable_shared_from_this<Client> {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    Client(Service& service, Peer peer, std::string session, Wire& wire);
+    Client(Service& service, Peer peer, std::string session, MessageSink& wire);
 
     // ---- from the connection
     void opened();
@@ -56,8 +56,8 @@ class Client : public std::enable_shared_from_this<Client> {
     void send_picture(std::shared_ptr<const std::string> rest);
     void send_event(std::shared_ptr<const std::string> text);
     /// What time brings: tokens expire, or are revoked; who says no token goes.
-    void look_after(Time now);
-    void goodbye(int code, std::string_view reason);
+    void check_session(Time now);
+    void close_with_reason(int code, std::string_view reason);
 
   private:
     struct Request {
@@ -78,7 +78,7 @@ class Client : public std::enable_shared_from_this<Client> {
     Service& service_;
     Peer peer_;
     std::string session_, user_, token_id_;
-    Wire* wire_;
+    MessageSink* wire_;
     authority::RateLimit messages_;
     std::size_t asks_ = 0;
     // what it looks at

@@ -53,7 +53,7 @@ void Clients::tick() {
     const std::shared_ptr<const panel::StatusSnapshot> picture = service_.panel().picture();
     const std::vector<std::shared_ptr<Client>> clients = clients_;  // one that is let go leaves the list
     for (const std::shared_ptr<Client>& client : clients) {
-        client->look_after(now);
+        client->check_session(now);
         if (!client->due(now)) continue;
         client->send_picture(encode(client->channels(), picture));
     }

@@ -23,13 +23,13 @@ namespace motionrack::server {
 
 namespace {
 
-class Connection final : public Open, public std::enable_shared_from_this<Connection> {
+class Connection final : public OpenConnection, public std::enable_shared_from_this<Connection> {
   public:
-    Connection(Transport stream, Peer peer, std::shared_ptr<Hall> hall)
+    Connection(Transport stream, Peer peer, std::shared_ptr<ConnectionPool> hall)
         : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
-        hall_->seats.arrive(this, peer_.network);
+        hall_->open_connections.arrive(this, peer_.network);
     }
-    ~Connection() override { hall_->seats.leave(this); }
+    ~Connection() override { hall_->open_connections.leave(this); }
 
     void begin() {
         expire(limits().header);
@@ -40,7 +40,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
     void end(std::string_view why) override {
         const auto self = keep_ ? std::move(keep_) : shared_from_this();
-        hall_->seats.leave(this);
+        hall_->open_connections.leave(this);
         if (std::exchange(ended_, true)) return;
         auto& socket = stream_.tcp();
         if (!stream_.secure() && !busy_) {  // it waits for a request: there is room for a last word
@@ -60,7 +60,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     }
     const Limits& limits() const { return hall_->service->settings().limits; }
     void expire(std::chrono::milliseconds time) {
-        stream_.tcp().expires_after(peer_.spare ? std::min(time, limits().spare_time) : time);
+        stream_.tcp().expires_after(peer_.stop_only ? std::min(time, limits().spare_time) : time);
     }
 
     void read_head(std::chrono::milliseconds time) {
@@ -73,7 +73,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     }
 
     void took_head(error_code error) {
-        if (error == http::error::end_of_stream) return goodbye();
+        if (error == http::error::end_of_stream) return close_with_reason();
         if (error == http::error::header_limit || error == http::error::buffer_overflow)
             return answer(http_error(431, "limit", "The head of the request is longer than 8 KiB. Nothing was done."),
                           false);
@@ -83,7 +83,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
                            fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())),
                 false);
         if (error) return;
-        peer_.spare = !hall_->seats.take_seat(this, peer_.network);
+        peer_.stop_only = !hall_->open_connections.take_seat(this, peer_.network);
         head_ = head_of(parser_->get(), peer_);
         head_.has_more = !parser_->is_done() || (head_.upgrade && buffer_.size() > 0);
         if (head_.upgrade) {
@@ -150,19 +150,19 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         busy_ = true;
         // Of this request, also where nothing more of its head can be read.
         const bool head_only = parser_->get().method() == http::verb::head;
-        response_ = response_of(one, head_only, keep_alive && !peer_.spare);
+        response_ = response_of(one, head_only, keep_alive && !peer_.stop_only);
         body_ = std::move(one.body);
         expire(limits().body);
         http::async_write(stream_, *response_, [self = shared_from_this()](error_code error, std::size_t) {
             self->busy_ = false;
             if (error) return;
             if (self->response_->keep_alive() && !self->ended_) return self->read_head(self->limits().idle);
-            self->goodbye();
+            self->close_with_reason();
         });
     }
 
     /// Says that nothing more comes and reads away what still does, so that the answer is not lost with it.
-    void goodbye() {
+    void close_with_reason() {
         expire(limits().spare_time);
         stream_.shut_down(Done([self = shared_from_this()](error_code) { self->shut(); }));
     }
@@ -181,10 +181,10 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
     Transport stream_;
     Peer peer_;
-    std::shared_ptr<Hall> hall_;
+    std::shared_ptr<ConnectionPool> hall_;
     beast::flat_buffer buffer_{16 * 1024};
     std::optional<Parser> parser_;
-    Head head_;
+    RequestHead head_;
     Admission admission_;
     std::optional<Response> response_;
     std::shared_ptr<const std::string> body_;
@@ -197,7 +197,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
 
 }  // namespace
 
-void serve(Transport transport, Peer peer, std::shared_ptr<Hall> hall) {
+void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> hall) {
     std::make_shared<Connection>(std::move(transport), std::move(peer), std::move(hall))->begin();
 }
 

@@ -17,7 +17,7 @@ std::string utc_text(authority::WallTime time) {
                        clock.minutes().count(), clock.seconds().count());
 }
 
-std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Doorkeeper& door) {
+std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Authenticator& door) {
     return {
         {"invite",
          [&door](const panel::Caller&, const json& fields) {
@@ -27,7 +27,7 @@ std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Doorke
          }},
         {"unpair",
          [&door](const panel::Caller&, const json& fields) {
-             const auto gone = door.unpair(fields["user"].get<std::string>());
+             const auto gone = door.revoke(fields["user"].get<std::string>());
              return gone ? panel::done() : panel::error_answer(gone.error());
          }},
         {"users", [&door](const panel::Caller&, const json&) {

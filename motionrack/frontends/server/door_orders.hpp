@@ -10,7 +10,7 @@
 namespace motionrack::server {
 
 /// For PanelSettings::elsewhere; the door must outlive the panel.
-std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Doorkeeper& door);
+std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Authenticator& door);
 
 /// "2026-01-31T12:00:00Z"
 std::string utc_text(authority::WallTime time);

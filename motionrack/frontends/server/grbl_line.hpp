@@ -14,7 +14,7 @@
 namespace motionrack::server {
 
 /// What a port says; `greets`: it begins with the banner for a new client, who is not to see what comes before it.
-struct Said {
+struct PortMessage {
     std::shared_ptr<const std::string> text;
     bool greets = false;
 };
@@ -39,7 +39,7 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
                                 });
     }
     /// False: too much waits already.
-    bool write(const Said& said) {
+    bool write(const PortMessage& said) {
         if (said.greets) awaits_greeting = false;
         if (awaits_greeting) return true;
         if (waiting_ + said.text->size() > most_waiting_) return false;

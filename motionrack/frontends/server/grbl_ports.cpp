@@ -66,9 +66,9 @@ class GrblPorts::Inside {
 
   private:
     /// Output comes from the motion thread, which may outlive the network.
-    std::shared_ptr<SenderPort> make_port(std::function<void(const Said&)> send) {
+    std::shared_ptr<SenderPort> make_port(std::function<void(const PortMessage&)> send) {
         auto port = std::make_shared<SenderPort>(machine_, lease_, settings_);
-        port->send = [io = io_, send = std::move(send)](Said said) {
+        port->send = [io = io_, send = std::move(send)](PortMessage said) {
             asio::post(*io, [send, said = std::move(said)] { send(said); });
         };
         machine_.listen([port](const operate::Status&) { port->tick(); },
@@ -76,9 +76,9 @@ class GrblPorts::Inside {
         return port;
     }
     /// Reads on when the motion thread has heard what came.
-    template <class Wire>
-    std::function<void()> reading_on(const std::shared_ptr<Wire>& wire) {
-        return [io = io_, wire = std::weak_ptr<Wire>(wire)] {
+    template <class MessageSink>
+    std::function<void()> reading_on(const std::shared_ptr<MessageSink>& wire) {
+        return [io = io_, wire = std::weak_ptr<MessageSink>(wire)] {
             asio::post(*io, [wire] {
                 if (const auto there = wire.lock(); there && there->on_bytes) there->read_on();
             });
@@ -100,7 +100,7 @@ class GrblPorts::Inside {
                     "The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.",
                     port, trouble.message()));
         port_number_ = acceptor_.local_endpoint().port();
-        tcp_port_ = make_port([this](const Said& said) { broadcast(said); });
+        tcp_port_ = make_port([this](const PortMessage& said) { broadcast(said); });
         accept_on();
         return {};
     }
@@ -191,7 +191,7 @@ class GrblPorts::Inside {
         }
         std::erase_if(visitors_, [&](const auto& one) { return one.get() == visitor; });
     }
-    void broadcast(const Said& said) {
+    void broadcast(const PortMessage& said) {
         for (const auto& visitor : std::vector<std::shared_ptr<Visitor>>(visitors_))
             if (!visitor->line->write(said)) visitor->line->end();
     }
@@ -205,7 +205,7 @@ class GrblPorts::Inside {
         auto made = PseudoTerminal::open(settings_.link);
         if (!made) return tl::unexpected<Error>(made.error());
         terminal_.emplace(std::move(*made));
-        terminal_port_ = make_port([this](const Said& said) {
+        terminal_port_ = make_port([this](const PortMessage& said) {
             if (terminal_->clients() > 0)
                 terminal_line_->write(said);  // a line that nobody reads loses what does not fit
         });

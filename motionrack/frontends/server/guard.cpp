@@ -44,19 +44,19 @@ std::string host_name(std::string_view host) {
     return name;
 }
 
-Guard::Guard(std::vector<std::string> hosts, std::vector<std::string> origins)
+OriginPolicy::OriginPolicy(std::vector<std::string> hosts, std::vector<std::string> origins)
     : hosts_(std::move(hosts)), origins_(std::move(origins)) {
     for (std::string& host : hosts_) host = host_name(host);
     for (std::string& origin : origins_) origin = lower(origin);
 }
 
-bool Guard::knows(const std::string& name, const Peer& peer) const {
+bool OriginPolicy::knows(const std::string& name, const Peer& peer) const {
     if (name.empty()) return false;
     if (name == peer.local || std::find(hosts_.begin(), hosts_.end(), name) != hosts_.end()) return true;
     return peer.loopback && (name == "localhost" || name == "127.0.0.1" || name == "::1");
 }
 
-std::string Guard::problem(const Head& head) const {
+std::string OriginPolicy::problem(const RequestHead& head) const {
     if (!knows(host_name(head.host), head.peer))
         return fmt::format(
             "This computer is not known by the name \"{}\". Nothing was done; start the server with --allow-host NAME "

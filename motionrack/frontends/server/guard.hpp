@@ -19,11 +19,11 @@ std::string network_of(const std::string& address);
 /// Of what a stranger sent, for a sentence: its beginning, without what could disturb a terminal or a journal.
 std::string shown(std::string_view text);
 
-class Guard {
+class OriginPolicy {
   public:
-    Guard(std::vector<std::string> hosts, std::vector<std::string> origins);
+    OriginPolicy(std::vector<std::string> hosts, std::vector<std::string> origins);
     /// Empty, or the sentence why not. A head without Origin is no browser's page.
-    std::string problem(const Head& head) const;
+    std::string problem(const RequestHead& head) const;
 
   private:
     bool knows(const std::string& name, const Peer& peer) const;

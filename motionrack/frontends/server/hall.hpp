@@ -10,13 +10,13 @@
 namespace motionrack::server {
 
 /// It lives as long as the last of its connections.
-struct Hall {
-    explicit Hall(std::shared_ptr<Service> all)
-        : service(std::move(all)), clients(*service), seats(service->settings().limits) {}
+struct ConnectionPool {
+    explicit ConnectionPool(std::shared_ptr<Service> all)
+        : service(std::move(all)), clients(*service), open_connections(service->settings().limits) {}
 
     std::shared_ptr<Service> service;
     Clients clients;
-    Seats seats;
+    Seats open_connections;
     std::int64_t next_session = 1;
 };
 

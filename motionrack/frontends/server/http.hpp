@@ -15,11 +15,11 @@ struct Peer {
     std::string address;  ///< "127.0.0.1"
     std::string local;    ///< the address that it reached
     bool loopback = false, secure = false;
-    bool spare = false;        ///< there is no seat for it: it may ask for STOP only
+    bool stop_only = false;    ///< there is no seat for it: it may ask for STOP only
     std::string network = {};  ///< what limits count: network_of(address)
 };
 
-struct Head {
+struct RequestHead {
     Peer peer;
     std::string method, target, host, origin, authorization;
     bool upgrade = false;   ///< to a WebSocket

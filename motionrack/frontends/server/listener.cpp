@@ -52,7 +52,7 @@ void Reserve::refill() {
     }
 }
 
-Listener::Listener(asio::io_context& io, std::shared_ptr<Hall> hall, tcp::acceptor acceptor,
+Listener::Listener(asio::io_context& io, std::shared_ptr<ConnectionPool> hall, tcp::acceptor acceptor,
                    std::unique_ptr<asio::ssl::context> tls)
     : io_(io), acceptor_(std::move(acceptor)), tls_(std::move(tls)), pause_(io), timer_(io), hall_(std::move(hall)) {}
 
@@ -101,7 +101,7 @@ void Listener::take_some() {
 }
 
 bool Listener::make_room() {
-    return reserve_.give() || hall_->seats.end_a_caller();
+    return reserve_.give() || hall_->open_connections.end_a_caller();
 }
 
 void Listener::take(tcp::socket socket) {
@@ -126,7 +126,7 @@ void Listener::end() {
     acceptor_.close(error);
     timer_.cancel();
     pause_.cancel();
-    hall_->seats.end_all("The server was stopped.");
+    hall_->open_connections.end_all("The server was stopped.");
 }
 
 }  // namespace motionrack::server

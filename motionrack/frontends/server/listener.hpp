@@ -32,12 +32,12 @@ class Reserve {
 class Listener {
   public:
     /// `acceptor` does not block.
-    Listener(boost::asio::io_context& io, std::shared_ptr<Hall> hall, boost::asio::ip::tcp::acceptor acceptor,
+    Listener(boost::asio::io_context& io, std::shared_ptr<ConnectionPool> hall, boost::asio::ip::tcp::acceptor acceptor,
              std::unique_ptr<boost::asio::ssl::context> tls);
     void begin();
-    /// Takes no more, says goodbye to all.
+    /// Takes no more, says close_with_reason to all.
     void end();
-    bool empty() const { return hall_->seats.empty(); }
+    bool empty() const { return hall_->open_connections.empty(); }
 
   private:
     void accept();
@@ -50,7 +50,7 @@ class Listener {
     boost::asio::ip::tcp::acceptor acceptor_;
     std::unique_ptr<boost::asio::ssl::context> tls_;
     boost::asio::steady_timer pause_, timer_;
-    std::shared_ptr<Hall> hall_;
+    std::shared_ptr<ConnectionPool> hall_;
     Reserve reserve_;
     bool ended_ = false;
 };

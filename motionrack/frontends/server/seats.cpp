@@ -11,14 +11,14 @@ void Seats::take_one(Counts& counts, const std::string& network) {
     if (found != counts.end() && --found->second == 0) counts.erase(found);
 }
 
-void Seats::arrive(Open* open, const std::string& network) {
+void Seats::arrive(OpenConnection* open, const std::string& network) {
     if (callers_.size() >= limits_.callers) end_a_caller();
     callers_.push_back({open, network});
     caller_of_[open] = std::prev(callers_.end());
     ++callers_of_[network];
 }
 
-bool Seats::take_seat(Open* open, const std::string& network) {
+bool Seats::take_seat(OpenConnection* open, const std::string& network) {
     if (seats_.count(open) != 0) return true;
     const auto there = seats_of_.find(network);
     if (seats_.size() >= limits_.connections || (there != seats_of_.end() && there->second >= limits_.of_a_network))
@@ -29,7 +29,7 @@ bool Seats::take_seat(Open* open, const std::string& network) {
     return true;
 }
 
-void Seats::replace(Open* before, Open* open) {
+void Seats::replace(OpenConnection* before, OpenConnection* open) {
     const auto seat = seats_.find(before);
     if (seat == seats_.end()) return;
     const std::string network = seat->second;
@@ -37,7 +37,7 @@ void Seats::replace(Open* before, Open* open) {
     seats_[open] = network;
 }
 
-void Seats::leave(Open* open) {
+void Seats::leave(OpenConnection* open) {
     if (const auto caller = caller_of_.find(open); caller != caller_of_.end()) {
         take_one(callers_of_, caller->second->network);
         callers_.erase(caller->second);
@@ -56,17 +56,17 @@ bool Seats::end_a_caller() {
     const auto ended = std::max_element(callers_.begin(), young, [&](const Caller& a, const Caller& b) {
         return of_its_network(a) < of_its_network(b);
     });
-    Open* const open = ended->open;
+    OpenConnection* const open = ended->open;
     open->end("Too many connections are open; this one was let go for another.");
     leave(open);
     return true;
 }
 
 void Seats::end_all(std::string_view why) {
-    std::vector<Open*> all;  // each leaves when it ends
+    std::vector<OpenConnection*> all;  // each leaves when it ends
     for (const auto& [open, network] : seats_) all.push_back(open);
     for (const Caller& caller : callers_) all.push_back(caller.open);
-    for (Open* open : all) open->end(why);
+    for (OpenConnection* open : all) open->end(why);
 }
 
 }  // namespace motionrack::server

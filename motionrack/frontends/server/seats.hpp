@@ -17,9 +17,9 @@
 namespace motionrack::server {
 
 /// An open connection, as the listener sees it.
-class Open {
+class OpenConnection {
   public:
-    virtual ~Open() = default;
+    virtual ~OpenConnection() = default;
     /// Ends it; `why` goes to the other end where there is still a place for it.
     virtual void end(std::string_view why) = 0;
 };
@@ -30,23 +30,23 @@ class Seats {
     explicit Seats(const Limits& limits) : limits_(limits) {}
 
     /// A connection that has not sent a head so far. May end another one.
-    void arrive(Open* open, const std::string& network);
+    void arrive(OpenConnection* open, const std::string& network);
     /// It has sent a head. True: it has a seat, now or before. False: there is none for it; it goes on as a caller.
-    bool take_seat(Open* open, const std::string& network);
+    bool take_seat(OpenConnection* open, const std::string& network);
     /// A connection that takes the place of another one (WebSocket).
-    void replace(Open* before, Open* open);
-    void leave(Open* open);
+    void replace(OpenConnection* before, OpenConnection* open);
+    void leave(OpenConnection* open);
 
     /// Ends, of the older quarter of the callers, the oldest of the networks that have the most. False: there is none.
     bool end_a_caller();
     void end_all(std::string_view why);
     bool empty() const { return seats_.empty() && callers_.empty(); }
     std::size_t callers() const { return callers_.size(); }
-    std::size_t seats() const { return seats_.size(); }
+    std::size_t open_connections() const { return seats_.size(); }
 
   private:
     struct Caller {
-        Open* open;
+        OpenConnection* open;
         std::string network;
     };
     using Counts = std::map<std::string, std::size_t, std::less<>>;
@@ -54,8 +54,8 @@ class Seats {
 
     const Limits& limits_;
     std::list<Caller> callers_;  ///< oldest first
-    std::map<Open*, std::list<Caller>::iterator> caller_of_;
-    std::map<Open*, std::string> seats_;
+    std::map<OpenConnection*, std::list<Caller>::iterator> caller_of_;
+    std::map<OpenConnection*, std::string> seats_;
     Counts callers_of_, seats_of_;
 };
 

@@ -17,7 +17,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     SenderPort(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings);
 
     /// Where output goes; on the motion thread. Set before Machine::run.
-    std::function<void(Said)> send;
+    std::function<void(PortMessage)> send;
 
     // ---- from the network thread
     /// Somebody may write from now on. `address`: "127.0.0.1:4711" or a path; `id`: of this one connection.

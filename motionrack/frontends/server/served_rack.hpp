@@ -35,7 +35,7 @@ struct ServedSettings {
     journal::Journal* journal = nullptr;  ///< what happens, what is asked and who asked is written to it
     std::string version = {}, boot = {};  ///< as the server greets
     operate::MachineSettings machine = {};
-    authority::DoorkeeperSettings door = {};
+    authority::AuthSettings door = {};
     panel::PanelSettings panel = {};
     std::optional<GrblPortSettings> grbl = {};
     ServerSettings server = {};
@@ -55,7 +55,7 @@ class ServedRack {
     operate::ClockPacer& pacer() { return pacer_; }
     authority::ControlLease& lease() { return lease_; }
     operate::Machine& machine() { return *machine_; }
-    authority::Doorkeeper& door() { return *door_; }
+    authority::Authenticator& door() { return *door_; }
     panel::Panel& panel() { return *panel_; }
     Server& server() { return *server_; }
     const GrblPorts* grbl() const { return grbl_.get(); }  ///< nullptr: none were asked for
@@ -71,7 +71,7 @@ class ServedRack {
     journal::Journal* journal_ = nullptr;
     authority::RateLimit settings_of_senders_{20, 1};  ///< in the journal; a sender needs no token
     std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<authority::Doorkeeper> door_;
+    std::unique_ptr<authority::Authenticator> door_;
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<Server> server_;
     std::unique_ptr<GrblPorts> grbl_;

@@ -72,10 +72,10 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
 
 class Server::Inside {
   public:
-    Inside(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease,
+    Inside(ServerSettings settings, panel::Panel& panel, authority::Authenticator& door, authority::ControlLease& lease,
            Page page)
         : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
-          hall_(std::make_shared<Hall>(
+          hall_(std::make_shared<ConnectionPool>(
               std::make_shared<Service>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
     ~Inside() { stop(); }
 
@@ -100,11 +100,12 @@ class Server::Inside {
         MOTIONRACK_TRY(tcp::acceptor acceptor, take_port(io_, address, settings.port));
         port_ = acceptor.local_endpoint().port();
         listener_ = std::make_unique<Listener>(io_, hall_, std::move(acceptor), std::move(tls));
-        hall_->service->panel().on_event([post = post_, hall = std::weak_ptr<Hall>(hall_)](const panel::Event& event) {
-            (*post)([hall, event] {
-                if (const auto there = hall.lock()) there->clients.tell(event);
+        hall_->service->panel().on_event(
+            [post = post_, hall = std::weak_ptr<ConnectionPool>(hall_)](const panel::Event& event) {
+                (*post)([hall, event] {
+                    if (const auto there = hall.lock()) there->clients.tell(event);
+                });
             });
-        });
         listener_->begin();
         thread_ = std::thread([this] { io_.run(); });
         return {};
@@ -135,7 +136,7 @@ class Server::Inside {
 
     asio::io_context io_{1};
     std::shared_ptr<Post> post_;
-    std::shared_ptr<Hall> hall_;
+    std::shared_ptr<ConnectionPool> hall_;
     std::unique_ptr<Listener> listener_;
     asio::steady_timer goodbye_{io_};
     std::chrono::steady_clock::time_point stopped_;
@@ -147,8 +148,9 @@ Server::Server(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
 
 Server::~Server() = default;
 
-Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door,
-                                             authority::ControlLease& lease, Page page) {
+Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel,
+                                             authority::Authenticator& door, authority::ControlLease& lease,
+                                             Page page) {
     auto inside = std::make_unique<Inside>(std::move(settings), panel, door, lease, std::move(page));
     MOTIONRACK_CHECK(inside->open());
     return std::unique_ptr<Server>(new Server(std::move(inside)));

@@ -19,10 +19,11 @@ class Server {
     /// Errors: io (the port is taken, a TLS file cannot be used), refused (another address than loopback without TLS),
     /// bad_input (no address).
     static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel,
-                                                authority::Doorkeeper& door, authority::ControlLease& lease, Page page);
+                                                authority::Authenticator& door, authority::ControlLease& lease,
+                                                Page page);
     ~Server();
 
-    /// Says goodbye to all and ends the thread; takes a second at most.
+    /// Says close_with_reason to all and ends the thread; takes a second at most.
     void stop();
 
     std::uint16_t port() const;

@@ -18,7 +18,7 @@ HttpAnswer with(HttpAnswer answer, std::string field, std::string value) {
 }
 
 /// Empty: the head shows none.
-std::string token_of(const Head& head) {
+std::string token_of(const RequestHead& head) {
     return head.authorization.substr(0, 7) == "Bearer " ? head.authorization.substr(7) : "";
 }
 
@@ -29,7 +29,7 @@ bool is_websocket_key(std::string_view key) {
 }
 
 /// What RFC 6455 (4.2) has a server look at.
-std::optional<HttpAnswer> refuse_handshake(const Head& head) {
+std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
     if (head.websocket_version != "13") {
         HttpAnswer answer =
             http_error(426, "bad_input",
@@ -57,7 +57,7 @@ bool is_query(const panel::OperationSpec& row) {
     return &row >= queries.data() && &row < queries.data() + queries.size();
 }
 
-Service::Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door,
+Service::Service(ServerSettings settings, panel::Panel& panel, authority::Authenticator& door,
                  authority::ControlLease& lease, Page page, std::shared_ptr<Post> post)
     : settings_(std::move(settings)),
       panel_(panel),
@@ -76,8 +76,8 @@ Service::Service(ServerSettings settings, panel::Panel& panel, authority::Doorke
 // ---- before the body
 
 /// What holds for every request but STOP.
-std::optional<HttpAnswer> Service::refuse(const Head& head) {
-    if (head.peer.spare)
+std::optional<HttpAnswer> Service::refuse(const RequestHead& head) {
+    if (head.peer.stop_only)
         return http_error(
             503, "limit",
             fmt::format("All connections are taken: {} in all, or {} of {}. Only STOP is heard; close some, or try "
@@ -91,7 +91,7 @@ std::optional<HttpAnswer> Service::refuse(const Head& head) {
     return std::nullopt;
 }
 
-Admission Service::admit(const Head& head) {
+Admission Service::admit(const RequestHead& head) {
     Admission out;
     const auto answer = [&](HttpAnswer one) {
         out.answer = std::move(one);
@@ -106,7 +106,7 @@ Admission Service::admit(const Head& head) {
             return answer(with(http_error(405, "bad_input", "STOP is asked for with POST."), "Allow", "POST"));
         panel::Caller caller;
         if (const std::string token = token_of(head); !token.empty())
-            if (const auto known = door_.who(token, now().wall)) caller.user = known->user;
+            if (const auto known = door_.authenticate(token, now().wall)) caller.user = known->user;
         stop(std::move(caller), head.peer.address);
         return answer(http_answer(panel::done()));
     }
@@ -115,7 +115,7 @@ Admission Service::admit(const Head& head) {
     return answer(page_answer(head, target->path));
 }
 
-HttpAnswer Service::page_answer(const Head& head, const std::string& path) const {
+HttpAnswer Service::page_answer(const RequestHead& head, const std::string& path) const {
     if (head.method != "GET" && head.method != "HEAD")
         return with(http_error(405, "bad_input", "The page is read with GET."), "Allow", "GET, HEAD");
     const PageFile* file = page_.find(path);
@@ -127,7 +127,7 @@ HttpAnswer Service::page_answer(const Head& head, const std::string& path) const
     return answer;
 }
 
-Admission Service::admit_api(const Head& head, const Target& target) {
+Admission Service::admit_api(const RequestHead& head, const Target& target) {
     Admission out;
     const auto answer = [&](HttpAnswer one) {
         out.answer = std::move(one);
@@ -150,7 +150,7 @@ Admission Service::admit_api(const Head& head, const Target& target) {
     out.caller.role = role_without_token(head.peer);
     out.caller.session = std::string("h");
     if (!head.authorization.empty()) {
-        const auto who = this->who(token_of(head), head.peer);
+        const auto who = this->authenticate(token_of(head), head.peer);
         if (!who) return answer(http_error(401, "denied", who.error().sentence));
         out.caller = {who->user, who->role, fmt::format("t{}", who->id)};
     }
@@ -184,7 +184,7 @@ Admission Service::admit_api(const Head& head, const Target& target) {
     return out;
 }
 
-std::optional<HttpAnswer> Service::refuse_stream(const Head& head) {
+std::optional<HttpAnswer> Service::refuse_stream(const RequestHead& head) {
     if (const std::string problem = guard_.problem(head); !problem.empty()) return http_error(403, "denied", problem);
     if (auto refused = refuse(head)) return refused;
     if (head.target != "/api/stream") return http_error(404, "bad_input", "The WebSocket is at /api/stream.");
@@ -193,7 +193,7 @@ std::optional<HttpAnswer> Service::refuse_stream(const Head& head) {
 
 // ---- with it
 
-void Service::handle(const Head& head, const Admission& admission, const std::string& body,
+void Service::handle(const RequestHead& head, const Admission& admission, const std::string& body,
                      std::function<void(HttpAnswer)> reply) {
     if (admission.row == nullptr) return reply(pair(head, body));
     const Target target = *read_target(head.target);
@@ -207,7 +207,7 @@ void Service::handle(const Head& head, const Admission& admission, const std::st
         [reply = std::move(reply)](const panel::Answer& answer) { reply(http_answer(answer)); });
 }
 
-HttpAnswer Service::pair(const Head& head, const std::string& body) {
+HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
     const Result<json> fields = read_object(body, "The body");
     if (!fields) return http_answer(panel::error_answer(fields.error()));
     const auto text = [&](const char* key) {
@@ -225,7 +225,7 @@ HttpAnswer Service::pair(const Head& head, const std::string& body) {
                               {"user", paired->identity.user},
                               {"expires", utc_text(paired->identity.expires)}});
     } else {
-        using Why = authority::Denied::Why;
+        using Why = authority::AuthError::Why;
         const Why why = paired.error().why;
         answer = why == Why::too_many ? panel::refused_answer(429, "limit", paired.error().sentence)
                  : why == Why::failed ? panel::refused_answer(500, "io", paired.error().sentence)
@@ -236,8 +236,8 @@ HttpAnswer Service::pair(const Head& head, const std::string& body) {
 }
 
 /// A browser gives its token back.
-HttpAnswer Service::forget(const Head& head) {
-    const auto who = this->who(token_of(head), head.peer);
+HttpAnswer Service::forget(const RequestHead& head) {
+    const auto who = this->authenticate(token_of(head), head.peer);
     if (!who) return http_error(401, "denied", who.error().sentence);
     const Result<void> gone = door_.forget(who->id);
     const panel::Answer answer = gone ? panel::done() : panel::error_answer(gone.error());
@@ -245,8 +245,8 @@ HttpAnswer Service::forget(const Head& head) {
     return http_answer(answer);
 }
 
-authority::Admitted<authority::Identity> Service::who(const std::string& token, const Peer& peer) {
-    auto who = door_.who(token, now().wall);
+authority::AuthResult<authority::Identity> Service::authenticate(const std::string& token, const Peer& peer) {
+    auto who = door_.authenticate(token, now().wall);
     if (!who) audit("", peer.address, "token", panel::refused_answer(401, "denied", who.error().sentence), false);
     return who;
 }

@@ -55,16 +55,16 @@ bool is_query(const panel::OperationSpec& row);
 
 class Service {
   public:
-    Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease,
-            Page page, std::shared_ptr<Post> post);
+    Service(ServerSettings settings, panel::Panel& panel, authority::Authenticator& door,
+            authority::ControlLease& lease, Page page, std::shared_ptr<Post> post);
 
     // ---- HTTP
-    Admission admit(const Head& head);
+    Admission admit(const RequestHead& head);
     /// `reply` is called once, on the network thread.
-    void handle(const Head& head, const Admission& admission, const std::string& body,
+    void handle(const RequestHead& head, const Admission& admission, const std::string& body,
                 std::function<void(HttpAnswer)> reply);
     /// Whether a head may become a WebSocket; else the answer.
-    std::optional<HttpAnswer> refuse_stream(const Head& head);
+    std::optional<HttpAnswer> refuse_stream(const RequestHead& head);
 
     // ---- WebSocket
     /// Asks the panel; `reply` is called once, on the network thread. Written into the audit unless it is a query.
@@ -78,7 +78,7 @@ class Service {
     authority::Role role_without_token(const Peer& peer) const {
         return peer.loopback ? settings_.loopback_role : authority::Role::nobody;
     }
-    authority::Admitted<authority::Identity> who(const std::string& token, const Peer& peer);
+    authority::AuthResult<authority::Identity> authenticate(const std::string& token, const Peer& peer);
 
     /// `is_known`: asked by who may; else by a stranger, who may not fill the audit.
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
@@ -88,23 +88,23 @@ class Service {
     const ServerSettings& settings() const { return settings_; }
     authority::Now now() const { return settings_.clock(); }
     panel::Panel& panel() { return panel_; }
-    authority::Doorkeeper& door() { return door_; }
+    authority::Authenticator& door() { return door_; }
     authority::ControlLease& lease() { return lease_; }
     const std::shared_ptr<Post>& post() const { return post_; }
 
   private:
-    std::optional<HttpAnswer> refuse(const Head& head);
-    Admission admit_api(const Head& head, const Target& target);
-    HttpAnswer page_answer(const Head& head, const std::string& path) const;
-    HttpAnswer pair(const Head& head, const std::string& body);
-    HttpAnswer forget(const Head& head);
+    std::optional<HttpAnswer> refuse(const RequestHead& head);
+    Admission admit_api(const RequestHead& head, const Target& target);
+    HttpAnswer page_answer(const RequestHead& head, const std::string& path) const;
+    HttpAnswer pair(const RequestHead& head, const std::string& body);
+    HttpAnswer forget(const RequestHead& head);
 
     ServerSettings settings_;
     panel::Panel& panel_;
-    authority::Doorkeeper& door_;
+    authority::Authenticator& door_;
     authority::ControlLease& lease_;
     Page page_;
-    Guard guard_;
+    OriginPolicy guard_;
     std::shared_ptr<Post> post_;
     authority::RateLimit requests_, told_;
     StrangerLog strangers_;

@@ -23,8 +23,8 @@ std::string only_field(const Request& request, http::field name) {
 
 }  // namespace
 
-Head head_of(const Request& request, const Peer& peer) {
-    Head head;
+RequestHead head_of(const Request& request, const Peer& peer) {
+    RequestHead head;
     head.peer = peer;
     head.method = std::string(request.method_string());
     head.target = std::string(request.target());

@@ -18,15 +18,16 @@ namespace http = boost::beast::http;
 using Request = http::request<http::string_body>;
 using Response = http::response<http::span_body<const char>>;
 
-Head head_of(const Request& request, const Peer& peer);
+RequestHead head_of(const Request& request, const Peer& peer);
 /// Points to the answer's body, which must stay.
 Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive);
 /// 503 with this sentence, as it goes over the line; the same sentence again costs nothing.
 const std::string& last_word(std::string_view why);
 
 /// Begins to serve a connection that was taken.
-void serve(Transport transport, Peer peer, std::shared_ptr<Hall> hall);
+void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> hall);
 /// Becomes a WebSocket, in the seat of `before`.
-void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before);
+void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
+                  OpenConnection* before);
 
 }  // namespace motionrack::server

@@ -13,16 +13,19 @@ namespace websocket = boost::beast::websocket;
 
 namespace {
 
-class StreamConnection final : public Open, public Wire, public std::enable_shared_from_this<StreamConnection> {
+class StreamConnection final : public OpenConnection,
+                               public MessageSink,
+                               public std::enable_shared_from_this<StreamConnection> {
   public:
     /// Takes the seat of `before`.
-    StreamConnection(Transport stream, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before)
+    StreamConnection(Transport stream, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
+                     OpenConnection* before)
         : socket_(std::move(stream)),
           request_(std::move(request)),
           hall_(std::move(hall)),
           client_(std::make_shared<Client>(*hall_->service, std::move(peer), fmt::format("w{}", hall_->next_session++),
                                            *this)) {
-        hall_->seats.replace(before, this);
+        hall_->open_connections.replace(before, this);
     }
     ~StreamConnection() override { leave(); }
 
@@ -41,7 +44,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         });
     }
 
-    // ---- Wire
+    // ---- MessageSink
     void write(const Outgoing& message) override {
         writes_ = true;
         std::array<asio::const_buffer, 2> pieces = {asio::buffer(message.own), {}};
@@ -64,8 +67,8 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         if (code == websocket::close_code::try_again_later) socket_.next_layer().tcp().close();
     }
 
-    // ---- Open
-    void end(std::string_view why) override { client_->goodbye(websocket::close_code::going_away, why); }
+    // ---- OpenConnection
+    void end(std::string_view why) override { client_->close_with_reason(websocket::close_code::going_away, why); }
 
   private:
     static constexpr std::size_t kept = 256 * 1024;  ///< bytes of a buffer that stay with a connection
@@ -89,12 +92,12 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         if (std::exchange(left_, true)) return;
         client_->closed();
         hall_->clients.remove(client_.get());
-        hall_->seats.leave(this);
+        hall_->open_connections.leave(this);
     }
 
     websocket::stream<Transport, false> socket_;
     Request request_;
-    std::shared_ptr<Hall> hall_;
+    std::shared_ptr<ConnectionPool> hall_;
     std::shared_ptr<Client> client_;
     beast::flat_buffer buffer_;
     std::optional<websocket::close_reason> reason_;
@@ -103,7 +106,8 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
 
 }  // namespace
 
-void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<Hall> hall, Open* before) {
+void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
+                  OpenConnection* before) {
     std::make_shared<StreamConnection>(std::move(transport), std::move(request), std::move(peer), std::move(hall),
                                        before)
         ->begin();

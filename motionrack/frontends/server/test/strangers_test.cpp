@@ -22,9 +22,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-// ---- seats
+// ---- open_connections
 
-struct Someone final : Open {
+struct Someone final : OpenConnection {
     void end(std::string_view) override { ended = true; }
     bool ended = false;
 };
@@ -40,13 +40,13 @@ Limits few() {
 TEST(Seats, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
     Limits limits = few();
     limits.callers = 16;
-    Seats seats(limits);
+    Seats open_connections(limits);
     Someone lone;
     std::list<Someone> flood;
-    seats.arrive(&lone, "lone");
-    for (int i = 0; i < 40; ++i) seats.arrive(&flood.emplace_back(), "flood");
+    open_connections.arrive(&lone, "lone");
+    for (int i = 0; i < 40; ++i) open_connections.arrive(&flood.emplace_back(), "flood");
     EXPECT_FALSE(lone.ended);
-    EXPECT_EQ(seats.callers(), limits.callers);
+    EXPECT_EQ(open_connections.callers(), limits.callers);
     int at = 0;
     for (const Someone& one : flood) EXPECT_EQ(one.ended, at++ < 25) << at;
 }
@@ -54,48 +54,48 @@ TEST(Seats, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
 TEST(Seats, LeaveThoseAloneThatCameLately) {
     Limits limits = few();
     limits.callers = 16;
-    Seats seats(limits);
+    Seats open_connections(limits);
     std::list<Someone> others;
     Someone stop;
-    for (int i = 0; i < 14; ++i) seats.arrive(&others.emplace_back(), std::to_string(i));
-    seats.arrive(&others.emplace_back(), "here");
-    seats.arrive(&stop, "here");
+    for (int i = 0; i < 14; ++i) open_connections.arrive(&others.emplace_back(), std::to_string(i));
+    open_connections.arrive(&others.emplace_back(), "here");
+    open_connections.arrive(&stop, "here");
     for (int i = 0; i < 11; ++i) {
-        seats.arrive(&others.emplace_back(), "here");
+        open_connections.arrive(&others.emplace_back(), "here");
         EXPECT_FALSE(stop.ended) << "what it has sent may not have been read";
     }
 }
 
 TEST(Seats, EndTheOldestCallerWhereEachNetworkHasOne) {
     const Limits limits = few();
-    Seats seats(limits);
+    Seats open_connections(limits);
     std::list<Someone> all;
-    for (int i = 9; i >= 0; --i) seats.arrive(&all.emplace_back(), std::to_string(i));
+    for (int i = 9; i >= 0; --i) open_connections.arrive(&all.emplace_back(), std::to_string(i));
     int at = 0;
     for (const Someone& one : all) EXPECT_EQ(one.ended, at++ < 6) << at;
 }
 
 TEST(Seats, AreSharedByNetworks) {
     const Limits limits = few();
-    Seats seats(limits);
+    Seats open_connections(limits);
     std::list<Someone> all;
     const auto come = [&](const std::string& network) {
         Someone& one = all.emplace_back();
-        seats.arrive(&one, network);
-        return seats.take_seat(&one, network);
+        open_connections.arrive(&one, network);
+        return open_connections.take_seat(&one, network);
     };
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(come("a"));
     EXPECT_FALSE(come("a")) << "its share";
     EXPECT_TRUE(come("b"));
     EXPECT_TRUE(come("b"));
     EXPECT_FALSE(come("c")) << "all are taken";
-    EXPECT_EQ(seats.callers(), 2u) << "they go on as callers";
-    EXPECT_TRUE(seats.take_seat(&all.front(), "a")) << "it has one";
+    EXPECT_EQ(open_connections.callers(), 2u) << "they go on as callers";
+    EXPECT_TRUE(open_connections.take_seat(&all.front(), "a")) << "it has one";
     Someone stream;
-    seats.replace(&all.front(), &stream);
-    seats.leave(&all.front());
+    open_connections.replace(&all.front(), &stream);
+    open_connections.leave(&all.front());
     EXPECT_FALSE(come("a"));
-    seats.leave(&stream);
+    open_connections.leave(&stream);
     EXPECT_TRUE(come("a"));
 }
 

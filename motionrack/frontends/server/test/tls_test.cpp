@@ -125,7 +125,7 @@ TEST_F(ATlsServer, GivesNothingButThePageAndStopToStrangers) {
     Running running(tls());
     Service service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
                     std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
-    Head head;
+    RequestHead head;
     head.peer = {"192.0.2.7", "192.0.2.1", false, true, false};
     head.host = "192.0.2.1";
     const auto status = [&](const char* method, const char* target, const std::string& token = "") {
