@@ -131,7 +131,7 @@ int Session::restore(const std::string& text) {
     const char what = text[5];
     if (what != '$' && what != '#' && what != '*') return error_unknown;
     if (!control()) return error_locked;
-    if (what != '#') own_ = OwnSettings();
+    if (what != '#') own_ = SessionSettingValues();
     if (what != '$' && !machine_.clear_offsets()) return error_not_idle;
     if (what == '*') {
         startup_lines_ = {};

@@ -10,14 +10,14 @@ std::optional<Realtime> realtime_of(std::uint8_t byte) {
     return std::nullopt;
 }
 
-bool Intake::put(std::uint8_t byte) {
+bool InputParser::put(std::uint8_t byte) {
     if (byte > 0x7F) return true;  // thrown away, as of an UTF-8 text
     if (waiting_.size() >= waiting_most) return false;
     waiting_.push_back(static_cast<char>(byte));
     return true;
 }
 
-std::optional<Line> Intake::next() {
+std::optional<Line> InputParser::next() {
     while (!waiting_.empty()) {
         const char c = waiting_.front();
         waiting_.pop_front();
@@ -31,7 +31,7 @@ std::optional<Line> Intake::next() {
     return std::nullopt;
 }
 
-void Intake::read(char c) {
+void InputParser::read(char c) {
     if (in_brackets_) {
         in_brackets_ = c != ')';
     } else if (c == '(') {

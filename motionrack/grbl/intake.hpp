@@ -79,14 +79,14 @@ struct Line {
 };
 
 /// Bytes that wait for their turn, and the line that is being read from them.
-class Intake {
+class InputParser {
   public:
     /// One byte that is not a real-time one: false if there was no room and it is lost.
     bool put(std::uint8_t byte);
     /// Reads on to the end of the present line; nothing: its end has not come yet. Each CR and each LF ends a line.
     std::optional<Line> next();
     std::size_t room() const { return waiting_most - waiting_.size(); }
-    void clear() { *this = Intake(); }
+    void clear() { *this = InputParser(); }
 
   private:
     void read(char c);

@@ -54,7 +54,7 @@ Introduction::Verdict Introduction::hear(std::string_view bytes) {
     bytes_ += bytes;
     if (!is_text(bytes_)) return Verdict::stranger;
     if (std::all_of(bytes_.begin(), bytes_.end(), is_greeting)) return bytes_.empty() ? Verdict::open : Verdict::sender;
-    Intake lines;
+    InputParser lines;
     bool begun = false;  // a line: something stands in it
     for (const char c : bytes_) {
         if (realtime_of(static_cast<std::uint8_t>(c))) continue;

@@ -1,7 +1,7 @@
 // One Grbl port: bytes of a sender in, bytes for it out, motion by an operate::Machine.
 //
 //   bytes ─┬─ real-time ones ──► at once: hold, resume, stop, overrides, "<Idle|MPos:..>"
-//          └─ lines ─► Intake ─► one at a time ─┬─ $ commands ──► answers
+//          └─ lines ─► InputParser ─► one at a time ─┬─ $ commands ──► answers
 //                                               └─ G-code, $J= ─► Machine::line, jog_to
 //   each line: one "ok" or "error:N"
 //
@@ -65,7 +65,7 @@ class Session {
     std::string take_output() { return std::exchange(out_, {}); }
 
     State state() const;
-    const OwnSettings& own() const { return own_; }
+    const SessionSettingValues& own() const { return own_; }
 
     /// Percent.
     struct Overrides {
@@ -148,10 +148,10 @@ class Session {
 
     operate::Machine& machine_;
     SessionSettings settings_;
-    OwnSettings own_;
+    SessionSettingValues own_;
     std::array<std::string, 2> startup_lines_;
     std::string build_text_, out_;
-    Intake intake_;
+    InputParser intake_;
     std::optional<Line> line_;  ///< the next one, which has to wait
     std::optional<Doing> doing_;
     std::optional<control::gcode::Interpreter> check_;  ///< check mode

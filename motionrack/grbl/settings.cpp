@@ -49,11 +49,11 @@ constexpr std::array<Setting, 22> table = {{
     {4, 0, "step enable invert", nothing, nullptr},
     {5, 0, "limit pins invert", nothing, nullptr},
     {6, 0, "probe pin invert", nothing, nullptr},
-    {10, 0, "status report, mask", nullptr, &OwnSettings::report, 255},
+    {10, 0, "status report, mask", nullptr, &SessionSettingValues::report, 255},
     {11, 3, "junction deviation, mm", [](const RackConfig& c) { return c.controller.default_path_tolerance_mm; },
      nullptr},
     {12, 3, "arc tolerance, mm", [](const RackConfig& c) { return c.controller.arc_tolerance_mm; }, nullptr},
-    {13, 0, "report in inches", nullptr, &OwnSettings::inches, 1},
+    {13, 0, "report in inches", nullptr, &SessionSettingValues::inches, 1},
     {20, 0, "soft limits", one, nullptr},
     {21, 0, "hard limits",
      [](const RackConfig& c) {
@@ -94,9 +94,9 @@ constexpr std::array<Setting, 22> table = {{
          return of_homing(c, [](const control::HomeOrder& order, const RackAxis&) { return order.clearance; });
      },
      nullptr},
-    {30, 0, "greatest spindle speed, rpm", nullptr, &OwnSettings::most_rpm, 1e6},
-    {31, 0, "least spindle speed, rpm", nullptr, &OwnSettings::least_rpm, 1e6},
-    {32, 0, "laser mode", nullptr, &OwnSettings::laser, 1},
+    {30, 0, "greatest spindle speed, rpm", nullptr, &SessionSettingValues::most_rpm, 1e6},
+    {31, 0, "least spindle speed, rpm", nullptr, &SessionSettingValues::least_rpm, 1e6},
+    {32, 0, "laser mode", nullptr, &SessionSettingValues::laser, 1},
 }};
 
 constexpr std::array<AxisSetting, 4> axis_table = {{
@@ -127,7 +127,7 @@ std::span<const AxisSetting> axis_settings() {
     return axis_table;
 }
 
-std::string settings_text(const rack::RackConfig& config, const OwnSettings& own, int axes) {
+std::string settings_text(const rack::RackConfig& config, const SessionSettingValues& own, int axes) {
     std::string out;
     for (const Setting& setting : table)
         out += fmt::format("${}={:.{}f}\r\n", setting.number,
@@ -139,7 +139,7 @@ std::string settings_text(const rack::RackConfig& config, const OwnSettings& own
     return out;
 }
 
-Changed change_setting(const rack::RackConfig& config, OwnSettings& own, int axes, int number, double value) {
+Changed change_setting(const rack::RackConfig& config, SessionSettingValues& own, int axes, int number, double value) {
     if (value < 0) return {error_negative, {}};
     if (number == 0 && value < 3) return {error_short_pulse, {}};
     for (const AxisSetting& setting : axis_table)

@@ -10,7 +10,7 @@
 namespace motionrack::grbl {
 
 /// Settings that a sender may change; they last until the program ends.
-struct OwnSettings {
+struct SessionSettingValues {
     double report = 1;       ///< $10: bit 0 machine positions, else work positions; bit 1 free blocks and bytes
     double inches = 0;       ///< $13: reports in inches
     double most_rpm = 1000;  ///< $30
@@ -24,7 +24,7 @@ struct Setting {
     int decimals;
     std::string_view what;
     double (*rack)(const rack::RackConfig& config);
-    double OwnSettings::*own;
+    double SessionSettingValues::*own;
     double most = 0;  ///< own: 0 .. this
 };
 std::span<const Setting> settings();
@@ -38,13 +38,13 @@ struct AxisSetting {
 std::span<const AxisSetting> axis_settings();
 
 /// "$0=10\r\n" .., all of them, for so many axes.
-std::string settings_text(const rack::RackConfig& config, const OwnSettings& own, int axes);
+std::string settings_text(const rack::RackConfig& config, const SessionSettingValues& own, int axes);
 
 /// How an attempt to change a setting ended: Grbl's error number, 0 if it is done, and what to tell.
 struct Changed {
     int error = 0;
     std::string note;
 };
-Changed change_setting(const rack::RackConfig& config, OwnSettings& own, int axes, int number, double value);
+Changed change_setting(const rack::RackConfig& config, SessionSettingValues& own, int axes, int number, double value);
 
 }  // namespace motionrack::grbl
