@@ -34,7 +34,7 @@ struct Optics {
 };
 
 /// Settings of the card's list.
-struct Pace {
+struct ProcessSpeeds {
     double mark_mm_s = 500, jump_mm_s = 3000;
     double jump_delay_us = 0, mark_delay_us = 0, polygon_delay_us = 0;  ///< whole 10 us
     double laser_on_us = 0, laser_off_us = 0;                           ///< whole 0.5 us
@@ -95,7 +95,7 @@ struct Job {
     std::optional<rack::RackLens> lens;
     parts::GalvoSettings galvo;
     parts::LaserSettings laser;
-    Pace pace;
+    ProcessSpeeds pace;
     Belt belt;
     FlySettings fly;
     std::optional<PartsSettings> parts;  ///< none: one part, and the job begins by itself

@@ -41,13 +41,13 @@ inline constexpr std::array<Field, 3> optics_fields = {
     field<&Optics::correction>("correction", 0, 1, "", "false: no table in the card"),
 };
 inline constexpr std::array<Field, 7> pace_fields = {
-    field<&Pace::mark_mm_s>("mark_mm_s", 1e-6, 1e6, "mm/s", "speed of marks"),
-    field<&Pace::jump_mm_s>("jump_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps"),
-    field<&Pace::jump_delay_us>("jump_delay_us", 0, 1e7, "us", "wait after a jump"),
-    field<&Pace::mark_delay_us>("mark_delay_us", 0, 1e7, "us", "wait after a stroke"),
-    field<&Pace::polygon_delay_us>("polygon_delay_us", 0, 1e7, "us", "wait at a corner"),
-    field<&Pace::laser_on_us>("laser_on_us", -16'384, 32'767, "us", "from the begin of a stroke to the laser"),
-    field<&Pace::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to the laser"),
+    field<&ProcessSpeeds::mark_mm_s>("mark_mm_s", 1e-6, 1e6, "mm/s", "speed of marks"),
+    field<&ProcessSpeeds::jump_mm_s>("jump_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps"),
+    field<&ProcessSpeeds::jump_delay_us>("jump_delay_us", 0, 1e7, "us", "wait after a jump"),
+    field<&ProcessSpeeds::mark_delay_us>("mark_delay_us", 0, 1e7, "us", "wait after a stroke"),
+    field<&ProcessSpeeds::polygon_delay_us>("polygon_delay_us", 0, 1e7, "us", "wait at a corner"),
+    field<&ProcessSpeeds::laser_on_us>("laser_on_us", -16'384, 32'767, "us", "from the begin of a stroke to the laser"),
+    field<&ProcessSpeeds::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to the laser"),
 };
 inline constexpr std::array<Field, 5> belt_fields = {
     field<&Belt::speed>("speed_mm_s", -1e5, 1e5, "mm/s", "speed"),

@@ -30,10 +30,10 @@ rtc5::Settings settings_of(const Job& job, const Prepared& prepared) {
 
 }  // namespace
 
-Result<Senses> Senses::make(const Job& job, const Following& following) {
+Result<InputModel> InputModel::make(const Job& job, const ConveyorTracking& following) {
     const parts::ConveyorSettings& settings = following.track;
     MOTIONRACK_TRY(parts::Conveyor track, parts::Conveyor::make(settings));
-    Senses out(std::move(track));
+    InputModel out(std::move(track));
     if (following.mode == FlyMode::mcbsp) {
         parts::SerialPositionSettings sender = job.sender;
         const double quarter = settings.direction_deg / 90;
@@ -43,23 +43,23 @@ Result<Senses> Senses::make(const Job& job, const Following& following) {
     return out;
 }
 
-Result<void> Senses::begin(std::int64_t tick) {
+Result<void> InputModel::begin(std::int64_t tick) {
     begin_ = tick;
     if (!sender_) return {};
     MOTIONRACK_TRY(source_, parts::SerialPositionSource::make(track_, *sender_));
     return {};
 }
 
-void Senses::counts(int, std::int64_t first, std::span<std::int32_t> out) {
+void InputModel::counts(int, std::int64_t first, std::span<std::int32_t> out) {
     track_.counts(first - begin_, out);
 }
 
-bool Senses::words(std::int64_t first, std::span<std::uint32_t> out) {
+bool InputModel::words(std::int64_t first, std::span<std::uint32_t> out) {
     if (source_) source_->words(first - begin_, out);
     return source_.has_value();
 }
 
-Line::Line(const Job& job, const Prepared& prepared, const Following& following, Senses senses,
+Line::Line(const Job& job, const Prepared& prepared, const ConveyorTracking& following, InputModel senses,
            const rtc5::Settings& settings)
     : job_(job),
       prepared_(prepared),
@@ -68,8 +68,8 @@ Line::Line(const Job& job, const Prepared& prepared, const Following& following,
       card_(settings),
       alternates_(takes_turns(job, prepared)) {}
 
-Result<std::unique_ptr<Line>> Line::make(const Job& job, const Prepared& prepared, const Following& following) {
-    MOTIONRACK_TRY(Senses senses, Senses::make(job, following));
+Result<std::unique_ptr<Line>> Line::make(const Job& job, const Prepared& prepared, const ConveyorTracking& following) {
+    MOTIONRACK_TRY(InputModel senses, InputModel::make(job, following));
     std::unique_ptr<Line> out(new Line(job, prepared, following, std::move(senses), settings_of(job, prepared)));
     MOTIONRACK_CHECK(out->set_up());
     return out;

@@ -36,9 +36,9 @@ struct PartRun {
 };
 
 /// The part's movement as the card's inputs see it.
-class Senses final : public rtc5::Inputs {
+class InputModel final : public rtc5::Inputs {
   public:
-    static Result<Senses> make(const Job& job, const Following& following);
+    static Result<InputModel> make(const Job& job, const ConveyorTracking& following);
     /// After it has come to its place; the belt's time is 0 at this tick of the card.
     Result<void> begin(std::int64_t tick);
     void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
@@ -46,7 +46,7 @@ class Senses final : public rtc5::Inputs {
     const parts::Conveyor& track() const { return track_; }
 
   private:
-    explicit Senses(parts::Conveyor track) : track_(std::move(track)) {}
+    explicit InputModel(parts::Conveyor track) : track_(std::move(track)) {}
     parts::Conveyor track_;
     std::optional<parts::SerialPositionSettings> sender_;
     std::optional<parts::SerialPositionSource> source_;
@@ -57,7 +57,8 @@ class Line final : rtc5::ListListener {
   public:
     /// Everything is loaded and the belt's time is 0. `job` and `prepared` must live as long. Errors: as list_of;
     /// refused: a list that is too long, a part that does not come.
-    static Result<std::unique_ptr<Line>> make(const Job& job, const Prepared& prepared, const Following& following);
+    static Result<std::unique_ptr<Line>> make(const Job& job, const Prepared& prepared,
+                                              const ConveyorTracking& following);
 
     /// Until all parts are through and the card rests. `done` is told the belt's tick now and then.
     /// Errors: refused: more than greatest_seconds; stopped.
@@ -72,7 +73,7 @@ class Line final : rtc5::ListListener {
     bool some_lost() const;
 
   private:
-    Line(const Job& job, const Prepared& prepared, const Following& following, Senses senses,
+    Line(const Job& job, const Prepared& prepared, const ConveyorTracking& following, InputModel senses,
          const rtc5::Settings& settings);
     Result<void> set_up();
     Result<void> arm();
@@ -84,8 +85,8 @@ class Line final : rtc5::ListListener {
 
     const Job& job_;
     const Prepared& prepared_;
-    Following following_;
-    Senses senses_;
+    ConveyorTracking following_;
+    InputModel senses_;
     rtc5::Engine card_;
     bool alternates_ = false;
     std::int64_t begin_ = 0;

@@ -17,14 +17,14 @@ double way_of(const Job& job, std::size_t part) {
     return job.parts ? job.parts->way(part) * job.sense() : 0;
 }
 
-PartFate fate_of(rtc5::StartFate fate) {
+PartOutcome fate_of(rtc5::StartFate fate) {
     switch (fate) {
         case rtc5::StartFate::begun:
-            return PartFate::marked;
+            return PartOutcome::marked;
         case rtc5::StartFate::busy:
-            return PartFate::lost_busy;
+            return PartOutcome::lost_busy;
         default:
-            return PartFate::lost_too_many;
+            return PartOutcome::lost_too_many;
     }
 }
 
@@ -72,7 +72,7 @@ void share_out(const Job& job, const Prepared& prepared, const std::vector<PartR
                std::span<const parts::MarkedPoint> points, Marked& out) {
     const auto own_place = [&](Spot belt, double way) { return way == 0 ? belt : track.carried(belt, way); };
     PartMarked none;
-    none.fate = PartFate::not_started;
+    none.fate = PartOutcome::not_started;
     out.parts.assign(job.parts ? job.parts->size() : 1, none);
     std::vector<PartRun> begun;
     for (const PartRun& run : runs) {

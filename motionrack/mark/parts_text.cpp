@@ -12,12 +12,12 @@ constexpr std::size_t most_rows = 40;
 
 std::string lost_text(const PartMarked& part, std::size_t number) {
     switch (part.fate) {
-        case PartFate::lost_busy:
+        case PartOutcome::lost_busy:
             return fmt::format(
                 "part {}: its start at {:.5f} s was lost, because the list of a part before it was still running; mark "
                 "faster, or let the parts come further apart\n",
                 number, part.begin_s);
-        case PartFate::lost_too_many:
+        case PartOutcome::lost_too_many:
             return fmt::format(
                 "part {}: its start at {:.5f} s was lost, because eight were waiting already; move the sensor nearer, "
                 "or let the parts come further apart\n",
@@ -43,7 +43,7 @@ std::string parts_text(const Job& job, const Marked& marked) {
         const PartMarked& part = marked.parts[i];
         if (++rows > most_rows && i + 1 < all) {
             ++hidden;
-        } else if (part.fate == PartFate::marked) {
+        } else if (part.fate == PartOutcome::marked) {
             fmt::format_to(to, "{:>6} {:>8} {:>11.5f} {:>11.5f} {:>10.4f} {:>10.4f} {:>10.3f}\n", i + 1, part.number,
                            part.begin_s, part.end_s, part.deviation.worst_mm, part.deviation.rms_mm,
                            part.deviation.missing_mm);

@@ -70,7 +70,7 @@ Direction direction_of(const parts::ConveyorSettings& track) {
 }
 
 /// The correction of what goes along X, Y or both.
-void put_linear(List& list, const Job& job, const Prepared& prepared, const Following& following) {
+void put_linear(List& list, const Job& job, const Prepared& prepared, const ConveyorTracking& following) {
     const Direction d = direction_of(following.track);
     const double scale = prepared.bits_per_mm * job.fly.scale_factor / counts_per_unit(job, following);
     if (following.mode == FlyMode::mcbsp) {
@@ -86,7 +86,7 @@ void put_linear(List& list, const Job& job, const Prepared& prepared, const Foll
     }
 }
 
-void put_fly(List& list, const Job& job, const Prepared& prepared, const Following& following) {
+void put_fly(List& list, const Job& job, const Prepared& prepared, const ConveyorTracking& following) {
     const double unit = counts_per_unit(job, following);
     if (following.mode == FlyMode::off || unit == 0) return;
     const bool words = following.mode == FlyMode::mcbsp;
@@ -106,7 +106,7 @@ void put_fly(List& list, const Job& job, const Prepared& prepared, const Followi
 }
 
 /// Everything further on by what the belt goes in a time; before fly, so that the flags see it.
-void put_offset(List& list, const Job& job, const Following& following) {
+void put_offset(List& list, const Job& job, const ConveyorTracking& following) {
     constexpr double before_fly = 4;
     if (job.fly.offset_us == 0 || !following.corrects) return;
     const double way = following.track.profile[0].speed * job.fly.offset_us * 1e-6;
@@ -144,7 +144,7 @@ void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
 }
 
 /// Holds until the belt has gone so far.
-void put_wait(List& list, const Job& job, const Following& following, double way) {
+void put_wait(List& list, const Job& job, const ConveyorTracking& following, double way) {
     const double unit = counts_of(job, following, way), rising = unit < 0 ? -1 : 1;
     if (following.mode == FlyMode::mcbsp)
         list.put(Op::wait_for_mcbsp, {direction_of(following.track).x != 0 ? 0.0 : 1.0, unit, rising});
@@ -153,7 +153,7 @@ void put_wait(List& list, const Job& job, const Following& following, double way
 }
 
 /// Each batch waits, parked where it will begin, so that the waiting spot does not go out of the field with the part.
-Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, const Following& following,
+Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, const ConveyorTracking& following,
                          const Drawing& drawing) {
     const double margin = job.fly.margin_mm, sense = job.sense();
     Box field = prepared.field();
@@ -164,8 +164,8 @@ Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, c
                                 margin, field.high.x - field.low.x + 2 * margin));
     const Direction d = direction_of(following.track);
     const Spot movement{d.x * sense, d.y * sense};
-    MOTIONRACK_TRY(const std::vector<Batch> batches, batches_of(drawing, field, movement));
-    for (const Batch& batch : batches) {
+    MOTIONRACK_TRY(const std::vector<WaitBatch> batches, batches_of(drawing, field, movement));
+    for (const WaitBatch& batch : batches) {
         const Spot way{movement.x * batch.at_mm, movement.y * batch.at_mm}, begin = batch.strokes[0].from;
         const Spot shift = following.corrects ? Spot{} : way;
         const bool waits = batch.at_mm > 0;
@@ -182,7 +182,7 @@ Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, c
 }
 
 /// Of a drawing on a part that stands nothing would be marked but a line on the field's edge.
-Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const Following& following) {
+Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const ConveyorTracking& following) {
     const auto& profile = following.track.profile;
     const bool carried =
         following.mode != FlyMode::off &&
@@ -205,13 +205,13 @@ Box Prepared::field() const {
             {rtc5::field_greatest / bits_per_mm, rtc5::field_greatest / bits_per_mm}};
 }
 
-Following following_of(const Job& job, double factor) {
-    Following out{job.track(), job.fly.mode, job.fly.simulated_speed.value_or(job.belt.speed) * factor, true};
+ConveyorTracking following_of(const Job& job, double factor) {
+    ConveyorTracking out{job.track(), job.fly.mode, job.fly.simulated_speed.value_or(job.belt.speed) * factor, true};
     for (parts::SpeedPoint& point : out.track.profile) point.speed *= factor;
     return out;
 }
 
-double counts_per_unit(const Job& job, const Following& following) {
+double counts_per_unit(const Job& job, const ConveyorTracking& following) {
     switch (following.mode) {
         case FlyMode::mcbsp:
             return job.sender.bits_per_mm;
@@ -222,7 +222,7 @@ double counts_per_unit(const Job& job, const Following& following) {
     }
 }
 
-double counts_of(const Job& job, const Following& following, double way) {
+double counts_of(const Job& job, const ConveyorTracking& following, double way) {
     const double unit = counts_per_unit(job, following);
     return std::floor(way * (following.mode == FlyMode::simulated ? std::fabs(unit) : unit * job.sense()) + 0.5);
 }
@@ -280,7 +280,7 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
     return out;
 }
 
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following,
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const ConveyorTracking& following,
                                            std::size_t marked) {
     const Drawing& drawing = prepared.of(marked).drawing;
     if (job.fly.waits == Waits::none) MOTIONRACK_CHECK(check_reaches_field(drawing, prepared.field(), following));
@@ -300,7 +300,7 @@ Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepa
 }
 
 Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared,
-                                                  const Following& following) {
+                                                  const ConveyorTracking& following) {
     List list(prepared.bits_per_mm);
     put_fly(list, job, prepared, following);
     list.put(Op::fly_return, {0, 0});

@@ -64,7 +64,7 @@ trace::ReportTable parts_table(const Marked& m) {
                          {}};
     for (std::size_t i = 0; i < m.parts.size(); ++i) {
         const PartMarked& p = m.parts[i];
-        t.rows.push_back({fmt::format("{}", i + 1), p.fate == PartFate::marked ? fmt::format("{}", p.number) : "",
+        t.rows.push_back({fmt::format("{}", i + 1), p.fate == PartOutcome::marked ? fmt::format("{}", p.number) : "",
                           name_of(p.fate), fmt::format("{:.5f} s", p.begin_s), fmt::format("{:.5f} s", p.end_s),
                           fmt::format("{:.4f} mm", p.deviation.worst_mm), fmt::format("{:.4f} mm", p.deviation.rms_mm),
                           fmt::format("{:.3f} mm", p.deviation.missing_mm)});

@@ -123,8 +123,8 @@ class FitSearch {
     double tried_ = 0;
 };
 
-Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Following& following, double expected_ticks,
-                         const std::function<void(double)>& progress, const Watch& watch) {
+Result<Marked> mark_once(const Job& job, const Prepared& prepared, const ConveyorTracking& following,
+                         double expected_ticks, const std::function<void(double)>& progress, const Watch& watch) {
     parts::StationSettings settings;
     settings.galvo = job.galvo;
     settings.lens = prepared.lens;
@@ -203,8 +203,8 @@ Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& w
     const bool waits = out.waits = job.fly.waits != Waits::none;
     out.drawing_in_field = waits || (box.low.x >= out.field.low.x && box.low.y >= out.field.low.y &&
                                      box.high.x <= out.field.high.x && box.high.y <= out.field.high.y);
-    const Following with = following_of(job);
-    Following without = with;
+    const ConveyorTracking with = following_of(job);
+    ConveyorTracking without = with;
     without.corrects = false;
     const bool follows = with.mode != FlyMode::off && moves(with.track);
     MOTIONRACK_TRY(const Quick quick, run_quick(job, prepared, 1, watch));

@@ -20,20 +20,20 @@ struct FieldSample {
 };
 inline constexpr std::int64_t most_field_samples = 10'000;
 
-enum class PartFate : std::uint8_t {
+enum class PartOutcome : std::uint8_t {
     marked,
     lost_busy,      ///< its start came while the list of another part ran
     lost_too_many,  ///< eight starts were waiting as its edge came
     not_started     ///< the card was not asked for its start, because that of an earlier part was lost
 };
 
-constexpr const char* name_of(PartFate fate) {
+constexpr const char* name_of(PartOutcome fate) {
     switch (fate) {
-        case PartFate::marked:
+        case PartOutcome::marked:
             return "marked";
-        case PartFate::lost_busy:
+        case PartOutcome::lost_busy:
             return "lost: a list was running";
-        case PartFate::lost_too_many:
+        case PartOutcome::lost_too_many:
             return "lost: eight were waiting";
         default:
             return "not started";
@@ -42,7 +42,7 @@ constexpr const char* name_of(PartFate fate) {
 
 /// What became of one part.
 struct PartMarked {
-    PartFate fate = PartFate::marked;
+    PartOutcome fate = PartOutcome::marked;
     std::int64_t number = 0;        ///< of {n}, if it was marked
     std::size_t drawing = 0;        ///< Prepared::of; of a lost part the one it would have got
     double begin_s = 0, end_s = 0;  ///< of its list; when lost: the instant
@@ -69,8 +69,8 @@ struct Marked {
     std::uint64_t lost_overflows = 0;  ///< more than OverflowLog::most
 
     std::size_t parts_lost() const {
-        return static_cast<std::size_t>(
-            std::count_if(parts.begin(), parts.end(), [](const PartMarked& p) { return p.fate != PartFate::marked; }));
+        return static_cast<std::size_t>(std::count_if(
+            parts.begin(), parts.end(), [](const PartMarked& p) { return p.fate != PartOutcome::marked; }));
     }
     /// The correction stayed in the field and no part was lost.
     bool good() const { return overflows.empty() && parts_lost() == 0; }

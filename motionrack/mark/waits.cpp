@@ -133,7 +133,7 @@ Result<void> check(const Piece& piece, const Box& field) {
 
 }  // namespace
 
-Result<std::vector<Batch>> batches_of(const Drawing& drawing, const Box& field, Spot movement) {
+Result<std::vector<WaitBatch>> batches_of(const Drawing& drawing, const Box& field, Spot movement) {
     const Spot size{field.high.x - field.low.x, field.high.y - field.low.y};
     const double along = std::min(movement.x != 0 ? size.x / std::fabs(movement.x) : infinite,
                                   movement.y != 0 ? size.y / std::fabs(movement.y) : infinite);
@@ -161,12 +161,12 @@ Result<std::vector<Batch>> batches_of(const Drawing& drawing, const Box& field, 
     }
     std::stable_sort(pieces.begin(), pieces.end(),
                      [](const Piece& a, const Piece& b) { return a.ways.low < b.ways.low; });
-    std::vector<Batch> out;
+    std::vector<WaitBatch> out;
     double begin = -infinite;
     for (Piece& piece : pieces) {
         const double at = std::max(piece.ways.low, 0.0);
         if (out.empty() || at > begin + along / batches_in_field) out.push_back({at, piece.ways.high, {}}), begin = at;
-        Batch& batch = out.back();
+        WaitBatch& batch = out.back();
         batch.at_mm = std::max(batch.at_mm, at);
         batch.until_mm = std::min(batch.until_mm, piece.ways.high);
         batch.strokes.push_back(std::move(piece.stroke));

@@ -12,7 +12,7 @@
 namespace motionrack::mark {
 
 /// Strokes that one wait is for.
-struct Batch {
+struct WaitBatch {
     double at_mm = 0;     ///< way of the belt from which on all of it is in the field
     double until_mm = 0;  ///< way of the belt until which all of it is
     std::vector<Stroke> strokes;
@@ -21,6 +21,6 @@ struct Batch {
 /// The drawing in the order in which it comes into `field` (already without its margin), moved by way * `movement` (a
 /// unit vector). Strokes longer than a quarter of the field are cut across the movement.
 /// Errors: refused: what is never in the field, or is past it before the belt moves; with how much.
-Result<std::vector<Batch>> batches_of(const Drawing& drawing, const Box& field, Spot movement);
+Result<std::vector<WaitBatch>> batches_of(const Drawing& drawing, const Box& field, Spot movement);
 
 }  // namespace motionrack::mark

@@ -66,7 +66,7 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
                                                   path));
     };
     MOTIONRACK_TRY(const mark::Prepared prepared, mark::prepare(job, load));
-    const mark::Following following = mark::following_of(job);
+    const mark::ConveyorTracking following = mark::following_of(job);
     Lists out;
     out.table = prepared.table;
     out.notes = prepared.notes;

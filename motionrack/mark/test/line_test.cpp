@@ -23,7 +23,7 @@ TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
     ASSERT_EQ(out.on.parts.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
         const PartMarked& part = out.on.parts[i];
-        EXPECT_EQ(part.fate, PartFate::marked);
+        EXPECT_EQ(part.fate, PartOutcome::marked);
         EXPECT_NEAR(part.begin_s, (static_cast<double>(i) * 60 + 33.3) / 200, 2e-5);
         EXPECT_LE(part.deviation.worst_mm, 0.005) << "a tick at the edge, one at the start, a count";
         EXPECT_NEAR(part.marked_mm, 40, 0.05);
@@ -58,7 +58,7 @@ TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
                                        start + "\n"));
         ASSERT_EQ(out.on.parts.size(), 8u);
         for (const PartMarked& part : out.on.parts) {
-            EXPECT_EQ(part.fate, PartFate::marked);
+            EXPECT_EQ(part.fate, PartOutcome::marked);
             EXPECT_LE(part.deviation.worst_mm, 0.003) << start;
             EXPECT_EQ(part.deviation.missing_mm, 0) << start;
         }
@@ -72,7 +72,7 @@ TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
     ASSERT_EQ(out.on.parts.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
         const PartMarked& part = out.on.parts[i];
-        EXPECT_EQ(part.fate, i % 2 == 0 ? PartFate::marked : PartFate::lost_busy) << i;
+        EXPECT_EQ(part.fate, i % 2 == 0 ? PartOutcome::marked : PartOutcome::lost_busy) << i;
         EXPECT_NEAR(part.begin_s, (static_cast<double>(i) * 10 + 20) / 200, 2e-5) << i;
         EXPECT_NEAR(part.deviation.missing_mm, i % 2 == 0 ? 0 : 40, 1e-9);
     }
@@ -89,7 +89,7 @@ TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
     const Outcome out = run(job_of(squares("count = 10\nspacing_mm = 20\ntrack_delay_mm = 170\n")));
     // At 160 mm the ninth edge comes, the first part is due at 170 mm.
     for (std::size_t i = 0; i < 10; ++i)
-        EXPECT_EQ(out.on.parts[i].fate, i == 8 ? PartFate::lost_too_many : PartFate::marked) << i;
+        EXPECT_EQ(out.on.parts[i].fate, i == 8 ? PartOutcome::lost_too_many : PartOutcome::marked) << i;
     EXPECT_NEAR(out.on.parts[8].begin_s, 160.0 / 200, 2e-5);
 }
 
@@ -97,14 +97,14 @@ TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
     // 0.0123 mm are 12.3 counts: the card counts 60012 of them from start to start, and none gets lost on the way.
     const Outcome out = run(job_of(squares("count = 6\nspacing_mm = 60.0123\nstart = 'equidistant'\n")));
     for (std::size_t i = 0; i < 6; ++i) {
-        EXPECT_EQ(out.on.parts[i].fate, PartFate::marked);
+        EXPECT_EQ(out.on.parts[i].fate, PartOutcome::marked);
         EXPECT_NEAR(out.on.parts[i].begin_s, static_cast<double>(i) * 60.012 / 200, 2.1e-5) << i;
         EXPECT_LE(out.on.parts[i].deviation.worst_mm, 0.006) << i;
     }
     const Outcome lost = run(job_of(squares("count = 3\nspacing_mm = 10\nstart = 'equidistant'\n")));
-    EXPECT_EQ(lost.on.parts[0].fate, PartFate::marked);
-    EXPECT_EQ(lost.on.parts[1].fate, PartFate::lost_busy);
-    EXPECT_EQ(lost.on.parts[2].fate, PartFate::not_started);
+    EXPECT_EQ(lost.on.parts[0].fate, PartOutcome::marked);
+    EXPECT_EQ(lost.on.parts[1].fate, PartOutcome::lost_busy);
+    EXPECT_EQ(lost.on.parts[2].fate, PartOutcome::not_started);
 }
 
 TEST(MarkLine, EachPartGetsItsNumber) {
@@ -132,12 +132,12 @@ TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
         run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_mm_s = 200\n[belt]\nspeed_mm_s = "
                    "200\n[fly]\nmode = 'encoder'\n"
                    "[parts]\nat_mm = [0, 5, 60, 65, 120]\ntrack_delay_mm = 5\n"));
-    const std::vector<PartFate> fates = {PartFate::marked, PartFate::lost_busy, PartFate::marked, PartFate::lost_busy,
-                                         PartFate::marked};
+    const std::vector<PartOutcome> fates = {PartOutcome::marked, PartOutcome::lost_busy, PartOutcome::marked,
+                                            PartOutcome::lost_busy, PartOutcome::marked};
     std::int64_t number = 0;
     for (std::size_t i = 0; i < fates.size(); ++i) {
         EXPECT_EQ(out.on.parts[i].fate, fates[i]) << i;
-        if (fates[i] != PartFate::marked) {
+        if (fates[i] != PartOutcome::marked) {
             EXPECT_EQ(out.on.parts[i].drawing, static_cast<std::size_t>(number)) << "it would have been the next";
         } else {
             EXPECT_EQ(out.on.parts[i].number, ++number);

@@ -26,10 +26,10 @@ TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
     const Box field{{-59, -59}, {59, 59}};
     for (const Spot movement : {Spot{1, 0}, Spot{0.8, 0.6}}) {
         Drawing turned = transformed(drawing, {movement.x, movement.y, -movement.y, movement.x, 0, 0});
-        const std::vector<Batch> batches = *batches_of(turned, field, movement);
+        const std::vector<WaitBatch> batches = *batches_of(turned, field, movement);
         EXPECT_GT(batches.size(), 10u);
         double length = 0, before = 0;
-        for (const Batch& batch : batches) {
+        for (const WaitBatch& batch : batches) {
             EXPECT_GE(batch.at_mm, before);
             EXPECT_GT(batch.until_mm, batch.at_mm + 118 / 2.0);
             before = batch.at_mm;
@@ -46,7 +46,7 @@ TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
 
 TEST(Waits, WhatIsShorterThanAQuarterOfTheFieldStaysInOnePiece) {
     const Drawing circle = *read_svg("<svg><circle cx='-100' cy='0' r='14'/></svg>", "s");
-    const std::vector<Batch> batches = *batches_of(circle, {{-59, -59}, {59, 59}}, {1, 0});
+    const std::vector<WaitBatch> batches = *batches_of(circle, {{-59, -59}, {59, 59}}, {1, 0});
     ASSERT_EQ(batches.size(), 1u);
     ASSERT_EQ(batches[0].strokes.size(), 1u);
     EXPECT_NEAR(batches[0].at_mm, 114 - 59, 1e-6);
@@ -118,7 +118,7 @@ TEST(Waits, GoTogetherWithPartsAndProfiles) {
                             "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")),
             long_svg);
     for (const PartMarked& part : parts.on.parts) {
-        EXPECT_EQ(part.fate, PartFate::marked);
+        EXPECT_EQ(part.fate, PartOutcome::marked);
         EXPECT_LE(part.deviation.worst_mm, 0.006);
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }

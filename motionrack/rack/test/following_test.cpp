@@ -1,4 +1,5 @@
-// Following errors of axes with an encoder: what is told, what stops the machine, what is refused in a rack file.
+// ConveyorTracking errors of axes with an encoder: what is told, what stops the machine, what is refused in a rack
+// file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
