@@ -106,7 +106,7 @@ std::string Plot::strokes(std::span<const Node> nodes, const char* look) const {
         points.push_back({x(seen[i].at.x), y(seen[i].at.y), 0, 0});
         ends.push_back(seen[i].first || i + 1 == seen.size() || seen[i + 1].first);
     }
-    const trace::ThinnedPath path = trace::thin_path(points, ends, eye_px, most_nodes);
+    const trace::DecimatedPath path = trace::thin_path(points, ends, eye_px, most_nodes);
     std::string data;
     std::size_t before = 0;
     for (const std::size_t i : path.kept) {

@@ -190,8 +190,8 @@ std::string of_axes(const JobOutcome& outcome, Member member) {
     return out;
 }
 
-std::vector<trace::Fact> facts_of(const JobOutcome& outcome) {
-    std::vector<trace::Fact> facts;
+std::vector<trace::OutcomeField> facts_of(const JobOutcome& outcome) {
+    std::vector<trace::OutcomeField> facts;
     const auto add = [&](const char* name, const auto& value) { facts.push_back({name, fmt::format("{}", value)}); };
     add("ended", outcome.ended ? "yes" : "no");
     if (!outcome.ended) {

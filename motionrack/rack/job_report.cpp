@@ -132,8 +132,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell)
             data.planned.push_back(path_segment(planned.move, planned.start));
     if (outcome.worst.mm > 0)
-        data.worst = trace::ReportWorst{outcome.worst.mm, to_seconds(outcome.worst.at - began), outcome.worst.line,
-                                        outcome.worst.place};
+        data.worst = trace::ReportMaxDeviation{outcome.worst.mm, to_seconds(outcome.worst.at - began),
+                                               outcome.worst.line, outcome.worst.place};
     if (!outcome.ended && !samples.empty())
         data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(),
                                       outcome.ended.error().message};

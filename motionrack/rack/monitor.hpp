@@ -165,7 +165,7 @@ class Monitor final : public sim::Device {
         std::int64_t ring_lost = 0;
         std::array<RawSample, 5> last = {};  // for accelerations, newest first
         int last_count = 0;
-        trace::SampleKeeper<Sample> kept;
+        trace::DecimatingBuffer<Sample> kept;
         std::int64_t taken = 0;
         std::array<AxisStatistics, control::axis_count> statistics = {};
         std::deque<Planned> planned;

@@ -45,10 +45,10 @@ std::vector<Event> events_of(const ReportData& data) {
         const std::optional<double> when = instant(seconds);
         events.push_back({when, name, line, when ? driven_at(data, *when) : std::nullopt, std::move(text)});
     };
-    for (const ReportBlock& block : data.blocks) add(block.start, "block", block.line, block.kind);
+    for (const ReportMove& block : data.blocks) add(block.start, "block", block.line, block.kind);
     for (const ReportWarning& warning : data.warnings) add(warning.seconds, "warning", warning.line, warning.text);
     if (data.worst) {
-        const ReportWorst& worst = *data.worst;
+        const ReportMaxDeviation& worst = *data.worst;
         const std::string text = std::isfinite(worst.mm) ? fmt::format("{} mm", worst.mm) : "";
         events.push_back({instant(worst.seconds), "worst deviation", worst.line, worst.at, text});
     }

@@ -59,13 +59,13 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
 void compare_outcomes(const RecordingReader& a, const RecordingReader& b, Diff& diff) {
     if (!a.whole() || !b.whole()) return;
     const auto value = [](const RecordingReader& of, const std::string& name) {
-        for (const Fact& fact : of.outcome())
+        for (const OutcomeField& fact : of.outcome())
             if (fact.name == name) return fact.text;
         return std::string("none");
     };
     std::vector<std::string> names;
     for (const RecordingReader* one : {&a, &b})
-        for (const Fact& fact : one->outcome())
+        for (const OutcomeField& fact : one->outcome())
             if (std::find(names.begin(), names.end(), fact.name) == names.end()) names.push_back(fact.name);
     for (const std::string& name : names)
         if (value(a, name) != value(b, name))

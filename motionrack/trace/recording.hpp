@@ -81,18 +81,18 @@ struct AxisSample {
 };
 
 /// A number or a text of an outcome, by its name.
-struct Fact {
+struct OutcomeField {
     std::string name;
     std::string text;  ///< as it is to be read
-    friend bool operator==(const Fact&, const Fact&) = default;
+    friend bool operator==(const OutcomeField&, const OutcomeField&) = default;
 };
 
 /// What is known when the run is over.
 struct RecordingEnd {
     Instant at{};
-    std::vector<Fact> outcome;
+    std::vector<OutcomeField> outcome;
     ReportData report;                   ///< its series are left out: they are made of the samples again
-    std::size_t most_samples = 200'000;  ///< of the report, see SampleKeeper
+    std::size_t most_samples = 200'000;  ///< of the report, see DecimatingBuffer
 };
 
 class RecordingWriter {
@@ -156,7 +156,7 @@ class RecordingReader {
     Instant known_to() const { return known_to_; }
     /// A sentence about a recording that is not whole.
     std::string cut_sentence() const;
-    const std::vector<Fact>& outcome() const { return outcome_; }
+    const std::vector<OutcomeField>& outcome() const { return outcome_; }
     const std::string& path() const { return file_.path(); }
 
     const std::vector<RecordedSeries>& series() const { return series_; }
@@ -190,7 +190,7 @@ class RecordingReader {
     RecordingHead head_;
     std::vector<RecordedInput> inputs_;
     std::vector<RecordedSeries> series_;
-    std::vector<Fact> outcome_;
+    std::vector<OutcomeField> outcome_;
     std::string report_;
     std::size_t most_samples_ = 200'000;
     bool whole_ = false;

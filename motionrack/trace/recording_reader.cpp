@@ -185,7 +185,7 @@ int path_axis(const std::string& name) {
 }
 
 /// What the kept samples are in a report.
-void put(ReportData& data, const SampleKeeper<Kept>& keeper, const std::vector<RecordedAxis>& axes) {
+void put(ReportData& data, const DecimatingBuffer<Kept>& keeper, const std::vector<RecordedAxis>& axes) {
     const std::vector<Kept>& kept = keeper.samples();
     for (const Kept& sample : kept) {
         data.seconds.push_back(to_seconds(Duration{sample.at - kept.front().at}));
@@ -224,7 +224,7 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         if (axis.servo) size = std::min(size, one->volts.size());
         axes.push_back(std::move(one));
     }
-    SampleKeeper<Kept> keeper(most_samples_);
+    DecimatingBuffer<Kept> keeper(most_samples_);
     std::vector<std::int64_t> times(read_block);
     std::vector<double> deviations(read_block);
     for (std::uint64_t from = 0; from < size; from += read_block) {

@@ -205,7 +205,7 @@ Result<void> RecordingWriter::close(const RecordingEnd& end) {
     if (!good_) file_.set_trouble("could not be written, perhaps for want of room on the disk");
     MOTIONRACK_CHECK(file_.reopen());
     file_.make_group("outcome");
-    for (const Fact& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
+    for (const OutcomeField& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
     file_.write_text("run/report", report_json(end.report));
     file_.set("/", "most_samples", static_cast<std::int64_t>(end.most_samples));
     file_.set("/", "ended_ticks", end.at.count());  // last: who finds it finds everything

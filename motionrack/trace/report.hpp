@@ -61,7 +61,7 @@ struct ReportSegment {
 };
 
 /// The place where the machine was farthest from the programmed path.
-struct ReportWorst {
+struct ReportMaxDeviation {
     double mm = 0;
     double seconds = 0;
     int line = 0;  ///< 0: none
@@ -77,7 +77,7 @@ struct ReportStop {
 };
 
 /// One block as it was driven. Lengths and speeds are of the path: mm and mm/s, or deg and deg/s as `unit` says.
-struct ReportBlock {
+struct ReportMove {
     int line = 0;
     std::string text;  ///< the line as written in the part program
     std::string kind;  ///< "traverse", "line", "arc", "dwell"
@@ -140,9 +140,9 @@ struct ReportData {
     double tolerance_mm = 0;          ///< what the deviation is held against; 0: no line is drawn
     std::vector<ReportSegment> planned;
     std::vector<Xyz> driven;  ///< where the machine was, over `seconds`
-    std::optional<ReportWorst> worst;
+    std::optional<ReportMaxDeviation> worst;
     std::optional<ReportStop> stop;
-    std::vector<ReportBlock> blocks;  ///< in the order driven; the page lists the first 2,000
+    std::vector<ReportMove> blocks;  ///< in the order driven; the page lists the first 2,000
     std::vector<ReportWarning> warnings;
     std::vector<ReportPicture> pictures;
     std::string pictures_hint;  ///< what their lines are

@@ -96,7 +96,7 @@ std::string driven_json(const ReportData& data, double second) {
         points.push_back({p[0], p[1], p[2], data.seconds[i] * per_second});
     }
     const double tolerance = path_tolerance(data, size);
-    const ThinnedPath path = thin_path(points, {}, tolerance, most_driven);
+    const DecimatedPath path = thin_path(points, {}, tolerance, most_driven);
     std::array<std::vector<double>, 4> columns;
     for (const std::size_t i : path.kept) {
         for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(points[i][c]);
@@ -260,7 +260,7 @@ std::string drawing_json(const ReportData& data, const std::vector<PageChart>& c
     }
     out += ",\n\"blocks\":[";
     for (std::size_t i = 0; i < std::min(data.blocks.size(), most_blocks); ++i) {
-        const ReportBlock& block = data.blocks[i];
+        const ReportMove& block = data.blocks[i];
         out += fmt::format("{}[{},{},{}]", i > 0 ? "," : "", block.line, json_number(block.start),
                            json_number(block.start + block.duration));
     }

@@ -115,13 +115,13 @@ void fields_of(ReportAxis& v, Fields& f) {
 void fields_of(ReportSegment& v, Fields& f) {
     f("points", v.points)("traverse", v.traverse)("line", v.line);
 }
-void fields_of(ReportWorst& v, Fields& f) {
+void fields_of(ReportMaxDeviation& v, Fields& f) {
     f("mm", v.mm)("seconds", v.seconds)("line", v.line)("at", v.at);
 }
 void fields_of(ReportStop& v, Fields& f) {
     f("seconds", v.seconds)("line", v.line)("at", v.at)("text", v.text);
 }
-void fields_of(ReportBlock& v, Fields& f) {
+void fields_of(ReportMove& v, Fields& f) {
     f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration",
                                                                                                             v.duration);
     f("entry_speed", v.entry_speed)("top_speed", v.top_speed)("exit_speed", v.exit_speed)("deviation_mm",

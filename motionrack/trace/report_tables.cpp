@@ -62,7 +62,7 @@ std::string axis_row(const ReportAxis& axis) {
     return out + "</tr>\n";
 }
 
-std::string block_row(const ReportBlock& block, std::size_t index) {
+std::string block_row(const ReportMove& block, std::size_t index) {
     const std::string unit = shown(block.unit, 20);
     std::string out = fmt::format("<tr data-block=\"{}\">", index);
     out += cell(block.line > 0 ? std::to_string(block.line) : "");

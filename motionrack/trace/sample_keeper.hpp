@@ -10,10 +10,10 @@ namespace motionrack::trace {
 
 /// A sample is kept with the deviation that belongs to it; of two that become one the greater deviation stays.
 template <class Sample>
-class SampleKeeper {
+class DecimatingBuffer {
   public:
     /// `most`: 16 or more are kept.
-    explicit SampleKeeper(std::size_t most) : most_(std::max<std::size_t>(most, 16)) {}
+    explicit DecimatingBuffer(std::size_t most) : most_(std::max<std::size_t>(most, 16)) {}
 
     /// Keeps it, or makes it one with the last that is kept.
     void add(const Sample& sample, double deviation) {

@@ -131,7 +131,7 @@ PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolera
     for (const Xyz& p : all.points) points.push_back({p[0], p[1], p[2], 0});
     PlannedPath thin;
     std::size_t before = 0;
-    const ThinnedPath path = thin_path(points, corner, tolerance, most);
+    const DecimatedPath path = thin_path(points, corner, tolerance, most);
     thin.within = path.within;
     for (const std::size_t i : path.kept) {
         bool starts = all.starts[i];

@@ -96,9 +96,9 @@ Indices thin_series(std::span<const double> seconds, std::span<const float> valu
     return kept;
 }
 
-ThinnedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
-                      std::size_t most) {
-    ThinnedPath path;
+DecimatedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
+                        std::size_t most) {
+    DecimatedPath path;
     Indices& kept = path.kept;
     std::size_t bound = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {

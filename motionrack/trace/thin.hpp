@@ -18,7 +18,7 @@ std::vector<std::size_t> thin_series(std::span<const double> seconds, std::span<
 /// visible.
 using PathPoint = std::array<double, 4>;
 
-struct ThinnedPath {
+struct DecimatedPath {
     std::vector<std::size_t> kept;  ///< indices, rising, first and last included
     double within = 0;              ///< what was left out lies no farther than this from the chords; < 0: not known
 };
@@ -26,7 +26,7 @@ struct ThinnedPath {
 /// Thins a path: what is left out lies within `tolerance` of the chord that replaces it, where no more than `most` (>=
 /// 2) points are needed for that; else the tolerance grows until they are enough. Points with `fixed` true are kept
 /// while they do not exceed `most` (`fixed` empty: none). Points that are not finite are never kept.
-ThinnedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
-                      std::size_t most);
+DecimatedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
+                        std::size_t most);
 
 }  // namespace motionrack::trace

@@ -8,7 +8,7 @@ namespace motionrack::trace {
 namespace {
 
 TEST(ASampleKeeper, KeepsAllWhileTheyAreFew) {
-    SampleKeeper<int> keeper(16);
+    DecimatingBuffer<int> keeper(16);
     for (int i = 0; i < 16; ++i) keeper.add(i, 0.5 * i);
     ASSERT_EQ(keeper.samples().size(), 16u);
     EXPECT_EQ(keeper.samples()[5], 5);
@@ -18,7 +18,7 @@ TEST(ASampleKeeper, KeepsAllWhileTheyAreFew) {
 TEST(ASampleKeeper, KeepsTheGreatestDeviationWhereverItIs) {
     constexpr int all = 1000;
     for (int worst = 0; worst < all; ++worst) {
-        SampleKeeper<int> keeper(16);
+        DecimatingBuffer<int> keeper(16);
         for (int i = 0; i < all; ++i) keeper.add(i, i == worst ? 7 : 1);
         ASSERT_LE(keeper.samples().size(), 16u);
         ASSERT_EQ(keeper.samples().size(), keeper.deviations().size());

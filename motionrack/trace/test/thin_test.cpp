@@ -53,7 +53,7 @@ std::vector<PathPoint> spiral(int count) {
 
 TEST(ThinPath, LeavesOutOnlyWhatLiesWithinTheTolerance) {
     const auto points = spiral(5000);
-    const ThinnedPath path = thin_path(points, {}, 0.01, 100'000);
+    const DecimatedPath path = thin_path(points, {}, 0.01, 100'000);
     EXPECT_EQ(path.within, 0.01);
     EXPECT_LT(path.kept.size(), 1500U);
     ASSERT_EQ(path.kept.front(), 0U);
@@ -76,11 +76,11 @@ TEST(ThinPath, KeepsFixedPointsWhileTheyFitAndNeverMoreThanAllowed) {
     const auto points = spiral(5000);
     std::vector<bool> fixed(points.size(), false);
     for (std::size_t i = 0; i < points.size(); i += 100) fixed[i] = true;
-    const ThinnedPath path = thin_path(points, fixed, 1e9, 1000);
+    const DecimatedPath path = thin_path(points, fixed, 1e9, 1000);
     for (std::size_t i = 0; i < points.size(); i += 100) {
         EXPECT_TRUE(std::binary_search(path.kept.begin(), path.kept.end(), i));
     }
-    const ThinnedPath few = thin_path(points, fixed, 1e-9, 20);
+    const DecimatedPath few = thin_path(points, fixed, 1e-9, 20);
     EXPECT_LE(few.kept.size(), 20U);
     EXPECT_EQ(few.kept.front(), 0U);
     EXPECT_EQ(few.kept.back(), 4999U);
