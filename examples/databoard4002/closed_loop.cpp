@@ -13,13 +13,13 @@ Result<std::string> closed_loop(const std::string& csv) {
     for (std::string line; std::getline(file, line);) {
         std::array<double, 4> row{};
         if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &row[0], &row[1], &row[2], &row[3]) != 4)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         csv + " has the line '" + line + "', which is not: seconds, counts, counts, counts.");
         seconds.push_back(row[0]);
         for (std::size_t run = 0; run < turns.size(); ++run)
             turns[run].push_back(static_cast<float>(row[run + 1] / 4'000));
     }
-    if (seconds.empty()) return fail(Trouble::io, csv + " could not be read, or is empty. No picture was made.");
+    if (seconds.empty()) return fail(ErrorKind::io, csv + " could not be read, or is empty. No picture was made.");
     std::array<trace::SvgChart, 3> charts;
     const std::array<const char*, 3> titles = {"1 mV a count, the motor alone: turns",
                                                "10 mV a count, the motor alone: turns",

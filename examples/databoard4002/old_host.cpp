@@ -13,13 +13,13 @@ Result<std::string> old_host(const std::string& csv) {
     for (std::string line; std::getline(file, line);) {
         std::array<double, 3> row{};
         if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &row[0], &row[1], &row[2]) != 3)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         csv + " has the line '" + line + "', which is not: seconds, counts, counts a second.");
         seconds.push_back(row[0]);
         counts.push_back(static_cast<float>(row[1] / 1'000));
         speed.push_back(static_cast<float>(row[2] / 1'000));
     }
-    if (seconds.empty()) return fail(Trouble::io, csv + " could not be read, or is empty. No picture was made.");
+    if (seconds.empty()) return fail(ErrorKind::io, csv + " could not be read, or is empty. No picture was made.");
     std::array<trace::SvgChart, 2> charts;
     charts[0].title = "position, thousands of counts; A is 0";
     charts[0].series = {{"", "z", seconds, counts}};

@@ -11,7 +11,7 @@ motionrack::Result<void> broken_line() {
     } faults[] = {{"broken_a", 1}, {"broken_b", 1}, {"dirt", 12}, {"missing_index", 1}, {"noise", 20'000}};
     for (const auto& fault : faults) {
         Bench bench;
-        if (!bench.flex().ok()) return fail(Trouble::machine, bench.flex().why());
+        if (!bench.flex().ok()) return fail(ErrorKind::machine, bench.flex().why());
         bench.turn(0, 8'000);  // two turns a second
         EncoderCheck check({.counts_per_index = 4'000});
         fmt::print("{}:\n", fault.name);

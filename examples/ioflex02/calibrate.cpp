@@ -21,7 +21,7 @@ void tell_positions(Flex2Pos& flex, const char* when) {
 motionrack::Result<void> calibrate() {
     Bench bench;
     Flex2Pos& flex = bench.flex();
-    if (!flex.ok()) return fail(Trouble::machine, flex.why());
+    if (!flex.ok()) return fail(ErrorKind::machine, flex.why());
     for (int axis = 0; axis < 4; ++axis) bench.turn(axis, 1'000);  // an index every four seconds
     bench.run(whole_seconds(1));
     tell_positions(flex, "turning");

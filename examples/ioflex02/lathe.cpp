@@ -9,7 +9,7 @@ namespace howto {
 motionrack::Result<void> lathe() {
     Bench bench;
     Flex2Pos& flex = bench.flex();
-    if (!flex.ok()) return fail(Trouble::machine, flex.why());
+    if (!flex.ok()) return fail(ErrorKind::machine, flex.why());
     MOTIONRACK_TRY(const Units spindle, Units::degrees(4'000));
     MOTIONRACK_TRY(const Units scale, Units::mm(1'000));
     bench.turn(0, 40'000);  // 600 turns a minute

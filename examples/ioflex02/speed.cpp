@@ -20,7 +20,7 @@ motionrack::Result<void> speed() {
     } runs[] = {{0.1, whole_seconds(1)}, {1'000, milliseconds(1)}, {100'000, milliseconds(1)}};
     for (const auto& run : runs) {
         Bench bench;
-        if (!bench.flex().ok()) return fail(Trouble::machine, bench.flex().why());
+        if (!bench.flex().ok()) return fail(ErrorKind::machine, bench.flex().why());
         bench.turn(0, run.counts_s);
         bench.run(milliseconds(500));
         SpeedMeter meter;

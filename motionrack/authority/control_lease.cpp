@@ -15,15 +15,16 @@ Result<void> ControlLease::take(std::string_view user, std::string_view session,
     if (held() && !comes_back) {
         if (!machine_stands && !held_->left)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format(
                     "Control was not taken: {} has it and the machine does not stand still. Stop the machine, or wait "
                     "until it stands.",
                     name()));
         if (!force)
-            return fail(Trouble::refused, fmt::format("Control was not taken: {} has it. Ask for it, or take it over, "
-                                                      "which works while the machine stands still.",
-                                                      name()));
+            return fail(ErrorKind::refused,
+                        fmt::format("Control was not taken: {} has it. Ask for it, or take it over, "
+                                    "which works while the machine stands still.",
+                                    name()));
     }
     const Moment now = clock_();
     held_ = Held{std::string(user), std::string(session), now, now, false};
@@ -45,9 +46,9 @@ bool ControlLease::revoke(std::string_view user, std::string_view session) {
 }
 
 Result<void> ControlLease::holds(std::string_view session) const {
-    if (!held()) return fail(Trouble::refused, "Nobody has control. Take control first.");
+    if (!held()) return fail(ErrorKind::refused, "Nobody has control. Take control first.");
     if (held_->session != session)
-        return fail(Trouble::refused, fmt::format("Control is with {}. Take control first.", name()));
+        return fail(ErrorKind::refused, fmt::format("Control is with {}. Take control first.", name()));
     return {};
 }
 

@@ -113,11 +113,11 @@ AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std
 Result<std::string> Authenticator::invite(Role role, Now now) {
     const std::lock_guard<std::mutex> alone(lock_);
     if (role == Role::nobody)
-        return fail(Trouble::bad_input, "Nobody was invited: the roles are observe, operate and maintain.");
+        return fail(ErrorKind::bad_input, "Nobody was invited: the roles are observe, operate and maintain.");
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     if (invitations_.size() >= settings_.most_invitations)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Nobody was invited: {} codes are open, which is the most. Wait until some are used or over.",
                         invitations_.size()));
     const std::string code = random_code();
@@ -129,7 +129,7 @@ Result<void> Authenticator::revoke(std::string_view name) {
     const std::lock_guard<std::mutex> alone(lock_);
     std::vector<Token> before = tokens_;
     if (std::erase_if(tokens_, [&](const Token& token) { return token.identity.user == name; }) == 0)
-        return fail(Trouble::refused, fmt::format("Nobody of the name {} is paired. Nothing was changed.", name));
+        return fail(ErrorKind::refused, fmt::format("Nobody of the name {} is paired. Nothing was changed.", name));
     const Result<void> written = write();
     if (!written) tokens_ = std::move(before);
     return written;
@@ -139,7 +139,7 @@ Result<void> Authenticator::forget(std::string_view id) {
     const std::lock_guard<std::mutex> alone(lock_);
     std::vector<Token> before = tokens_;
     if (std::erase_if(tokens_, [&](const Token& token) { return token.identity.id == id; }) == 0)
-        return fail(Trouble::refused, "This token is not known. Nothing was changed.");
+        return fail(ErrorKind::refused, "This token is not known. Nothing was changed.");
     const Result<void> written = write();
     if (!written) tokens_ = std::move(before);
     return written;

@@ -31,10 +31,10 @@ Result<void> Authenticator::read() {
     if (path.empty()) return {};
     MOTIONRACK_CHECK(check_writers(path, "The users file"));
     if (::stat(path.c_str(), &about) != 0) return {};
-    if (!S_ISREG(about.st_mode)) return fail(Trouble::bad_input, "This is no file: users are kept in one.", {}, path);
+    if (!S_ISREG(about.st_mode)) return fail(ErrorKind::bad_input, "This is no file: users are kept in one.", {}, path);
     MOTIONRACK_TRY(const std::string text, read_whole_file(path, read_limits::users));
     const auto damaged = [&](const std::string& why) {
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("The users file is damaged: {}. Nothing was started; put it right, or take it away and "
                                 "pair everybody again.",
                                 why),
@@ -79,7 +79,7 @@ Result<void> Authenticator::write() const {
     const std::string path = settings_.users_file.string();
     const Result<void> done = disk::write_whole(path, text, disk::Rights::owner);
     if (done) return {};
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("the users file {} could not be written: {}. It is as it was.", path, done.error().message),
                 {}, path);
 }

@@ -19,7 +19,7 @@ struct PinInfo {
     std::string_view same_as = {};  ///< another pin of the card: this is a second name of its wire
 };
 
-constexpr Flaw pins_flaw(std::span<const PinInfo> pins) {
+constexpr DeclarationError pins_flaw(std::span<const PinInfo> pins) {
     return names_flaw("the pins", "pin", pins);
 }
 

@@ -22,8 +22,8 @@ struct CommandInfo {
 };
 
 /// No code and no name twice; ranges the right way round, and no wider than the data.
-constexpr Flaw commands_flaw(std::span<const CommandInfo> commands) {
-    if (const Flaw flaw = names_flaw("the commands", "command", commands); !flaw.empty()) return flaw;
+constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) {
+    if (const DeclarationError flaw = names_flaw("the commands", "command", commands); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < commands.size(); ++i) {
         const CommandInfo& command = commands[i];
         for (std::size_t j = 0; j < i; ++j)

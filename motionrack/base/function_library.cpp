@@ -33,11 +33,12 @@ Result<std::int64_t> value_of(const FunctionInfo& function, const ArgumentInfo& 
                               const std::map<std::string, std::int64_t, std::less<>>& arguments) {
     const auto given = arguments.find(argument.name);
     if (given == arguments.end())
-        return fail(Trouble::bad_input, fmt::format("{}: the argument {} is missing; it must be {}. Nothing was done.",
-                                                    function.name, argument.name, range_text(argument)));
+        return fail(ErrorKind::bad_input,
+                    fmt::format("{}: the argument {} is missing; it must be {}. Nothing was done.", function.name,
+                                argument.name, range_text(argument)));
     if (!is_possible(argument, given->second))
-        return fail(Trouble::bad_input, fmt::format("{}: {} is {}, but must be {}. Nothing was done.", function.name,
-                                                    argument.name, given->second, range_text(argument)));
+        return fail(ErrorKind::bad_input, fmt::format("{}: {} is {}, but must be {}. Nothing was done.", function.name,
+                                                      argument.name, given->second, range_text(argument)));
     return given->second;
 }
 
@@ -51,8 +52,8 @@ Result<CheckedCall> check_call(std::span<const FunctionInfo> functions, std::str
         std::string known;
         for (const FunctionInfo& function : functions)
             known += fmt::format("{}{}", known.empty() ? "" : ", ", function.name);
-        return fail(Trouble::bad_input, fmt::format("The library has no function {}; it has {}. Nothing was done.",
-                                                    name.substr(0, 40), known));
+        return fail(ErrorKind::bad_input, fmt::format("The library has no function {}; it has {}. Nothing was done.",
+                                                      name.substr(0, 40), known));
     }
     CheckedCall out{static_cast<std::size_t>(found - functions.begin()), {}};
     for (const ArgumentInfo& argument : found->arguments) {
@@ -63,8 +64,8 @@ Result<CheckedCall> check_call(std::span<const FunctionInfo> functions, std::str
     std::string known;
     for (const ArgumentInfo& argument : found->arguments)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", argument.name);
-    return fail(Trouble::bad_input, fmt::format("{} was given {} arguments; its arguments are: {}. Nothing was done.",
-                                                found->name, arguments.size(), known.empty() ? "none" : known));
+    return fail(ErrorKind::bad_input, fmt::format("{} was given {} arguments; its arguments are: {}. Nothing was done.",
+                                                  found->name, arguments.size(), known.empty() ? "none" : known));
 }
 
 }  // namespace motionrack

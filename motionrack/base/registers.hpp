@@ -32,9 +32,9 @@ struct RegisterInfo {
 };
 
 /// No two fields of a register share a bit, none lies outside it, none is empty or has a gap, no name twice.
-constexpr Flaw fields_flaw(const RegisterInfo& reg) {
+constexpr DeclarationError fields_flaw(const RegisterInfo& reg) {
     if (reg.width < 1 || reg.width > 32) return {reg.name, ": the width is not 1 to 32 bits"};
-    if (const Flaw flaw = names_flaw(reg.name, "field", reg.fields); !flaw.empty()) return flaw;
+    if (const DeclarationError flaw = names_flaw(reg.name, "field", reg.fields); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < reg.fields.size(); ++i) {
         const FieldInfo& field = reg.fields[i];
         if (field.mask == 0) return {reg.name, ": the field ", field.name, " has no bits"};
@@ -50,10 +50,10 @@ constexpr Flaw fields_flaw(const RegisterInfo& reg) {
 }
 
 /// Every register's fields are sound; no name twice; no two registers at one offset in one direction and bank.
-constexpr Flaw registers_flaw(std::span<const RegisterInfo> registers) {
-    if (const Flaw flaw = names_flaw("the registers", "register", registers); !flaw.empty()) return flaw;
+constexpr DeclarationError registers_flaw(std::span<const RegisterInfo> registers) {
+    if (const DeclarationError flaw = names_flaw("the registers", "register", registers); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < registers.size(); ++i) {
-        if (const Flaw flaw = fields_flaw(registers[i]); !flaw.empty()) return flaw;
+        if (const DeclarationError flaw = fields_flaw(registers[i]); !flaw.empty()) return flaw;
         for (std::size_t j = 0; j < i; ++j) {
             const RegisterInfo &a = registers[j], &b = registers[i];
             const bool tangent_angle_rad = (a.access == Access::write) == (b.access == Access::write);

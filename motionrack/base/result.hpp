@@ -9,7 +9,7 @@
 namespace motionrack {
 
 /// What kind of thing went wrong; the command line turns it into an exit code.
-enum class Trouble {
+enum class ErrorKind {
     bad_input,  ///< a file or argument is wrong; nothing was done
     refused,    ///< the request is well formed but outside a limit; nothing was done
     machine,    ///< the machine stopped: limit switch, alarm, lost steps
@@ -26,7 +26,7 @@ struct Place {
 
 /// What could not be done, in a sentence that has the number seen, the limit, what was done and what to do next.
 struct Error {
-    Trouble trouble = Trouble::bad_input;
+    ErrorKind trouble = ErrorKind::bad_input;
     std::string message;
     std::string file = {};
     Place place = {};
@@ -47,7 +47,7 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 /// Shorthand for returning an error.
-inline tl::unexpected<Error> fail(Trouble trouble, std::string message, Place place = {}, std::string file = {}) {
+inline tl::unexpected<Error> fail(ErrorKind trouble, std::string message, Place place = {}, std::string file = {}) {
     return tl::unexpected<Error>(Error{trouble, std::move(message), std::move(file), place});
 }
 

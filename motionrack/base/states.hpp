@@ -46,9 +46,9 @@ constexpr std::uint64_t reachable_states(const MachineInfo& machine) {
 
 /// Every transition joins known states, every state can be reached from the first one and left unless it is final, no
 /// name twice.
-constexpr Flaw machine_flaw(const MachineInfo& machine) {
+constexpr DeclarationError machine_flaw(const MachineInfo& machine) {
     if (machine.states.empty() || machine.states.size() > 64) return {machine.name, ": there are not 1 to 64 states"};
-    if (const Flaw flaw = names_flaw(machine.name, "state", machine.states); !flaw.empty()) return flaw;
+    if (const DeclarationError flaw = names_flaw(machine.name, "state", machine.states); !flaw.empty()) return flaw;
     for (const TransitionInfo& t : machine.transitions) {
         if (state_index(machine, t.from) < 0)
             return {machine.name, ": a transition comes from ", t.from, ", which is no state"};
@@ -67,10 +67,11 @@ constexpr Flaw machine_flaw(const MachineInfo& machine) {
     return {};
 }
 
-constexpr Flaw machines_flaw(std::span<const MachineInfo> machines) {
-    if (const Flaw flaw = names_flaw("the state machines", "state machine", machines); !flaw.empty()) return flaw;
+constexpr DeclarationError machines_flaw(std::span<const MachineInfo> machines) {
+    if (const DeclarationError flaw = names_flaw("the state machines", "state machine", machines); !flaw.empty())
+        return flaw;
     for (const MachineInfo& machine : machines)
-        if (const Flaw flaw = machine_flaw(machine); !flaw.empty()) return flaw;
+        if (const DeclarationError flaw = machine_flaw(machine); !flaw.empty()) return flaw;
     return {};
 }
 

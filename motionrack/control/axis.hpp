@@ -19,7 +19,7 @@ class Axis {
   public:
     virtual ~Axis() = default;
 
-    // ---- orders; refused ones (Trouble::refused) move nothing
+    // ---- orders; refused ones (ErrorKind::refused) move nothing
     /// Starts a move to `position` at no more than `speed` (> 0); an S-curve where the axis has a jerk limit. Refused:
     /// position not trusted, past the travel, speed above the axis' limit or not finite, axis moving.
     virtual Result<void> move_to(double position, double speed) = 0;
@@ -43,8 +43,8 @@ class Axis {
     // ---- carrying on
     /// One look at the axis; every few ms while it jogs or homes.
     virtual void step(Instant now) = 0;
-    /// Steps and lets time pass until the axis stands. Errors (Trouble::machine): it did not within `timeout`, and
-    /// still moves; it was stopped by a limit, an alarm or the emergency stop; homing failed. Trouble::stopped: the
+    /// Steps and lets time pass until the axis stands. Errors (ErrorKind::machine): it did not within `timeout`, and
+    /// still moves; it was stopped by a limit, an alarm or the emergency stop; homing failed. ErrorKind::stopped: the
     /// user asked, it has decelerated.
     virtual Result<void> wait(Duration timeout) = 0;
 

@@ -174,7 +174,7 @@ Result<void> ProgramExecutor::probe(const gcode::Step& step, gcode::ProgramReade
     const std::string what = probe_text(step.probe, outcome);
     note({step.line, blocks_ - 1, what}, run);
     if (outcome.hit || !gcode::probe_must(step.probe)) return {};
-    return fail(Trouble::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what),
+    return fail(ErrorKind::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what),
                 {step.line, 1});
 }
 
@@ -194,7 +194,7 @@ Result<void> ProgramExecutor::run(std::string_view text, const std::string& file
     }
     // What was read before a problem is driven to its end, so that the machine stands where the program says.
     const bool axes_stopped =
-        !outcome && (outcome.error().trouble == Trouble::machine || outcome.error().trouble == Trouble::stopped);
+        !outcome && (outcome.error().trouble == ErrorKind::machine || outcome.error().trouble == ErrorKind::stopped);
     if (!axes_stopped) {
         planner_->flush();
         Result<void> rest = hand_over();

@@ -38,7 +38,7 @@ struct ProbeResult {
 /// "X 10.0000, Y 5.0000": of the axes that are there.
 std::string position_text(const Point& at, const MachineLimits& limits);
 
-/// Trouble::stopped, in the words that every card's axes use.
+/// ErrorKind::stopped, in the words that every card's axes use.
 tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits);
 
 class AxisGroup {
@@ -48,9 +48,9 @@ class AxisGroup {
     virtual Result<void> begin() = 0;
     /// What the card asks of joints; null: nothing.
     virtual const DriveConstraints* drive_constraints() const { return nullptr; }
-    /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion
-    /// was stopped by a limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked
-    /// to stop.
+    /// Takes the next move; returns when the card has room for another one. Errors: ErrorKind::machine where the motion
+    /// was stopped by a limit, an alarm or lost contact (nothing more is driven), ErrorKind::stopped where the user
+    /// asked to stop.
     virtual Result<void> follow(const PlannedMove& move) = 0;
     /// Drives what is left; returns at standstill.
     virtual Result<void> finish() = 0;
@@ -60,7 +60,7 @@ class AxisGroup {
     /// touch), or as follow().
     virtual Result<ProbeResult> probe(const PlannedMove& move, bool release) {
         (void)move, (void)release;
-        return fail(Trouble::refused, "The axes of this card have no probe.");
+        return fail(ErrorKind::refused, "The axes of this card have no probe.");
     }
     /// Comes to a stop along the path as quickly as the acceleration allows (or at once) and forgets what was queued.
     /// In every state.

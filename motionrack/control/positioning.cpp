@@ -49,7 +49,7 @@ Result<void> PointToPointAxes::order(const PlannedMove& move) {
     for (std::size_t i = 0; i < axes_.size(); ++i) moving += moves(i);
     if (move.move.kind == MoveKind::arc || (move.move.kind == MoveKind::feed && moving > 1))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Line {} needs axes that move together, but these position one by one. It was not moved; write "
                         "straight moves of one axis.",
                         move.move.line));
@@ -83,7 +83,7 @@ Result<void> PointToPointAxes::wait() {
         }
         if (!busy) return ended;
         if (ended && host_.stop_requested()) {
-            ended = fail(Trouble::stopped, "Stopped on request; every axis came to rest with its own deceleration.");
+            ended = fail(ErrorKind::stopped, "Stopped on request; every axis came to rest with its own deceleration.");
             stop(false);
         }
         host_.pass(look_every);
@@ -93,7 +93,7 @@ Result<void> PointToPointAxes::wait() {
 Result<void> PointToPointAxes::dwell(double seconds) {
     const Instant end = later(host_.now(), from_seconds(seconds));
     while (host_.now() < end) {
-        if (host_.stop_requested()) return fail(Trouble::stopped, "Stopped on request in a dwell; the axes stand.");
+        if (host_.stop_requested()) return fail(ErrorKind::stopped, "Stopped on request in a dwell; the axes stand.");
         host_.pass(std::min(milliseconds(50), end - host_.now()));
     }
     return {};
@@ -102,7 +102,7 @@ Result<void> PointToPointAxes::dwell(double seconds) {
 Result<void> PointToPointAxes::follow(const PlannedMove& move) {
     starts_.push_back({blocks_++, move.move.line, host_.now()});
     if (host_.stop_requested())
-        return fail(Trouble::stopped, "Stopped on request before a move; the axes stand.", {move.move.line, 0});
+        return fail(ErrorKind::stopped, "Stopped on request before a move; the axes stand.", {move.move.line, 0});
     Result<void> done = move.move.kind == MoveKind::dwell ? dwell(move.move.seconds) : order(move);
     if (done && move.move.kind != MoveKind::dwell) done = wait();
     if (done) return done;

@@ -279,13 +279,13 @@ Result<ExecutionState> Stream::stand() {
 }
 
 Result<ExecutionState> Stream::interrupted(const Error& error) {
-    const bool held = !ride_ && error.trouble == Trouble::stopped && wish_ == Wish::hold;
+    const bool held = !ride_ && error.trouble == ErrorKind::stopped && wish_ == Wish::hold;
     wish_ = Wish::none;
     stop_flag_ = false;
     path_begun_ = false;
     if (!held) {
         forget();
-        if (error.trouble == Trouble::stopped) return state_;
+        if (error.trouble == ErrorKind::stopped) return state_;
         return tl::unexpected<Error>(error);
     }
     keep_rest_of_path();

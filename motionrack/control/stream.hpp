@@ -114,7 +114,7 @@ class Stream {
     // ---- between drives
     /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room
     /// for another. `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors:
-    /// Trouble::machine, the motion was stopped by the machine; everything was forgotten.
+    /// ErrorKind::machine, the motion was stopped by the machine; everything was forgotten.
     Result<ExecutionState> drive(bool more_may_come);
     /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
     void resync_axes(AxisGroup& axes);

@@ -34,7 +34,7 @@ Result<ExecutionState> Stream::probe() {
     if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::driving : ExecutionState::rest;
     forget();
     return fail(
-        Trouble::machine,
+        ErrorKind::machine,
         fmt::format("In line {} the {}. Nothing after it was driven.", step.line, probe_text(step.probe, *outcome)),
         {step.line, 1});
 }

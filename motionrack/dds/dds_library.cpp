@@ -8,7 +8,7 @@ namespace motionrack::dds {
 Result<void> load_library() {
     const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_DDS_SONAME).trouble();
     if (trouble.empty()) return {};
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("The library Cyclone DDS cannot be loaded: {}. No bus was opened; install it (on Debian "
                             "12: apt install libddsc0debian).",
                             trouble));

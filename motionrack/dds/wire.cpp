@@ -47,7 +47,7 @@ void WireBuffer::get(Sample& sample) const {
 
 tl::unexpected<Error> engine_error(const char* what, dds_return_t code) {
     return fail(
-        Trouble::io,
+        ErrorKind::io,
         fmt::format(
             "{}: {} (code {}). Nothing was opened; look at the network interfaces and at what CYCLONEDDS_URI names.",
             what, dds_strretcode(code), code));

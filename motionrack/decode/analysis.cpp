@@ -203,7 +203,7 @@ Result<Analysis> Run::all() {
     const double ticks = settings_.window_s / capture_.tick_s();
     if (!(settings_.window_s > 0) || !(ticks < 1e18))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format(
                 "A window of {} s for the peak speed: it must be more than 0 and less than 1e18 samples or ticks. "
                 "Nothing was decoded.",

@@ -46,13 +46,14 @@ Result<std::size_t> find_signal(const std::vector<std::string>& signals, std::st
         if (ends_with_name(plain(signals[i]), wanted)) fitting.push_back(signals[i]), last = i;
     if (fitting.size() == 1) return last;
     if (fitting.size() > 1)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("'{}' may be {}. Nothing was decoded; write more of the name.", text, listed(fitting)));
     std::size_t number = 0;
     const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (bad == std::errc() && end == text.data() + text.size() && number < signals.size()) return number;
-    return fail(Trouble::bad_input, fmt::format("The capture has no line '{}'. Nothing was decoded; its lines are: {}.",
-                                                text, listed(signals)));
+    return fail(
+        ErrorKind::bad_input,
+        fmt::format("The capture has no line '{}'. Nothing was decoded; its lines are: {}.", text, listed(signals)));
 }
 
 Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const std::string& text) {
@@ -65,7 +66,7 @@ Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const
     }
     if (equal == 0 || lines.size() < 2 || lines.size() > 3 || std::count(lines.begin(), lines.end(), "") > 0)
         return fail(
-            Trouble::bad_input,
+            ErrorKind::bad_input,
             fmt::format(
                 "'{}' names no channel: write X=A,B or X=A,B,Z with the lines' names or numbers. Nothing was decoded.",
                 text));
@@ -77,7 +78,7 @@ Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const
         MOTIONRACK_TRY(choice.z, find_signal(signals, lines[2]));
     }
     if (choice.a == choice.b || choice.z == choice.a || choice.z == choice.b)
-        return fail(Trouble::bad_input, fmt::format("'{}' names a line twice. Nothing was decoded.", text));
+        return fail(ErrorKind::bad_input, fmt::format("'{}' names a line twice. Nothing was decoded.", text));
     return choice;
 }
 
@@ -124,7 +125,7 @@ Result<std::vector<ChannelChoice>> choose_channels(const std::vector<std::string
         MOTIONRACK_TRY(ChannelChoice choice, read_choice(signals, text));
         for (const ChannelChoice& other : out)
             if (other.name == choice.name)
-                return fail(Trouble::bad_input,
+                return fail(ErrorKind::bad_input,
                             fmt::format("There are two channels '{}'. Nothing was decoded; give each another name.",
                                         choice.name));
         out.push_back(std::move(choice));
@@ -132,13 +133,13 @@ Result<std::vector<ChannelChoice>> choose_channels(const std::vector<std::string
     for (const char* before : {"enc_", ""})
         if (out.empty() && texts.empty()) out = named_like(signals, before);
     if (out.empty())
-        return fail(Trouble::bad_input, fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, "
-                                                    "X.enc_z). Nothing was decoded; say which they "
-                                                    "are with --channel X=A,B,Z. The lines are: {}.",
-                                                    listed(signals)));
+        return fail(ErrorKind::bad_input, fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, "
+                                                      "X.enc_z). Nothing was decoded; say which they "
+                                                      "are with --channel X=A,B,Z. The lines are: {}.",
+                                                      listed(signals)));
     if (out.size() > most_channels)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format(
                 "{} channels: up to {} can be decoded at once. Nothing was decoded; choose some with --channel.",
                 out.size(), most_channels));

@@ -74,7 +74,7 @@ Result<bool> RawCapture::next(Block& block) {
     block.samples = have / size_;
     if (have % size_ != 0)
         cut_ = Error{
-            Trouble::bad_input,
+            ErrorKind::bad_input,
             fmt::format("The file ends {} of {} bytes into a sample, after {} bytes: it is cut off, or a sample has "
                         "another number of bytes. The whole samples before that were decoded.",
                         have % size_, size_, read_),
@@ -96,10 +96,11 @@ Result<bool> RawCapture::next(Block& block) {
 Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const std::string& name,
                                           const CaptureSettings& settings) {
     if (settings.sample_bytes < 1 || settings.sample_bytes > 8)
-        return fail(Trouble::refused, fmt::format("A raw sample of {} bytes: 1 to 8 can be read. Nothing was decoded.",
-                                                  settings.sample_bytes));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("A raw sample of {} bytes: 1 to 8 can be read. Nothing was decoded.", settings.sample_bytes));
     if (!(settings.sample_rate_hz > 0))
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     "A raw capture does not say how fast it was sampled. Nothing was decoded; say --sample-rate 24M, "
                     "for instance.",
                     {}, name);

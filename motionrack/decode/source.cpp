@@ -31,7 +31,7 @@ class FileSource final : public Source {
         const std::size_t got = std::fread(to, 1, size, file_);
         if (got == 0 && std::ferror(file_) != 0)
             return fail(
-                Trouble::io,
+                ErrorKind::io,
                 fmt::format("The capture cannot be read: {}. {}", std::generic_category().message(errno),
                             errno == EISDIR ? "A capture is a file, not a folder." : "Nothing more was decoded."),
                 {}, path_);
@@ -70,7 +70,7 @@ bool is_white(char c) {
 Result<std::unique_ptr<Source>> open_file(const std::string& path) {
     std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
     if (!file)
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("{} cannot be read: {}. Nothing was decoded; check the name and the rights.", path,
                                 std::generic_category().message(errno)));
     return std::make_unique<FileSource>(file, path);
@@ -89,7 +89,7 @@ bool TextReader::more() {
     }
     if (end_ >= longest) {
         error_ =
-            Error{Trouble::bad_input,
+            Error{ErrorKind::bad_input,
                   fmt::format("A line or word has more than {} bytes: this is no text. Nothing more was decoded; say "
                               "--format raw if it is binary.",
                               longest),

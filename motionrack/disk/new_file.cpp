@@ -18,7 +18,7 @@ namespace motionrack::disk {
 namespace {
 
 tl::unexpected<Error> reason(int code) {
-    return fail(Trouble::io, std::strerror(code));
+    return fail(ErrorKind::io, std::strerror(code));
 }
 
 /// Two programs that write the same file at once would mix their bytes. Not flock: the HDF5 library takes that itself.
@@ -60,7 +60,7 @@ Result<NewFile> NewFile::create(const std::string& path, Part part, Rights right
     if (is_device(path)) return create_in_place(path);
     struct stat old {};
     const bool there = ::lstat(path.c_str(), &old) == 0;
-    if (there && S_ISLNK(old.st_mode)) return fail(Trouble::io, "it is a symbolic link, which is not written over");
+    if (there && S_ISLNK(old.st_mode)) return fail(ErrorKind::io, "it is a symbolic link, which is not written over");
     if (there && S_ISDIR(old.st_mode)) return reason(EISDIR);
     if (there && ::access(path.c_str(), W_OK) != 0) return reason(errno);
     NewFile out;
@@ -73,7 +73,7 @@ Result<NewFile> NewFile::create(const std::string& path, Part part, Rights right
     if (out.file_ < 0) return reason(errno);
     if (!lock(out.file_) || !is_still_there(out.file_, out.made_)) {
         out.part_ = Part::keep;  // it is another program's
-        return fail(Trouble::io, "another program is writing it");
+        return fail(ErrorKind::io, "another program is writing it");
     }
     if (::ftruncate(out.file_, 0) != 0) return reason(errno);
     if (rights == Rights::owner || there)
@@ -148,7 +148,7 @@ bool NewFile::is_as_written() {
 
 Result<void> NewFile::commit() {
     if (file_ < 0) return {};
-    const auto told = [this] { return fail(Trouble::io, trouble_); };
+    const auto told = [this] { return fail(ErrorKind::io, trouble_); };
     const bool in_place = made_ == path_;
     // A device has nothing that could be put on a disk.
     bool good = trouble_.empty() && (in_place || ::fsync(file_) == 0 || fail_with(errno));
@@ -170,7 +170,7 @@ Result<void> NewFile::commit() {
 
 Result<void> NewFile::told(std::string_view kind) const {
     if (trouble_.empty()) return {};
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("Only about {} bytes of the {} file could be written: {}. What was written is kept in {}, "
                             "but ends too early; make room or choose another place, and run again.",
                             written_, kind, trouble_, made_),

@@ -21,7 +21,7 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 tl::unexpected<Error> refused(std::string sentence) {
-    return fail(Trouble::refused, std::move(sentence));
+    return fail(ErrorKind::refused, std::move(sentence));
 }
 
 Result<void> may_write_one(const std::string& output, const std::vector<std::string>& inputs) {

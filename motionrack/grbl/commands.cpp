@@ -203,7 +203,7 @@ bool Session::finish_homing() {
         finish_answer(stopped_ ? error_locked : error_none);
         return true;
     }
-    if (ended.error().trouble == Trouble::refused) {
+    if (ended.error().trouble == ErrorKind::refused) {
         say(ended.error().message);
         finish_answer(error_no_homing);
         return true;
@@ -215,7 +215,7 @@ bool Session::finish_homing() {
 }
 
 int Session::number_of_homing() const {
-    if (machine_.homed()->ended.error().trouble == Trouble::stopped) return alarm_homing_reset;
+    if (machine_.homed()->ended.error().trouble == ErrorKind::stopped) return alarm_homing_reset;
     for (const rack::HomedAxis& axis : machine_.homed()->axes)
         if (axis.begun && !axis.outcome.homed)
             return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;

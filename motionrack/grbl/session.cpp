@@ -154,7 +154,7 @@ int Session::gcode(const std::string& text) {
 control::gcode::Outcome<void> Session::give(const std::string& text, std::int32_t n_word) {
     if (!control()) {
         Problem problem;
-        problem.trouble = Trouble::refused;
+        problem.trouble = ErrorKind::refused;
         return tl::unexpected<Problem>(std::move(problem));
     }
     energise();

@@ -43,7 +43,7 @@ Result<Database> Database::open(const std::string& path, Use use) {
     const int code = sqlite3_open_v2(path.c_str(), &one, flags | SQLITE_OPEN_NOMUTEX, nullptr);
     Database database(one);
     if (code != SQLITE_OK)
-        return fail(Trouble::io, fmt::format("The journal '{}' cannot be opened: {}.", path, sqlite3_errstr(code)));
+        return fail(ErrorKind::io, fmt::format("The journal '{}' cannot be opened: {}.", path, sqlite3_errstr(code)));
     sqlite3_busy_timeout(one, 5000);
     database.set_log_kept(true);
     return database;
@@ -55,7 +55,7 @@ void Database::set_log_kept(bool kept) const {
 
 Result<void> Database::run(const char* sql) const {
     if (sqlite3_exec(get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK) return {};
-    return fail(Trouble::io, what());
+    return fail(ErrorKind::io, what());
 }
 
 std::int64_t Database::number(const char* sql) const {

@@ -17,7 +17,7 @@ Result<void> FileWatch::check() {
     for (Watched& one : files_) {
         struct stat seen {};
         const auto gone = [&](const std::string& what) {
-            return fail(Trouble::io, fmt::format("is lost: the file '{}' {}", one.path, what));
+            return fail(ErrorKind::io, fmt::format("is lost: the file '{}' {}", one.path, what));
         };
         if (::stat(one.path.c_str(), &seen) != 0)
             return gone(errno == ENOENT ? "was deleted while it was in use"

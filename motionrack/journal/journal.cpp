@@ -32,14 +32,14 @@ std::int64_t utc_ms() {
 Result<void> make_private(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0600);
     if (file < 0)
-        return fail(Trouble::io, fmt::format("The journal '{}' cannot be opened: {}. Name another file.", path,
-                                             std::strerror(errno)));
+        return fail(ErrorKind::io, fmt::format("The journal '{}' cannot be opened: {}. Name another file.", path,
+                                               std::strerror(errno)));
     struct stat about {};
     const bool is_file = ::fstat(file, &about) == 0 && S_ISREG(about.st_mode);
     if (is_file && (about.st_mode & 0077) != 0 && about.st_uid == ::geteuid()) ::fchmod(file, 0600);
     ::close(file);
     if (is_file) return {};
-    return fail(Trouble::io, fmt::format("The journal '{}' is not a file. Name another one.", path));
+    return fail(ErrorKind::io, fmt::format("The journal '{}' is not a file. Name another one.", path));
 }
 
 }  // namespace
@@ -51,12 +51,12 @@ class FileLock {
         const std::string path = journal + ".lock";
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
         if (file < 0)
-            return fail(Trouble::io,
+            return fail(ErrorKind::io,
                         fmt::format("The journal '{}' cannot be made: {}.", journal, std::strerror(errno)));
         std::unique_ptr<FileLock> lock(new FileLock(file));
         if (::flock(file, LOCK_EX | LOCK_NB) != 0)
             return fail(
-                Trouble::io,
+                ErrorKind::io,
                 fmt::format(
                     "The journal '{}' belongs to another program that runs. Name another file, or end that program.",
                     journal));
@@ -86,7 +86,7 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
     MOTIONRACK_TRY(Database writer, Database::open(path, Database::Use::write));
     if (Result<void> made = prepare_tables(writer, path); !made) {
         if (made.error().message.find(path) != std::string::npos) return tl::unexpected<Error>(made.error());
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("'{}' cannot be used as a journal: {}. It was left as it is; name another file.", path,
                                 made.error().message));
     }
@@ -95,7 +95,7 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
                                                  std::make_unique<Database>(std::move(writer)),
                                                  std::make_unique<Database>(std::move(reader))));
     if (Result<void> begun = journal->begin(); !begun)
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("The journal '{}' cannot be written: {}. Free the disk or name another file.", path,
                                 begun.error().message));
     journal->writer_->set_log_kept(false);
@@ -184,7 +184,7 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
     if (!closed) failed(fmt::format("does not follow: {} entries wait for the disk", most_waiting));
     if (!done) return;  // NOLINT(bugprone-use-after-move): it was moved only where there was room
     done(fail(
-        Trouble::io,
+        ErrorKind::io,
         closed ? "It was not written to the journal, which is closed."
                : fmt::format("It was not written to the journal: {} entries wait for the disk, and no more are taken.",
                              most_waiting)));
@@ -224,7 +224,7 @@ void Journal::work() {
         }
         if (stored && !entries.empty()) keep_quota(entries.back().entry.at);
         for (const Waiting& one : entries)
-            if (one.done) one.done(stored ? Result<std::int64_t>(one.entry.number) : fail(Trouble::io, failure()));
+            if (one.done) one.done(stored ? Result<std::int64_t>(one.entry.number) : fail(ErrorKind::io, failure()));
     }
 }
 
@@ -253,7 +253,7 @@ std::string Journal::failure() const {
 }
 
 Result<void> Journal::store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept) {
-    const auto failed = [this] { return fail(Trouble::io, writer_->what()); };
+    const auto failed = [this] { return fail(ErrorKind::io, writer_->what()); };
     MOTIONRACK_CHECK(writer_->run("BEGIN IMMEDIATE"));
     Statement insert(writer_->get(),
                      "INSERT INTO entry (number, run, utc_ms, at, kind, text, data, link) VALUES (?1, ?2, ?3, ?4, ?5, "
@@ -308,7 +308,7 @@ Result<void> Journal::close() {
         if (!ended) failed(fmt::format("could not be written: {}", ended.error().message));
     }
     if (!has_failed_) return {};
-    return fail(Trouble::io, failure() + " The end of this run is not in it: the next start will trust no position.");
+    return fail(ErrorKind::io, failure() + " The end of this run is not in it: the next start will trust no position.");
 }
 
 Result<ChainCheck> Journal::check() const {
@@ -318,7 +318,7 @@ Result<ChainCheck> Journal::check() const {
 
 Result<std::vector<Entry>> Journal::read(const Question& question) const {
     if (question.limit < 1 || question.limit > 10000)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("The journal gives 1 to 10000 entries at once, not {}.", question.limit));
     const std::lock_guard<std::mutex> guard(reading_);
     Statement select(
@@ -330,7 +330,7 @@ Result<std::vector<Entry>> Journal::read(const Question& question) const {
     while (select.row())
         out.push_back({select.number(0), select.number(1), select.number(2), Instant{select.number(3)}, select.text(4),
                        select.text(5), select.text(6)});
-    if (!select.ok()) return fail(Trouble::io, fmt::format("The journal cannot be read: {}.", reader_->what()));
+    if (!select.ok()) return fail(ErrorKind::io, fmt::format("The journal cannot be read: {}.", reader_->what()));
     std::reverse(out.begin(), out.end());
     return out;
 }

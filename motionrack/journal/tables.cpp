@@ -56,10 +56,10 @@ Result<void> link_entries(const Database& database) {
         head = {entry.number, link_of(head.link, entry)};
         set.bind(1, head.link).bind(2, head.number);
         (void)set.row();
-        if (!set.ok()) return fail(Trouble::io, database.what());
+        if (!set.ok()) return fail(ErrorKind::io, database.what());
         set.again();
     }
-    if (!rows.ok()) return fail(Trouble::io, database.what());
+    if (!rows.ok()) return fail(ErrorKind::io, database.what());
     return head.number == 0 ? Result<void>() : set_chain_end(database, "head", head);
 }
 
@@ -100,7 +100,7 @@ std::string runs_of(const Database& database) {
 
 tl::unexpected<Error> damaged(const std::string& path, const std::string& how) {
     return fail(
-        Trouble::io,
+        ErrorKind::io,
         fmt::format("The journal '{}' is damaged: {}. Nothing was started. Keep the file for whoever looks into "
                     "the damage, name another one, and home the machine.",
                     path, how));
@@ -118,7 +118,7 @@ Result<void> quick_check(const Database& database, const std::string& path) {
 Result<void> check_new(const std::string& path) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    if (error) return fail(Trouble::io, fmt::format("its size cannot be asked for: {}", error.message()));
+    if (error) return fail(ErrorKind::io, fmt::format("its size cannot be asked for: {}", error.message()));
     if (bytes <= page_bytes) return {};
     return damaged(path, fmt::format("it has {} bytes and no tables", bytes));
 }
@@ -144,14 +144,14 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
     }
     if (id != mark)
         return fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format("'{}' is a file of SQLite, but no journal. It was left as it is; name another file.", path));
     MOTIONRACK_CHECK(quick_check(database, path));
     const std::int64_t seen = database.number("PRAGMA user_version");
     if (seen < 1 || seen > version)
-        return fail(Trouble::io, fmt::format("The journal '{}' has version {}; this program knows versions up to {}. "
-                                             "It was left as it is; name another file.",
-                                             path, seen, version));
+        return fail(ErrorKind::io, fmt::format("The journal '{}' has version {}; this program knows versions up to {}. "
+                                               "It was left as it is; name another file.",
+                                               path, seen, version));
     MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
     return seen == 1 ? upgrade(database) : Result<void>();
 }
@@ -168,7 +168,7 @@ Result<void> set_chain_end(const Database& database, const char* name, const Cha
     Statement set(database.get(), "INSERT OR REPLACE INTO chain (name, number, link) VALUES (?1, ?2, ?3)");
     set.bind(1, name).bind(2, end.number).bind(3, end.link);
     (void)set.row();
-    return set.ok() ? Result<void>() : fail(Trouble::io, database.what());
+    return set.ok() ? Result<void>() : fail(ErrorKind::io, database.what());
 }
 
 Result<void> remove_old_entries(const Database& database, std::int64_t kept) {
@@ -220,7 +220,7 @@ Result<ChainCheck> check_chain(const Database& database, std::int64_t newest) {
         broken(fmt::format("entry {} is not the one that was written last", before));
     const std::string why = whole ? std::string() : database.what();
     (void)database.run("COMMIT");
-    if (!whole) return fail(Trouble::io, fmt::format("The journal cannot be read: {}.", why));
+    if (!whole) return fail(ErrorKind::io, fmt::format("The journal cannot be read: {}.", why));
     return out;
 }
 

@@ -43,7 +43,7 @@ std::string sentence(const std::string& path, int error) {
 
 Result<File> File::open(const std::string& path, int flags) {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOCTTY | flags);
-    if (descriptor < 0) return fail(Trouble::io, sentence(path, errno) + " Nothing was opened.");
+    if (descriptor < 0) return fail(ErrorKind::io, sentence(path, errno) + " Nothing was opened.");
     return File(descriptor);
 }
 
@@ -56,12 +56,12 @@ Result<void> File::keep(std::uint64_t from, std::uint64_t length, const std::str
     range.l_len = static_cast<off_t>(length);
     if (::fcntl(descriptor_, F_OFD_SETLK, &range) == 0) return {};
     if (errno == EAGAIN || errno == EACCES)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The card at {} is open already, in another program or in this one: two that write to "
                                 "a card confuse it. Nothing was opened. Close it there first.",
                                 named));
-    return fail(Trouble::io, fmt::format("{} cannot be kept from other programs: {}. Nothing was opened.", named,
-                                         std::strerror(errno)));
+    return fail(ErrorKind::io, fmt::format("{} cannot be kept from other programs: {}. Nothing was opened.", named,
+                                           std::strerror(errno)));
 }
 
 File::~File() {

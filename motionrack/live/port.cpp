@@ -12,7 +12,7 @@ Result<std::unique_ptr<Port>> Port::open(const PortSpec& spec, const CardMap& ma
     for (const RegisterInfo& reg : map.registers) {
         if (reg.width != 16 || reg.offset % 2 != 0)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("The {} has registers that are not words of 16 bits, which live ports do not reach. "
                             "Nothing was opened.",
                             map.name));
@@ -49,7 +49,7 @@ void Port::end_access(int error, std::uint32_t offset, const char* what) {
     accessed_ = clock_->now();
     if (error != 0)
         trouble_ =
-            Error{Trouble::io,
+            Error{ErrorKind::io,
                   fmt::format("The register at {:02X}h could not be {} through {}: {}. No access is made from here on; "
                               "the card goes on with what it does.",
                               offset, what, path_, std::strerror(error))};

@@ -10,7 +10,7 @@ namespace motionrack::live {
 namespace {
 
 tl::unexpected<Error> wrong(std::string_view text, std::string_view what) {
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 fmt::format("'{}' does not say where a card is: {}. The form is {}. Nothing was opened.", text, what,
                             port_spec_form()));
 }

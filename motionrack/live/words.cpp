@@ -99,7 +99,7 @@ class FileWords final : public Words {
 
 tl::unexpected<Error> too_short(const PortSpec& spec, std::uint64_t size, std::uint64_t needed) {
     return fail(
-        Trouble::io,
+        ErrorKind::io,
         fmt::format("{} has {} bytes, but the card's registers end at byte {} (offset {}, stride {}). Check offset and "
                     "stride, or whether it is another region of the card. Nothing was opened.",
                     spec.path, size, needed, spec.offset, spec.stride));
@@ -110,7 +110,7 @@ Result<std::uint64_t> number_in(const std::filesystem::path& path) {
     std::uint64_t value = 0;
     if (!(file >> std::setbase(0) >> value))
         return fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format("{} holds no number, so it is not known where the card's region is. Nothing was opened; "
                         "load the card's driver anew.",
                         path.string()));
@@ -127,7 +127,7 @@ Result<std::unique_ptr<Words>> map_words(const PortSpec& spec, File file, std::u
                                  static_cast<off_t>(start + skipped));
     if (mapping == MAP_FAILED) {
         const int error = errno;
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("{} cannot be mapped: {}. {} Nothing was opened.", spec.path, std::strerror(error),
                                 error == EPERM ? "The kernel is locked down (Secure Boot); UIO still works."
                                                : "If it is a region of I/O ports, use port: instead."));
@@ -142,7 +142,7 @@ Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map) {
     std::error_code ignored;
     if (!std::filesystem::exists(place, ignored))
         return fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format(
                 "{} has no map {}: its driver gives interrupts only, or fewer regions. Map the card's PCI region "
                 "with memory:.../resourceN and take this node as interrupt=. Nothing was opened.",
@@ -157,8 +157,8 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
     MOTIONRACK_TRY(File file, File::open(spec.path, spec.reach == Reach::port ? 0 : O_SYNC));
     struct stat facts {};
     if (::fstat(file.descriptor(), &facts) != 0)
-        return fail(Trouble::io, fmt::format("{} tells nothing of itself: {}. Nothing was opened.", spec.path,
-                                             std::strerror(errno)));
+        return fail(ErrorKind::io, fmt::format("{} tells nothing of itself: {}. Nothing was opened.", spec.path,
+                                               std::strerror(errno)));
     const std::uint64_t needed = spec.offset + length;
     const bool has_size = S_ISREG(facts.st_mode);
     if (has_size && static_cast<std::uint64_t>(facts.st_size) < needed)
@@ -170,7 +170,7 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
         // Linux cuts every access to its /dev/port into bytes, the low one first.
         if (spec.width == 16 && S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 4))
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("{} moves single bytes, the low one first, which would carry out a command before its axes "
                             "are there. Say width=8 if the card is on its 8-bit bus; a PCI card's 16-bit ports are "
                             "reached by port:/sys/bus/pci/devices/.../resourceN. Nothing was opened.",

@@ -13,7 +13,7 @@ double root_of_squares(double a, double b) {
     return std::sqrt(a * a + b * b);
 }
 tl::unexpected<Error> refused(const std::string& sentence) {
-    return fail(Trouble::refused, sentence);
+    return fail(ErrorKind::refused, sentence);
 }
 bool good(std::initializer_list<double> numbers) {
     for (const double n : numbers)

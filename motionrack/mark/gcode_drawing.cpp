@@ -55,11 +55,11 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
         } else {
             const bool is_arc = move.kind == MoveKind::arc;
             if (is_arc && (move.first != 0 || move.second != 1))
-                return fail(Trouble::bad_input,
+                return fail(ErrorKind::bad_input,
                             "An arc outside the XY plane cannot be marked. Nothing was marked; use G17.",
                             {move.line, 0}, file);
             if (++count > most_elements)
-                return fail(Trouble::bad_input,
+                return fail(ErrorKind::bad_input,
                             fmt::format("More than {} lines and arcs. Nothing was marked.", most_elements),
                             {move.line, 0}, file);
             if (is_arc || to.x != at.x || to.y != at.y) {

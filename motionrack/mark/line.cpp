@@ -80,10 +80,10 @@ Result<void> put_all(Engine& card, int list, const std::vector<rtc5::Command>& c
     std::int64_t positions = 0;
     for (const rtc5::Command& command : commands) positions += rtc5::info(command.op).positions;
     if (positions > room)
-        return fail(Trouble::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. "
-                                                  "Nothing was marked; draw less at once or with a "
-                                                  "greater tolerance.",
-                                                  positions, list, room));
+        return fail(ErrorKind::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. "
+                                                    "Nothing was marked; draw less at once or with a "
+                                                    "greater tolerance.",
+                                                    positions, list, room));
     MOTIONRACK_CHECK(card.set_start_list(static_cast<std::uint32_t>(list)));
     for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(card.put(command));
     return {};
@@ -106,20 +106,21 @@ Result<void> Line::arm() {
     MOTIONRACK_CHECK(card_.execute_list(1));
     if (!card_.run_to_rest(greatest_ticks))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "The card does not come to rest before the first part. Nothing was marked; shorten the delays in [pace].");
     card_.clear_extent();
     const double delay = counts_of(job_, following_, job_.parts->track_delay);
     const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::count);
     if (delay < range.least || delay > range.greatest)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("A track delay of {:g} is {:g} counts; the card takes {:g} to {:g}. Nothing was marked.",
                         job_.parts->track_delay, delay, range.least, range.greatest));
     if (chain && job_.parts->size() > 1 && counts_of(job_, following_, job_.parts->spacing) == 0)
-        return fail(Trouble::refused, fmt::format("A spacing of {:g} is less than a count of the encoder, after which "
-                                                  "the card could start again. Nothing was marked.",
-                                                  job_.parts->spacing));
+        return fail(ErrorKind::refused,
+                    fmt::format("A spacing of {:g} is less than a count of the encoder, after which "
+                                "the card could start again. Nothing was marked.",
+                                job_.parts->spacing));
     MOTIONRACK_CHECK(card_.set_ext_start_delay(static_cast<std::int32_t>(delay), 0));
     card_.set_extstartpos(0);
     return {};
@@ -136,7 +137,7 @@ Result<void> Line::find_edges() {
         const double way = parts.way(i) - parts.track_delay;
         std::int64_t high = greatest_ticks;
         if (gone(high) < way)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("Part {} does not come to the sensor within {:g} s: the belt goes {:.6g} until "
                                     "then, the part is {:.6g} away. Nothing was marked; "
                                     "take fewer parts or a faster belt.",
@@ -227,10 +228,10 @@ Result<void> Line::run(rtc5::Sink* sink, const std::function<void(std::int64_t)>
             card_.run_to_rest(until - card_.tick(), sink);
         if (card_.tick() - looked < slice) continue;
         looked = card_.tick();
-        if (watch.stop && watch.stop()) return fail(Trouble::stopped, "Stopped; nothing was written.");
+        if (watch.stop && watch.stop()) return fail(ErrorKind::stopped, "Stopped; nothing was written.");
         if (looked - begin_ > greatest_ticks)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("The job takes more than {:g} s of marking. It was given up; mark faster or draw less.",
                             greatest_seconds));
         if (done) done(looked - begin_);

@@ -46,7 +46,7 @@ class List {
         return out;
     }
     void refuse(std::string sentence) {
-        if (!error_) error_ = Error{Trouble::refused, std::move(sentence) + ". Nothing was marked."};
+        if (!error_) error_ = Error{ErrorKind::refused, std::move(sentence) + ". Nothing was marked."};
     }
     Result<std::vector<Command>> take() {
         if (error_) return tl::unexpected(*error_);
@@ -159,7 +159,7 @@ Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, c
     Box field = prepared.field();
     field = {{field.low.x + margin, field.low.y + margin}, {field.high.x - margin, field.high.y - margin}};
     if (!(field.low.x < field.high.x))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("A margin of {:g} mm leaves nothing of a field of {:.3f} mm. Nothing was marked.",
                                 margin, field.high.x - field.low.x + 2 * margin));
     const Direction d = direction_of(following.track);
@@ -191,7 +191,7 @@ Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const
     if (carried || (box.low.x <= field.high.x && box.high.x >= field.low.x && box.low.y <= field.high.y &&
                     box.high.y >= field.low.y))
         return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("The drawing goes from X {:.3f} to {:.3f} mm and from Y {:.3f} to {:.3f} mm, and so lies "
                             "outside the field, which goes from {:.3f} to {:.3f} mm each way; nothing carries it in. "
                             "Nothing was marked; move the drawing or make it smaller.",
@@ -238,7 +238,7 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
         part.segments = segments_of(part.drawing);
         elements += part.segments.size();
         if (elements > most_elements)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("The drawings of {} parts with their numbers have more than {} lines. Nothing was "
                                     "marked; mark fewer parts at once.",
                                     different, most_elements),

@@ -183,11 +183,12 @@ Result<void> refuse_too_fast(const Job& job, const Quick& now, const Outcome& ou
     const std::string slow = job.belt.profile.empty()
                                  ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.speed))
                                  : fmt::format("{:.4g} times them", *out.fits_factor);
-    return fail(Trouble::refused, fmt::format("The belt is too fast: at {} marks go up to {:.3f} mm beyond the field "
-                                              "before they are done, waits or not. It just fits at {}. "
-                                              "Nothing was marked; slow the belt down, mark and jump faster, or leave "
-                                              "the waits out to see what would be marked.",
-                                              fast, now.beyond_mm, slow));
+    return fail(ErrorKind::refused,
+                fmt::format("The belt is too fast: at {} marks go up to {:.3f} mm beyond the field "
+                            "before they are done, waits or not. It just fits at {}. "
+                            "Nothing was marked; slow the belt down, mark and jump faster, or leave "
+                            "the waits out to see what would be marked.",
+                            fast, now.beyond_mm, slow));
 }
 
 }  // namespace

@@ -117,13 +117,13 @@ struct Piece {
 Result<void> check(const Piece& piece, const Box& field) {
     const Spot p = piece.stroke.from;
     if (!(piece.ways.low <= piece.ways.high))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The stroke at {:.3f}, {:.3f} mm never is in the field, which goes from {:.3f}, {:.3f} "
                                 "to {:.3f}, {:.3f} mm without its margin. "
                                 "Nothing was marked; make the drawing smaller across the movement or move it.",
                                 p.x, p.y, field.low.x, field.low.y, field.high.x, field.high.y));
     if (piece.ways.high < 0)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The stroke at {:.3f}, {:.3f} mm has left the field {:.3f} mm before the job begins. "
                                 "Nothing was marked; move the drawing so much against "
                                 "the movement (x_mm, y_mm), or take a longer track delay.",
@@ -148,7 +148,7 @@ Result<std::vector<WaitBatch>> batches_of(const Drawing& drawing, const Box& fie
         else
             strokes.push_back(stroke);
         if (strokes.size() > most_elements)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("The drawing needs more than {} pieces to come into the field. Nothing was marked.",
                                     most_elements));
     }

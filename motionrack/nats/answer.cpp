@@ -22,9 +22,9 @@ std::string text_of(const Error& error) {
 
 Result<sweep::Row> read_answer(std::string_view text) {
     const auto damaged = [] {
-        return fail(Trouble::bad_input, "A message of the server is no row of a sweep, or damaged; it was left out.");
+        return fail(ErrorKind::bad_input, "A message of the server is no row of a sweep, or damaged; it was left out.");
     };
-    if (text.starts_with(trouble_head)) return fail(Trouble::refused, std::string(text.substr(trouble_head.size())));
+    if (text.starts_with(trouble_head)) return fail(ErrorKind::refused, std::string(text.substr(trouble_head.size())));
     if (!text.starts_with(row_head)) return damaged();
     text.remove_prefix(row_head.size());
     const auto columns = sweep::result_columns();

@@ -52,7 +52,7 @@ class Gatherer {
                 MOTIONRACK_CHECK(offer());
             }
         }
-        if (!done()) return fail(Trouble::stopped, "Stopped on request.");
+        if (!done()) return fail(ErrorKind::stopped, "Stopped on request.");
         return queue_.forget(name_);
     }
 
@@ -74,11 +74,11 @@ class Gatherer {
             const auto point = points_.find(answer.key);
             if (point == points_.end() || results_.has(point->second)) continue;
             Result<sweep::Row> row = read_answer(answer.text);
-            if (!row && row.error().trouble == Trouble::bad_input) continue;
+            if (!row && row.error().trouble == ErrorKind::bad_input) continue;
             if (!row) {
                 // The same command may try it again.
                 (void)queue_.forget(name_, answer.key);
-                return fail(Trouble::refused, fmt::format("Point {}: {}", point->second, row.error().message));
+                return fail(ErrorKind::refused, fmt::format("Point {}: {}", point->second, row.error().message));
             }
             MOTIONRACK_CHECK(results_.add(point->second, std::move(*row)));
             if (progress_) progress_(clock_.now(results_));

@@ -31,7 +31,7 @@ using Message = std::unique_ptr<natsMsg, Destroy>;
 tl::unexpected<Error> trouble(natsStatus status, const char* what) {
     const char* last = nats_GetLastError(nullptr);
     const std::string why = last != nullptr && *last != '\0' ? last : natsStatus_GetText(status);
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("{}: {}. Is nats-server running there, with JetStream (nats-server -js)?", what, why));
 }
 
@@ -118,7 +118,7 @@ class JetStreamQueue final : public Queue {
     Result<void> offer(const std::string& sweep, const std::string& key, std::string_view text) override {
         if (const auto most = natsConnection_GetMaxPayload(connection_.get());
             static_cast<std::int64_t>(text.size()) > most)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("A point of the sweep has {} bytes, and the server takes messages of at most {}. "
                                     "Nothing was queued; set max_payload of nats-server "
                                     "higher, or shorten the program.",

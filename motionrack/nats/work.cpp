@@ -63,7 +63,7 @@ class Worker {
         std::vector<std::thread> crew;
         for (const auto& queue : queues) crew.emplace_back([this, &queue] { take_points(*queue); });
         for (std::thread& one : crew) one.join();
-        if (stop_) return fail(Trouble::stopped, "Stopped on request.");
+        if (stop_) return fail(ErrorKind::stopped, "Stopped on request.");
         return ended_;
     }
 
@@ -93,7 +93,7 @@ class Worker {
         signs_.add(*point);
         const Result<sweep::Row> row = run_point(*point);
         signs_.remove(*point);
-        if (!row && row.error().trouble == Trouble::stopped) {
+        if (!row && row.error().trouble == ErrorKind::stopped) {
             point->give_back();
             return false;
         }
@@ -105,14 +105,14 @@ class Worker {
 
     Result<sweep::Row> run_point(const Taken& point) {
         if (point.times() > most_times)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("{} workers had it and died, or were killed, before it was done. It was taken out "
                                     "of the queue; run it alone to see what happens.",
                                     most_times));
         try {
             return sweep::run_point(point.text(), &stop_);
         } catch (const std::exception& e) {
-            return fail(Trouble::io, fmt::format("a worker could not run it: {}.", e.what()));
+            return fail(ErrorKind::io, fmt::format("a worker could not run it: {}.", e.what()));
         }
     }
 

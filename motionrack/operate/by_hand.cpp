@@ -20,9 +20,10 @@ bool measures_only(const rack::RackConfig& config, const std::string& card) {
 
 Result<void> Machine::set_work_zero(char axis, double value) {
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work zero was not set", axis));
-    if (!std::isfinite(value)) return fail(Trouble::bad_input, "The work zero was not set: the value is not a number.");
+    if (!std::isfinite(value))
+        return fail(ErrorKind::bad_input, "The work zero was not set: the value is not a number.");
     if (stream_->has_work())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The work zero was not set: the machine moves. Stop it, or wait until it stands.");
     const bool inches = stream_->interpreter().modes().inch && found->kind == rack::AxisKind::linear;
     if (const auto read = line(fmt::format("G10 L20 P0 {}{:.9f}", axis, inches ? value / 25.4 : value), 1); !read)
@@ -34,12 +35,12 @@ Result<void> Machine::access(const BusAccess& access, std::function<void(std::ui
     const bool stands = idle(state_);
     if ((!stands || stream_->has_work()) && !measures_only(rack_.config(), access.card))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.",
                         name_of(state_)));
     MOTIONRACK_CHECK(rack::card_for_access(rack_, access.card, access.bits, access.address, access.value.has_value()));
     if (access.value && access.bits < 32 && *access.value >> access.bits != 0)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} does not fit into {} bits. Nothing was done.", *access.value, access.bits));
     accesses_.push_back({access, std::move(ready)});
     return {};

@@ -12,7 +12,7 @@ Door::Door(rack::Rack& rack) : contacts_(rack.stop_latch().contacts()) {
 
 Result<void> Door::check_closed(const char* what) const {
     if (!contacts_.door_open()) return {};
-    return fail(Trouble::refused, fmt::format("{}: the door is open. Nothing was moved; close it first.", what));
+    return fail(ErrorKind::refused, fmt::format("{}: the door is open. Nothing was moved; close it first.", what));
 }
 
 std::optional<std::string> Door::take_opening(MachineState state) {

@@ -12,7 +12,7 @@ namespace motionrack::operate {
 Result<void> Jogs::see(const JogOrigin& origin) {
     if (origin.sequence == 0) return {};
     if (origin.session == newest_.session && origin.sequence <= newest_.sequence)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Not jogged: the order has the sequence {}, but {} came before it. Nothing was "
                                 "changed; number the orders of a session upwards.",
                                 origin.sequence, newest_.sequence));
@@ -23,7 +23,7 @@ Result<void> Jogs::see(const JogOrigin& origin) {
 Result<void> Jogs::accept(char letter, const JogOrigin& origin) {
     MOTIONRACK_CHECK(see(origin));
     if (!origin.renews || held(letter)) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("Not jogged: the jog of axis {} has ended, so it cannot be renewed. Nothing was moved; let "
                             "go, and jog again.",
                             letter));

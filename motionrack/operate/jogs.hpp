@@ -35,7 +35,7 @@ class Jogs {
     struct Ended {
         char letter = 'X';
         bool trusted = false;  ///< the axis trusts its position
-        Result<void> how;      ///< Trouble::machine: something stopped it; refused: it did not begin
+        Result<void> how;      ///< ErrorKind::machine: something stopped it; refused: it did not begin
     };
 
     /// `lease` is of `wall`, which is called on the motion thread.

@@ -63,7 +63,7 @@ void LiveCard::look() {
     looked_ = now();
     if (!seen.view.answered())
         lost_ =
-            Error{Trouble::io,
+            Error{ErrorKind::io,
                   fmt::format("Every register of card {} reads FFFFh: no card answers at {}. No access is made from "
                               "here on. Check the region, offset and stride, and whether the card has power.",
                               place_.card, place_.place)};
@@ -117,7 +117,7 @@ void LiveCard::heed_stop() {
 
 std::optional<Error> LiveCard::doubt() const {
     if (lost_ || !gives_up_) return lost_;
-    return Error{Trouble::machine,
+    return Error{ErrorKind::machine,
                  fmt::format("The function had not ended {} ms after the stop and was broken off; whether the axes of "
                              "card {} stand is not known from it. See the alarms and the registers of the card.",
                              stop_patience / milliseconds(1), place_.card)};

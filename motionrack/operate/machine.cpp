@@ -52,7 +52,8 @@ void tell_stop(const StopReport& report, std::string& why,
 
 Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
     if (!latch.latched()) return {};
-    return fail(Trouble::refused, fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
+    return fail(ErrorKind::refused,
+                fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
 }
 
 rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
@@ -105,7 +106,7 @@ void Machine::quit() {
 Result<void> Machine::ready(const char* what) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {
-        return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why));
+        return fail(ErrorKind::refused, fmt::format("{}: {}. Nothing was moved.", what, why));
     };
     if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
     if (state_ == MachineState::error_stop)
@@ -119,18 +120,18 @@ Result<void> Machine::ready(const char* what) {
 
 Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter) {
     if (const rack::RackAxis* axis = config.axis(letter)) return axis;
-    return fail(Trouble::bad_input, fmt::format("{}: the machine has no axis {}.", what, letter));
+    return fail(ErrorKind::bad_input, fmt::format("{}: the machine has no axis {}.", what, letter));
 }
 
 /// Enabled, and what was declared of positions is carried out: it holds of where the axes stood.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
     return {};
 }
@@ -142,9 +143,10 @@ Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!trusted(axis))
-            return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
-                                                      "where it stands. Nothing was moved.",
-                                                      what, axis.letter));
+            return fail(ErrorKind::refused,
+                        fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
+                                    "where it stands. Nothing was moved.",
+                                    what, axis.letter));
     return {};
 }
 
@@ -181,7 +183,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
 control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t number) {
     const auto refuse = [&](std::string why) {
         control::gcode::Problem problem;
-        problem.trouble = Trouble::refused;
+        problem.trouble = ErrorKind::refused;
         problem.message = std::move(why);
         problem.place.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
@@ -201,7 +203,7 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
 
 Result<void> Machine::hold() {
     if (state_ != MachineState::moving)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.",
                                 name_of(state_)));
     stream_->hold();
@@ -210,7 +212,7 @@ Result<void> Machine::hold() {
 
 Result<void> Machine::resume() {
     if (state_ != MachineState::hold)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
                                 name_of(state_)));
     MOTIONRACK_CHECK(may_start("Not resumed"));
@@ -259,7 +261,7 @@ namespace {
 /// The axis refuses it, too, but only when the order is begun: who gave it has his answer then.
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
     if (std::fabs(speed) <= axis.max_speed) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("Not jogged: the speed is {:g} {}/s, but may be up to {:g} for axis {}. Nothing was moved.",
                             std::fabs(speed), axis.unit(), axis.max_speed, axis.letter));
 }
@@ -273,7 +275,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
-    if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
+    if (!std::isfinite(speed)) return fail(ErrorKind::bad_input, "Not jogged: the speed is not a number.");
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     jogs_.hold(axis, speed, origin.session);
     enter(MachineState::jogging);
@@ -286,11 +288,11 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
-        return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
+        return fail(ErrorKind::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     const double travel = found->max_position - found->min_position;
     if (trusted(*found) && std::fabs(distance) > travel)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Not jogged: the distance is {:g} {}, but the whole travel of axis {} is {:g}. Nothing "
                                 "was moved.",
                                 std::fabs(distance), found->unit(), axis, travel));
@@ -303,9 +305,9 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
     if (!stream_->has_room())
-        return fail(Trouble::refused, "Not jogged: there is no room for another jog until others are driven.");
+        return fail(ErrorKind::refused, "Not jogged: there is no room for another jog until others are driven.");
     if (!std::isfinite(speed) || !(speed > 0))
-        return fail(Trouble::bad_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
+        return fail(ErrorKind::bad_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
     control::Move move;
     int moving = 0;
@@ -313,13 +315,14 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
         const double from = stream_->interpreter().position()[i], slack = control::gcode::limit_slack;
         if (target[i] == from) continue;
         if (!std::isfinite(target[i]) || !limits[i].present)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.",
                                     control::axis_letters[i], target[i]));
         if (target[i] < limits[i].min_position - slack || target[i] > limits[i].max_position + slack)
-            return fail(Trouble::refused, fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.",
-                                                      control::axis_letters[i], limits[i].min_position,
-                                                      limits[i].max_position, target[i]));
+            return fail(
+                ErrorKind::refused,
+                fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.", control::axis_letters[i],
+                            limits[i].min_position, limits[i].max_position, target[i]));
         ++moving;
         move.rapid_override = std::min(move.rapid_override, speed / limits[i].max_speed);
     }
@@ -353,7 +356,8 @@ Result<void> Machine::home(std::string axes) {
 Result<void> Machine::declare_position(char axis, double position) {
     MOTIONRACK_CHECK(ready("The position was not declared"));
     MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not declared", axis));
-    if (!std::isfinite(position)) return fail(Trouble::bad_input, "The position was not declared: it is not a number.");
+    if (!std::isfinite(position))
+        return fail(ErrorKind::bad_input, "The position was not declared: it is not a number.");
     positions_wanted_.push_back(trust_.declared(axis, position));
     return {};
 }
@@ -366,7 +370,7 @@ void Machine::set_coolant(bool mist, bool flood) {
 
 Result<void> Machine::clear_offsets() {
     if (stream_->has_work())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
     stream_->clear_offsets();
     return {};
@@ -385,7 +389,7 @@ void Machine::forbid_starts(std::string source, std::string text) {
 
 Result<void> Machine::may_start(const char* what) const {
     if (no_starts_.empty()) return {};
-    return fail(Trouble::refused, fmt::format("{}: {}", what, no_starts_));
+    return fail(ErrorKind::refused, fmt::format("{}: {}", what, no_starts_));
 }
 
 bool Machine::acknowledge(std::int64_t alarm) {

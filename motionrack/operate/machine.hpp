@@ -78,7 +78,7 @@ class Machine {
         if (on_stop) stop_listeners_.push_back(std::move(on_stop));
     }
 
-    // ---- orders, posted; refused ones (Trouble::refused) change nothing
+    // ---- orders, posted; refused ones (ErrorKind::refused) change nothing
     /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody.
     /// Errors: bad_input.
     Result<void> enable(bool on, std::string_view axes = {});

@@ -71,7 +71,7 @@ Result<control::Axis*> Machine::take_axis(char letter) {
         hands_over_ = false;
         return taken;
     }
-    return fail(Trouble::bad_input, fmt::format("There is no axis {}.", letter));
+    return fail(ErrorKind::bad_input, fmt::format("There is no axis {}.", letter));
 }
 
 // ---- the loop
@@ -263,7 +263,7 @@ void Machine::jog_all() {
     const auto take = [this](char letter) { return take_axis(letter); };
     const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
     for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
-        if (one.how || one.how.error().trouble == Trouble::stopped) continue;
+        if (one.how || one.how.error().trouble == ErrorKind::stopped) continue;
         status_.why = one.how.error().message;
         if (one.trusted || !trust_.of(one.letter)) continue;
         trust_.lose(one.letter);  // it stopped without a ramp, or does not know its counts
@@ -289,7 +289,7 @@ void Machine::home_all() {
     for (const rack::HomedAxis& axis : homed.axes)
         if (axis.begun && !axis.outcome.homed) trust_.lose(axis.letter);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
-    if (!homed.ended && homed.ended.error().trouble == Trouble::machine) return failed(homed.ended.error());
+    if (!homed.ended && homed.ended.error().trouble == ErrorKind::machine) return failed(homed.ended.error());
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
 }
 

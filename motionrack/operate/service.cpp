@@ -20,7 +20,7 @@ Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::st
     MOTIONRACK_TRY(const rack::Card* found, rack::card_named(rack, card));
     const std::span<const FunctionInfo> functions = found->library_functions();
     if (!functions.empty()) return functions;
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("Card {} is an {}: it has no function library that is called by hand. Nothing was done.",
                             card, found->map().name));
 }
@@ -37,19 +37,19 @@ std::string Service::axes_of(const std::string& card) const {
 Result<void> Service::check_begin(const std::string& card) const {
     static constexpr const char* what = "The service was not begun";
     if (on())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: card {} is in service. Nothing was changed; end that first.", what, card_));
     MOTIONRACK_CHECK(library_of(machine_.rack_, card));
     MOTIONRACK_CHECK(machine_.may_start(what));
     const std::string letters = axes_of(card);
     if (!letters.empty() || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
     if (const rack::StopLatch& latch = machine_.rack_.stop_latch(); latch.latched())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
     MOTIONRACK_CHECK(machine_.door_.check_closed(what));
     MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
     if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: an order is still carried out. Nothing was changed; try again at once.", what));
     return {};
 }
@@ -71,7 +71,7 @@ Result<void> Service::begin(const std::string& card, const StopOrigin& by, const
 }
 
 Result<void> Service::end(Told ready) {
-    if (!on()) return fail(Trouble::refused, "No card is in service. Nothing was changed.");
+    if (!on()) return fail(ErrorKind::refused, "No card is in service. Nothing was changed.");
     ended_ = std::move(ready);
     break_off();
     return {};
@@ -81,17 +81,17 @@ Result<void> Service::call(Call call, const StopOrigin& by, const std::string& s
     MOTIONRACK_TRY(const std::span<const FunctionInfo> functions, library_of(machine_.rack_, call.card));
     MOTIONRACK_TRY(CheckedCall checked, check_call(functions, call.function, call.arguments));
     if (on() && call.card != card_)
-        return fail(Trouble::refused, fmt::format("{} was not called: card {} is in service, not card {}. End that "
-                                                  "service first.",
-                                                  call.function, card_, call.card));
+        return fail(ErrorKind::refused, fmt::format("{} was not called: card {} is in service, not card {}. End that "
+                                                    "service first.",
+                                                    call.function, card_, call.card));
     if (!on() && !axes_of(call.card).empty())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} was not called: card {} is driven by the controller. Begin its service first.",
                                 call.function, call.card));
     if (!on()) MOTIONRACK_CHECK(begin(call.card, by, session, {}));
-    if (stop_) return fail(Trouble::refused, fmt::format("{} was not called: the service ends.", call.function));
+    if (stop_) return fail(ErrorKind::refused, fmt::format("{} was not called: the service ends.", call.function));
     if (pending_ || !working_.empty())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} was not called: {} still works. Wait until it ends, or end the service.",
                                 call.function, pending_ ? pending_->name : working_));
     pending_.emplace(Pending{std::move(checked), std::move(call.function), std::move(ready)});
@@ -225,8 +225,8 @@ void Service::finish() {
     card_.clear();
     session_.clear();
     stop_ = false;
-    if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(Trouble::stopped, "Not called. " + sentence));
-    if (const Told told = std::exchange(begun_, {})) told(fail(Trouble::stopped, sentence));
+    if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(ErrorKind::stopped, "Not called. " + sentence));
+    if (const Told told = std::exchange(begun_, {})) told(fail(ErrorKind::stopped, sentence));
     if (!taken) return machine_.failed(taken.error());
     const bool any = std::find(machine_.enabled_.begin(), machine_.enabled_.end(), true) != machine_.enabled_.end();
     if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())

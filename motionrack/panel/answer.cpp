@@ -20,17 +20,17 @@ Answer error_answer(const Error& error) {
     };
     Answer answer;
     switch (error.trouble) {
-        case Trouble::bad_input:
+        case ErrorKind::bad_input:
             answer = make(400, "bad_input");
             break;
-        case Trouble::refused:
-        case Trouble::stopped:
+        case ErrorKind::refused:
+        case ErrorKind::stopped:
             answer = make(409, "refused");
             break;
-        case Trouble::machine:
+        case ErrorKind::machine:
             answer = make(500, "machine");
             break;
-        case Trouble::io:
+        case ErrorKind::io:
             answer = make(500, "io");
             break;
     }

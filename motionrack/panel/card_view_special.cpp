@@ -51,7 +51,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
     MOTIONRACK_CHECK(rack::card_named(rack, name));
     const db::Card* card = rack::databoard4002_card_of(rack, name);
     if (card == nullptr)
-        return fail(Trouble::bad_input, fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
+        return fail(ErrorKind::bad_input, fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
     return json{{"name", name},
                 {"slopes",
                  {half_of("acceleration over the way gone", card->table(), db::SlopeTable::half),
@@ -64,7 +64,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
 
 Result<json> frames_now(operate::Machine& machine) {
     const rack::FrameMonitor* watch = machine.frames();
-    if (watch == nullptr) return fail(Trouble::refused, "The rack has no grating bus, so there are no frames.");
+    if (watch == nullptr) return fail(ErrorKind::refused, "The rack has no grating bus, so there are no frames.");
     json cards = json::array();
     const std::vector<rack::FrameRow> rows = watch->rows();
     const grating_bus::Frame* first = rows.empty() ? nullptr : rows.front().frame;

@@ -101,7 +101,7 @@ struct PanelContext {
             machine.post([made = work(), ready = std::move(ready)]() mutable { ready(std::move(made)); });
         });
         if (!taken)
-            ready(fail(Trouble::refused,
+            ready(fail(ErrorKind::refused,
                        "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
     }
     /// The same of what is the answer itself.

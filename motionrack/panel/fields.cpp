@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 tl::unexpected<Error> wrong(const OperationSpec& row, std::string_view what) {
-    return fail(Trouble::bad_input, fmt::format("{} was not done: {}", row.name, what));
+    return fail(ErrorKind::bad_input, fmt::format("{} was not done: {}", row.name, what));
 }
 
 /// Whether a text is one of "a|b|c".

@@ -17,7 +17,7 @@ namespace {
 Result<void> check_virtual(PanelContext& desk, std::string_view name, std::string_view what) {
     const operate::LivePlace* const live = desk.machine.service().live_place(card_part(name));
     if (live == nullptr) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{}: card {} is a real one at {}. Nothing was done. Call the functions of its library.",
                             what, live->card, live->place));
 }
@@ -52,14 +52,14 @@ void access(PanelContext& desk, const json& fields, Ready ready) {
 
 Result<operate::ClockPacer*> pacer_of(PanelContext& desk) {
     if (desk.settings.pacer != nullptr) return desk.settings.pacer;
-    return fail(Trouble::refused, "The clock of this machine cannot be changed.");
+    return fail(ErrorKind::refused, "The clock of this machine cannot be changed.");
 }
 
 Result<json> set_clock(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
     if (const auto live = desk.machine.service().live_places(); !live.empty())
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("The clock was not changed: card {} is a real one, whose time is the computer's, so the "
                         "rack runs in real time with factor 1. Serve it without --live for another time.",
                         live.front().card));
@@ -68,7 +68,7 @@ Result<json> set_clock(PanelContext& desk, const json& fields) {
          {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
         if (operate::name_of(mode) == name)
             return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
-    return fail(Trouble::bad_input, "There is no such mode of the clock.");
+    return fail(ErrorKind::bad_input, "There is no such mode of the clock.");
 }
 
 Result<json> step_clock(PanelContext& desk, const json& fields) {

@@ -51,8 +51,8 @@ void service(PanelContext& desk, const Caller& caller, const json& fields, const
     };
     operate::Service& service = desk.machine.service();
     if (!fields.at("on").get<bool>() && service.on() && service.card() != card)
-        return ready(fail(Trouble::refused, fmt::format("Card {} is in service, not card {}. Nothing was changed.",
-                                                        service.card(), card)));
+        return ready(fail(ErrorKind::refused, fmt::format("Card {} is in service, not card {}. Nothing was changed.",
+                                                          service.card(), card)));
     const Result<void> taken =
         fields.at("on").get<bool>() ? service.begin(card, origin_of(caller), caller.session, told) : service.end(told);
     if (!taken) ready(tl::unexpected<Error>(taken.error()));

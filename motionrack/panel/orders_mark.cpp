@@ -55,15 +55,16 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
     if (!read.job) return tl::unexpected<Error>(read.errors.front());
     mark::Job& job = *read.job;
     if (job.parts)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The job has a section [parts]: the rack's own belt brings the parts here. Leave it out and give "
                     "start = parts. Nothing was marked.");
     as_the_rack_has_it(job, config, card);
     const auto load = [&drawing](const std::string& path) -> Result<std::string> {
         if (!drawing.empty()) return drawing;
-        return fail(Trouble::refused, fmt::format("The job names the file {}, and files of this computer are not read: "
-                                                  "send the drawing's text along. Nothing was marked.",
-                                                  path));
+        return fail(ErrorKind::refused,
+                    fmt::format("The job names the file {}, and files of this computer are not read: "
+                                "send the drawing's text along. Nothing was marked.",
+                                path));
     };
     MOTIONRACK_TRY(const mark::Prepared prepared, mark::prepare(job, load));
     const mark::ConveyorTracking following = mark::following_of(job);
@@ -82,7 +83,7 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
 Result<void> not_stopped(PanelContext& desk) {
     const rack::StopLatch& latch = desk.machine.rack().stop_latch();
     if (!latch.latched()) return {};
-    return fail(Trouble::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
+    return fail(ErrorKind::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
 }
 
 /// On the motion thread, between runs.
@@ -91,7 +92,7 @@ Result<json> begin_marking(PanelContext& desk, const std::string& card, const Li
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
     if (!engine.at_rest())
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Card {} works off a list; wait for its end, or stop it with mark_stop. Nothing was marked.",
                         card));
     if (lists.table) {
@@ -117,7 +118,7 @@ Result<json> begin_marking(PanelContext& desk, const std::string& card, const Li
 Result<void> check_card(PanelContext& desk, const std::string& card) {
     MOTIONRACK_CHECK(rack::card_named(desk.machine.rack(), card));
     if (rack::rtc5_card_of(desk.machine.rack(), card) != nullptr) return {};
-    return fail(Trouble::bad_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
+    return fail(ErrorKind::bad_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
 }
 
 void mark(PanelContext& desk, const json& fields, Ready ready) {

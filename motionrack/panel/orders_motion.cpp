@@ -81,8 +81,8 @@ Result<char> axis_of(PanelContext& desk, const json& fields) {
         if (text.size() == 1 && text[0] == axis.letter) return axis.letter;
         known += axis.letter;
     }
-    return fail(Trouble::bad_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.",
-                                                text_of(fields.at("axis")), known));
+    return fail(ErrorKind::bad_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.",
+                                                  text_of(fields.at("axis")), known));
 }
 
 std::span<const OperationHandler> control_doers() {

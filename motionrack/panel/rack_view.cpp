@@ -105,8 +105,8 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         std::string known;
         for (const rack::RunningScanner& one : machine.rack().scanners())
             known += (known.empty() ? "" : ", ") + one.config.name;
-        return fail(Trouble::bad_input, fmt::format("There is no scan head {}; the rack has: {}.",
-                                                    rack::in_quotes(name), known.empty() ? "none" : known));
+        return fail(ErrorKind::bad_input, fmt::format("There is no scan head {}; the rack has: {}.",
+                                                      rack::in_quotes(name), known.empty() ? "none" : known));
     }
     const parts::MarkingStation& station = scanner->station();
     const std::span<const parts::MarkedPoint> points = station.workpiece().points();

@@ -12,7 +12,7 @@ Result<Card*> card_named(Rack& rack, std::string_view name) {
     std::string known;
     for (const auto& card : rack.cards()) known += (known.empty() ? "" : ", ") + card->name();
     return fail(
-        Trouble::bad_input,
+        ErrorKind::bad_input,
         fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was done.", in_quotes(name), known));
 }
 
@@ -21,11 +21,11 @@ Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::
     const std::span<const int> widths = card->bus_widths();
     if (widths.empty())
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Card {} is an {}: it has no registers on a bus. Nothing was done; use its own commands.",
                         card->name(), card->map().name));
     if (std::find(widths.begin(), widths.end(), bits) == widths.end())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Card {} is a {}: its bus makes accesses of {} bits, not of {}. Nothing was done.",
                                 card->name(), card->map().name, fmt::join(widths, ", "), bits));
     const auto bytes = static_cast<std::uint32_t>(bits) / 8;
@@ -40,7 +40,7 @@ Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::
         last = std::max(last, end - bytes);
     }
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("Card {} has nothing to {} with {} bits at offset 0x{:02x}; its registers are from 0x{:02x} to "
                     "0x{:02x}{}. Nothing was done.",
                     card->name(), writing ? "write" : "read", bits, address, first, last,

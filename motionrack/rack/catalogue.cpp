@@ -276,8 +276,8 @@ tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std
     std::vector<std::string_view> known(more.begin(), more.end());
     for (const RegisterInfo& reg : card.map().registers)
         if (reg.access != Access::write && reg.bank.empty()) known.push_back(reg.name);
-    return fail(Trouble::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", card.name(),
-                                                in_quotes(name), fmt::join(known, ", ")));
+    return fail(ErrorKind::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", card.name(),
+                                                  in_quotes(name), fmt::join(known, ", ")));
 }
 
 std::span<const CardKind> card_kinds() {

@@ -294,7 +294,7 @@ RackReading read_rack_text(std::string_view text, std::string_view file) {
 
 RackReading read_rack_file(const std::filesystem::path& path) {
     const std::string name = path.string();
-    const auto fail_io = [&](std::string what) { return only_error(Error{Trouble::io, std::move(what), name, {}}); };
+    const auto fail_io = [&](std::string what) { return only_error(Error{ErrorKind::io, std::move(what), name, {}}); };
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (status.type() == std::filesystem::file_type::not_found) {
@@ -311,8 +311,10 @@ RackReading read_rack_file(const std::filesystem::path& path) {
 RackReading read_rack(std::string_view path_or_text) {
     if (path_or_text.find_first_of("\n=") != std::string_view::npos) return read_rack_text(path_or_text);
     if (path_or_text.empty()) {
-        return only_error(Error{
-            Trouble::bad_input, "No rack file was named; give a path, or text such as card.c1 = \"mcx314\".", {}, {}});
+        return only_error(Error{ErrorKind::bad_input,
+                                "No rack file was named; give a path, or text such as card.c1 = \"mcx314\".",
+                                {},
+                                {}});
     }
     return read_rack_file(std::filesystem::path(path_or_text));
 }

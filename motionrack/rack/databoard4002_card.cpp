@@ -164,7 +164,7 @@ class Databoard4002Card final : public MotionCard {
     }
     Result<control::AxisGroup*> path_axes(const RackConfig&, const std::optional<control::Point>&) override {
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
     }
     Result<control::Axis*> axis(const RackConfig& config, char letter) override {

@@ -16,7 +16,7 @@ Result<std::vector<ScheduledText>> read_faults(const std::vector<std::string>& t
         std::optional<ScheduledText> timed = read_timed_text(text);
         if (!timed)
             return fail(
-                Trouble::bad_input,
+                ErrorKind::bad_input,
                 fmt::format(
                     "The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
                     "X.encoder.broken_a@20ms. Nothing was moved.",
@@ -55,7 +55,7 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
         fault.name = name;
         fault.value = number_of(value);
         if (std::isnan(fault.value) && value != "release")
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
                                     "moved.",
                                     in_quotes(text), in_quotes(value)));
@@ -63,16 +63,16 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
     }
     const std::size_t dot = action.find('.');
     if (dot == std::string_view::npos)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("The fault {} names neither a wire (X.limit_plus, estop) nor a fault of an axis "
                                 "(X.encoder.broken_a). Nothing was moved.",
                                 in_quotes(text)));
     fault.target = action.substr(0, dot);
     fault.name = action.substr(dot + 1);
     const Result<void> known = check_fault(rack_, fault.name, fault.target);
-    if (!known && known.error().trouble == Trouble::bad_input)
-        return fail(Trouble::bad_input, fmt::format("The fault {}: {} {}", in_quotes(text),
-                                                    desk_.check(name, 1).error().message, known.error().message));
+    if (!known && known.error().trouble == ErrorKind::bad_input)
+        return fail(ErrorKind::bad_input, fmt::format("The fault {}: {} {}", in_quotes(text),
+                                                      desk_.check(name, 1).error().message, known.error().message));
     return known;
 }
 

@@ -84,25 +84,25 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         add(track.config.name);
     }
     if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr && found.track == nullptr)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
                                 in_quotes(target), targets.empty() ? "there are none" : targets));
     const std::size_t equals = fault.find('=');
     found.name = fault.substr(0, equals);
     const auto names = names_of(found);
     if (std::find(names.begin(), names.end(), found.name) == names.end())
-        return fail(Trouble::bad_input, fmt::format("There is no fault {}; there are: {}. Nothing was done.",
-                                                    in_quotes(found.name), fmt::join(names, ", ")));
+        return fail(ErrorKind::bad_input, fmt::format("There is no fault {}; there are: {}. Nothing was done.",
+                                                      in_quotes(found.name), fmt::join(names, ", ")));
     if (equals != std::string_view::npos) {
         const std::string_view text = fault.substr(equals + 1);
         found.value = number_of(text);
         if (!(std::fabs(found.value) <= max_push))
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
                                     found.name, in_quotes(text), -max_push, max_push));
     }
     if (found.axis != nullptr && !has_part(*found.axis, found.name))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Axis {} has nothing that could have the fault {}; see its section of the rack "
                                 "file. Nothing was done.",
                                 target, found.name));
@@ -153,9 +153,9 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_TRY(const Found found, find(rack, fault, target));
     if (found.track != nullptr && rack.stop_latch().latched() && found.name.substr(0, 6) == "drive.")
-        return fail(Trouble::refused, fmt::format("{} stands by a stop and stays so until that is reset. Nothing was "
-                                                  "done; reset it, then start {} again.",
-                                                  target, target));
+        return fail(ErrorKind::refused, fmt::format("{} stands by a stop and stays so until that is reset. Nothing was "
+                                                    "done; reset it, then start {} again.",
+                                                    target, target));
     const Instant now = rack.kernel().now();
     const sim::DeviceId device = device_of(found);
     const auto names = names_of(found);
@@ -165,8 +165,8 @@ Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view t
     const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)
                                              : rack.kernel().device(device).fault(found.name, found.value, now);
     if (!known)
-        return fail(Trouble::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.",
-                                                  target, found.name, found.value));
+        return fail(ErrorKind::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.",
+                                                    target, found.name, found.value));
     rack.kernel().settle();
     return {};
 }

@@ -64,7 +64,7 @@ Result<std::string> frame_picture(const RackConfig& config, int frame) {
     Rack rack(config);
     const gb::Bus* bus = grating_bus_of(rack);
     if (bus == nullptr || bus->cards().empty())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The rack has no card of type grating_bus, so there is no frame to draw. Nothing was written.");
     WireTap tap(rack.kernel());
     rack.start();

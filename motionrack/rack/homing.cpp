@@ -76,9 +76,9 @@ class Homing {
         StopLatch& latch = rack_.stop_latch();
         latch.settle();
         if (!latch.latched() || latch.is_ordered()) return;
-        if (out_.ended || out_.ended.error().trouble != Trouble::stopped) return;
-        out_.ended = fail(Trouble::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
-                                                        latch.position_sentence(), latch.advice()));
+        if (out_.ended || out_.ended.error().trouble != ErrorKind::stopped) return;
+        out_.ended = fail(ErrorKind::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
+                                                          latch.position_sentence(), latch.advice()));
     }
 
     struct Work {
@@ -112,13 +112,13 @@ class Homing {
             for (const RunningAxis& axis : rack_.axes())
                 if (rack_.config().can_home(axis.config)) letters += axis.config.letter;
         if (letters.empty())
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its "
                         "switches).");
         for (const char letter : letters) {
             RunningAxis* running = find(letter);
             if (running == nullptr)
-                return fail(Trouble::refused,
+                return fail(ErrorKind::refused,
                             fmt::format("The rack has no axis {}; its axes are {}. Nothing was moved.",
                                         in_quotes(std::string(1, letter)), all()));
             if (std::any_of(works_.begin(), works_.end(), [&](const Work& work) { return work.running == running; }))
@@ -206,7 +206,7 @@ class Homing {
                 work.running->config.letter,
                 found.edges.empty() ? found.from : later(found.from, from_seconds(found.edges.back().seconds)));
         if (!found.homed && out_.ended)
-            out_.ended = fail(rack_.cards().front()->host().stop_requested() ? Trouble::stopped : Trouble::machine,
+            out_.ended = fail(rack_.cards().front()->host().stop_requested() ? ErrorKind::stopped : ErrorKind::machine,
                               found.sentence);
     }
 
@@ -274,7 +274,8 @@ class Homing {
 Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& axis) {
     const RackHoming& h = axis.homing;
     const auto refuse = [&](const std::string& why) {
-        return fail(Trouble::refused, fmt::format("Axis {} cannot be homed: {}. Nothing was moved.", axis.letter, why));
+        return fail(ErrorKind::refused,
+                    fmt::format("Axis {} cannot be homed: {}. Nothing was moved.", axis.letter, why));
     };
     const CardType& type = *find_card_type(config.card(axis.card)->type);
     // A card that positions by itself searches the near edge of a mark; the others see the release of a switch too.

@@ -200,7 +200,7 @@ JobOutcome Job::run() {
     rack_.stop_latch().arm();
     out.ended = drive(**axes, out);
     tell_stop(out);
-    if (!out.ended && out.ended.error().trouble == Trouble::machine) {
+    if (!out.ended && out.ended.error().trouble == ErrorKind::machine) {
         out.ended.error().file = settings_.program_name;
         rack_.axes().front().card->host().pass(shows_after);
     }
@@ -277,12 +277,12 @@ void Job::tell_stop(JobOutcome& out) {
     latch.settle();
     latch.look();
     const auto lost = [&](const RunningAxis& axis) { return !latch.keeps_position(axis.config.index()); };
-    if (!out.ended && out.ended.error().trouble == Trouble::machine &&
+    if (!out.ended && out.ended.error().trouble == ErrorKind::machine &&
         std::any_of(rack_.axes().begin(), rack_.axes().end(), lost))
         out.ended.error().message += ' ' + latch.position_sentence();
     const bool asked = latch.is_ordered();
-    if (asked || (!out.ended && out.ended.error().trouble != Trouble::stopped)) return;
-    out.ended = fail(Trouble::machine,
+    if (asked || (!out.ended && out.ended.error().trouble != ErrorKind::stopped)) return;
+    out.ended = fail(ErrorKind::machine,
                      fmt::format("{} The program was stopped in line {} and nothing after it was driven. {} {}",
                                  latch.sentence(), line_, latch.position_sentence(), "Mend the cause and start again."),
                      {line_, 1});
@@ -323,7 +323,7 @@ void Job::tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) cons
 
 /// What the machine itself stopped, by a switch, an alarm or a motor that could not follow, is told as that.
 void Job::collect_breaches(JobOutcome& out) {
-    if (!out.ended && out.ended.error().trouble == Trouble::machine) {
+    if (!out.ended && out.ended.error().trouble == ErrorKind::machine) {
         out.breaches = {};
         return;
     }

@@ -226,7 +226,7 @@ Result<void> JobRecorder::finish(const JobOutcome& outcome, trace::ReportData re
     const Result<void> closed = writer_.close(end);
     if (!closed || lost_ == 0) return closed;
     return fail(
-        Trouble::io,
+        ErrorKind::io,
         fmt::format("{} events came at one instant, more than a recording can hold, and were left out.", lost_));
 }
 

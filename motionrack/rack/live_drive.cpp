@@ -113,7 +113,7 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedu
                     stream.resume();
                 else if (!orders.pending())
                     return fail(
-                        Trouble::stopped,
+                        ErrorKind::stopped,
                         fmt::format("The job was held in line {}, and nobody resumed it.", stream.current_line()),
                         {stream.current_line(), 0}, file);
                 else
@@ -126,7 +126,7 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedu
                 break;
             case ExecutionState::rest:
                 if (orders.stopped())
-                    return fail(Trouble::stopped,
+                    return fail(ErrorKind::stopped,
                                 fmt::format("Stopped on request in line {}; the axes came to rest along the path.",
                                             stream.current_line()),
                                 {stream.current_line(), 0}, file);

@@ -39,10 +39,11 @@ Result<CommandSchedule::Order> CommandSchedule::read(const ScheduledText& text) 
                       (name == "resume" && plain(Kind::resume)) || (name == "feed" && part(Kind::feed, 2)) ||
                       (name == "rapid" && part(Kind::rapid, 1));
     if (good) return out;
-    return fail(Trouble::bad_input, fmt::format("The order {} is none: orders are hold, resume, stop, feed=PART (0.01 "
-                                                ".. 2) and rapid=PART (0.01 .. 1), each with its "
-                                                "time, such as feed=0.5@1.5s. Nothing was moved.",
-                                                in_quotes(text.text)));
+    return fail(ErrorKind::bad_input,
+                fmt::format("The order {} is none: orders are hold, resume, stop, feed=PART (0.01 "
+                            ".. 2) and rapid=PART (0.01 .. 1), each with its "
+                            "time, such as feed=0.5@1.5s. Nothing was moved.",
+                            in_quotes(text.text)));
 }
 
 Result<std::unique_ptr<CommandSchedule>> CommandSchedule::create(Rack& rack, const std::vector<ScheduledText>& orders) {
@@ -67,7 +68,7 @@ Result<void> CommandSchedule::check_holds() const {
     }
     if (holds == nullptr) return {};
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format(
             "After the order {} the job would stand for ever; add a resume or a stop after it. Nothing was moved.",
             in_quotes(holds->text)));

@@ -68,14 +68,14 @@ Result<void> PositionReference::check() const {
         const RunningAxis& axis = rack_.axes()[i];
         if (!axes_[i].lost.empty())
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("The position of axis {} is not trusted since {:.6f} s: {}. Nothing was moved; home "
                             "it, or take another rack.",
                             axis.config.letter, to_seconds(axes_[i].lost_at), axes_[i].lost));
         const double hz = std::fabs(axis.turned_by().rate(rack_.kernel().now()));
         if (hz > (axis.servo ? standing_servo_hz : 0))
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("Axis {} moves at {:.3f} {}/s, and a program begins at standstill. Nothing more was "
                             "moved; stop the axis, or let time pass until it stands.",
                             axis.config.letter, hz / axis.config.pulses_per_unit(), axis.config.unit()));

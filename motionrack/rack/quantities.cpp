@@ -89,8 +89,8 @@ Result<const QuantityRow<Part>*> find_row(const Part& part, std::string_view nam
         known.push_back(std::move(its_name));
     });
     if (found != nullptr) return found;
-    return fail(Trouble::bad_input, fmt::format("{} has no quantity {}; it has: {}. Nothing was done.", said_of(part),
-                                                in_quotes(name), fmt::join(known, ", ")));
+    return fail(ErrorKind::bad_input, fmt::format("{} has no quantity {}; it has: {}. Nothing was done.", said_of(part),
+                                                  in_quotes(name), fmt::join(known, ", ")));
 }
 
 template <class Part>
@@ -112,7 +112,7 @@ struct Name {
 tl::unexpected<Error> no_such_part(Rack& rack, std::string_view name) {
     std::vector<std::string> parts;
     each_part(rack, [&](const auto& part) { parts.push_back(name_of(part)); });
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 fmt::format("There is no quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
                             "this rack are: {}. Nothing was done.",
                             in_quotes(name), parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "))));
@@ -121,7 +121,7 @@ tl::unexpected<Error> no_such_part(Rack& rack, std::string_view name) {
 Result<double> quantity_of_card(const Card& card, std::string_view name) {
     if (const std::optional<double> value = card.quantity(name)) return *value;
     const auto known = card.quantity_names();
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 fmt::format("Card {} has no quantity {}{}. Nothing was done.", card.name(), in_quotes(name),
                             known.empty() ? "" : fmt::format("; it has: {}", fmt::join(known, ", "))));
 }
@@ -131,11 +131,11 @@ Result<double> quantity_of_card(const Card& card, std::string_view name) {
 Result<void> set_track_quantity(Rack& rack, const RunningConveyor& track, std::string_view name, double value) {
     const std::string speed = with_unit(track_speed, track.config.unit());
     if (name != speed)
-        return fail(Trouble::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.",
-                                                  track.config.name, speed, in_quotes(name)));
+        return fail(ErrorKind::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.",
+                                                    track.config.name, speed, in_quotes(name)));
     const double greatest = track.config.greatest_speed();
     if (!(std::fabs(value) <= greatest))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}.{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.",
                                 track.config.name, speed, value, -greatest, greatest));
     return inject_fault(rack, fmt::format("drive.speed={:.17g}", value), track.config.name);
@@ -146,15 +146,15 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
     MOTIONRACK_TRY(const QuantityRow<RunningAxis>* row, find_row(axis, Name(name).quantity));
     if (row->push == nullptr)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("{} follows from the machine and cannot be set; set the position. Nothing was done.", name));
     if (!std::isfinite(value))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} cannot become {}: that is no number. Nothing was done.", name, value));
     parts::AxisMechanics& machine = *axis.machine;
     const double push = row->push(axis, value, rack.kernel().now());
     if (!(std::fabs(push) <= greatest_push))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; {:.0f} are the most "
                                 "at once. Nothing was done.",
                                 name, value, push, greatest_push));
@@ -270,9 +270,9 @@ Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double
     for (RunningAxis& axis : rack.axes())
         if (name.whole && name_of(axis) == name.part) return push_axis(rack, axis, part_dot_quantity, value);
     MOTIONRACK_CHECK(get_quantity(rack, part_dot_quantity));  // whatever else there is cannot be set
-    return fail(Trouble::refused, fmt::format("{} follows from the machine and cannot be set; of axes the position "
-                                              "can, of belts and tables the speed. Nothing was done.",
-                                              part_dot_quantity));
+    return fail(ErrorKind::refused, fmt::format("{} follows from the machine and cannot be set; of axes the position "
+                                                "can, of belts and tables the speed. Nothing was done.",
+                                                part_dot_quantity));
 }
 
 }  // namespace motionrack::rack

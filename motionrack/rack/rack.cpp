@@ -274,13 +274,13 @@ void Rack::copy_from(Rack& other) {
 
 Result<control::AxisGroup*> Rack::path_axes(const std::optional<control::Point>& position) {
     if (axes_.empty())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
     if (config_.point_to_point()) return positioning_axes(position);
     for (const RunningAxis& axis : axes_)
         if (axis.card != axes_.front().card)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
                             "one card. Nothing was moved; put them on one card.",
                             axes_.front().config.letter, axes_.front().config.card, axis.config.letter,
@@ -298,7 +298,7 @@ Result<void> check_agrees(const RunningAxis& axis, double position) {
     constexpr double slack_pulses = 2;
     if (std::fabs(counted - position) * units <= slack_pulses) return {};
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("Card {} has axis {} at {:.4f} {}, but it is at {:.4f}: somebody wrote to the card's counter, "
                     "or its encoder is not counted. Nothing was moved; home it, or take another rack.",
                     axis.config.card, axis.config.letter, counted, axis.config.unit(), position));

@@ -37,7 +37,7 @@ Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text, Pr
 // ---- time
 
 Result<void> refuse_time_beyond_end(Instant now) {
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Open a new rack.",
                             to_seconds(now), to_seconds(Session::latest)));
 }
@@ -46,9 +46,10 @@ Result<void> refuse_time_beyond_end(Instant now) {
 Result<Duration> Session::time_of(std::uint64_t ns) const {
     MOTIONRACK_CHECK(check_free());
     if (ns > most_ns)
-        return fail(Trouble::refused, fmt::format("{} ns are more than one call may run, {} ns; nothing was run. Call "
-                                                  "several times.",
-                                                  ns, most_ns));
+        return fail(ErrorKind::refused,
+                    fmt::format("{} ns are more than one call may run, {} ns; nothing was run. Call "
+                                "several times.",
+                                ns, most_ns));
     const Duration time = nanoseconds(static_cast<std::int64_t>(ns));
     MOTIONRACK_CHECK(room_for(time));
     return time;
@@ -203,7 +204,7 @@ void Session::tell_conditions() {
 }
 
 Result<void> refuse_in_a_call_back() {
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 "A call-back of this rack, in the middle of a call that lets time pass, cannot let time pass, copy the "
                 "rack or close it. Nothing was done; return from the call-back first.");
 }
@@ -221,7 +222,8 @@ Result<void> Session::set_trace_unit(double ns) {
 
 Result<void> Session::start_trace(const std::string& path, std::string_view signals, std::string_view version) {
     if (recorder_ && !recorder_->failed())
-        return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
+        return fail(ErrorKind::refused,
+                    "A recording runs already; stop it before the next one is started. It goes on.");
     WaveSettings settings;
     settings.path = path;
     MOTIONRACK_TRY(settings.format, wave_format(path));
@@ -241,7 +243,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
 }
 
 Result<void> Session::stop_trace() {
-    if (!recorder_) return fail(Trouble::refused, "No recording runs; nothing was done.");
+    if (!recorder_) return fail(ErrorKind::refused, "No recording runs; nothing was done.");
     Result<void> ended = recorder_->finish();
     if (!ended) {
         ended.error().message += recorder_->can_end_again()

@@ -73,7 +73,7 @@ Result<control::gcode::Settings> Session::read_program(const ProgramOrder& order
 Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& report) {
     MOTIONRACK_CHECK(check_free());
     if (!job_)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The rack has no axes, so no program can run on it. Nothing was moved; give it "
                     "some in its rack file.");
     MOTIONRACK_CHECK(room_for(longest_drive));
@@ -84,7 +84,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     const control::gcode::ProgramCheck check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
         report.place = check.problems.front().place;
-        return fail(has_unreadable(check) ? Trouble::io : Trouble::bad_input, problems_text(check, name));
+        return fail(has_unreadable(check) ? ErrorKind::io : ErrorKind::bad_input, problems_text(check, name));
     }
     const RaisedFlag driving(driving_);
     stop_ = false;
@@ -104,7 +104,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
         return tl::unexpected<Error>(std::move(why));
     }
     report.sentence = drive_text(report.summary.substr(0, report.summary.find('\n')), outcome);
-    if (!outcome.good()) return fail(Trouble::machine, report.sentence);
+    if (!outcome.good()) return fail(ErrorKind::machine, report.sentence);
     return {};
 }
 

@@ -294,16 +294,16 @@ void StopLatch::settle() {
 
 Result<void> StopLatch::reset() {
     if (contacts_.differs())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "Not reset: the two channels of the emergency stop are unlike. Nothing was changed; look at both "
                     "contacts and their wires, then reset.");
     for (const Input& input : inputs_) {
         if (!is_active(input)) continue;
         if (input.source == StopSource::emergency_stop)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         "Not reset: the emergency stop is still pressed. Nothing was changed; release it, then reset.");
         if (input.source == StopSource::drive_alarm)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("Not reset: the drive of {} still reports an alarm. Nothing was changed; clear it "
                                     "at the drive, then reset.",
                                     rack_.axes()[static_cast<std::size_t>(input.axis)].config.letter));

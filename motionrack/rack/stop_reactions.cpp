@@ -137,14 +137,14 @@ std::span<const StopState> stop_states() {
 
 Result<void> start_part(Rack& rack, std::string_view name) {
     if (const StopLatch& latch = rack.stop_latch(); latch.latched())
-        return fail(Trouble::refused, fmt::format("{} Nothing was started. {}", latch.sentence(), latch.advice()));
+        return fail(ErrorKind::refused, fmt::format("{} Nothing was started. {}", latch.sentence(), latch.advice()));
     if (RunningConveyor* track = rack.track(name); track != nullptr) {
         track->drive->go_on(rack.kernel().now());
         return {};
     }
     const RunningStage* stage = rack.stage(name);
     if (stage == nullptr || stage->processor == nullptr)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("There is no belt, table or stage with a loop called {}. Nothing was started.", name));
     std::array<std::int64_t, grating_bus::output_count> counts{};
     for (const RunningStage& one : rack.stages())

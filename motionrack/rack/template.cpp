@@ -227,7 +227,7 @@ Result<std::string> rack_template(std::string_view variant) {
     std::vector<std::string_view> names;
     for (const TemplateVariant& known : variants) names.push_back(known.name);
     const std::string hint = did_you_mean(variant, names);
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 fmt::format("There is no rack template {}: the templates are {}{} Nothing was written.",
                             in_quotes(variant), fmt::join(names, ", "), hint.empty() ? "." : hint));
 }

@@ -124,7 +124,7 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
     out->choose_wires();
     out->choose_counters();
     if (out->signals_.empty())
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
                                 "motion.xlmtp; * and ? stand for anything.",
                                 fmt::join(settings.signals, "', '")));
@@ -306,7 +306,7 @@ Result<void> WaveRecorder::finish() {
     Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));
     if (ended && lost_ > 0)
         ended = fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
     failed_ = !ended;
     if (ended) stop_listening();

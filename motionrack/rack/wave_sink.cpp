@@ -131,9 +131,9 @@ Result<WaveFormat> wave_format(const std::string& path) {
     if (ends_in(".vcd")) return WaveFormat::vcd;
     if (ends_in(".csv")) return WaveFormat::csv;
     if (ends_in(".h5")) return WaveFormat::hdf5;
-    return fail(Trouble::refused, fmt::format("'{}': the ending of the name chooses the format of a recording, .vcd, "
-                                              ".csv or .h5. Nothing was recorded.",
-                                              path));
+    return fail(ErrorKind::refused, fmt::format("'{}': the ending of the name chooses the format of a recording, .vcd, "
+                                                ".csv or .h5. Nothing was recorded.",
+                                                path));
 }
 
 Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings,

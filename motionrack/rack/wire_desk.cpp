@@ -118,7 +118,7 @@ tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
     for (const auto& [known, wire] : wires_) names.push_back(known);
     const std::string hint = did_you_mean(name, names);
     return fail(
-        Trouble::bad_input,
+        ErrorKind::bad_input,
         fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
                     "file lists them. Nothing was done.",
                     in_quotes(name), hint.empty() ? "." : hint));
@@ -178,11 +178,11 @@ Result<double> WireAccess::get(std::string_view name) const {
 Result<void> WireAccess::check(std::string_view name, double value) const {
     const Wire* wire = find(name);
     if (wire == nullptr) return unknown(name);
-    if (!wire->refused.empty()) return fail(Trouble::refused, wire->refused + ". Nothing was done.");
+    if (!wire->refused.empty()) return fail(ErrorKind::refused, wire->refused + ". Nothing was done.");
     if (std::isnan(value)) return {};
     if (wire->unit != 1) {
         if (std::fabs(value) <= most_volts) return {};
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
                                 most_volts, most_volts));
     }
@@ -190,12 +190,12 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
         const double greatest = std::ldexp(1.0, wire->bits - 1);
         if (value >= -greatest && value < greatest && value == std::floor(value)) return {};
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
                         name, value, -greatest, greatest - 1));
     }
     if (value != 0 && value != 1)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
                                 "Nothing was done.",
                                 name, value));

@@ -58,7 +58,7 @@ std::string text_of(const PointText& point) {
 
 Result<PointText> read_point(std::string_view text) {
     const auto damaged = [] {
-        return fail(Trouble::bad_input, "This is no point of a sweep, or it is damaged. Nothing was run.");
+        return fail(ErrorKind::bad_input, "This is no point of a sweep, or it is damaged. Nothing was run.");
     };
     if (!text.starts_with(head)) return damaged();
     text.remove_prefix(head.size());
@@ -92,10 +92,11 @@ Result<PointText> read_point(std::string_view text) {
     }
     if (!whole || !text.empty()) return damaged();
     if (version != MOTIONRACK_VERSION)
-        return fail(Trouble::refused, fmt::format("The point was made by version {:.20} of motionrack and this is {}, "
-                                                  "which may drive it otherwise. Nothing was run; use "
-                                                  "the same version on all machines.",
-                                                  version, MOTIONRACK_VERSION));
+        return fail(ErrorKind::refused,
+                    fmt::format("The point was made by version {:.20} of motionrack and this is {}, "
+                                "which may drive it otherwise. Nothing was run; use "
+                                "the same version on all machines.",
+                                version, MOTIONRACK_VERSION));
     return out;
 }
 

@@ -20,8 +20,8 @@ bool is_hdf5(const std::string& path) {
 
 Result<void> put_in_place(const std::string& made, const std::string& path) {
     if (std::rename(made.c_str(), path.c_str()) == 0) return {};
-    return fail(Trouble::io, fmt::format("{} could not be put there: {}. Its rows are kept in {}.", path,
-                                         std::generic_category().message(errno), made));
+    return fail(ErrorKind::io, fmt::format("{} could not be put there: {}. Its rows are kept in {}.", path,
+                                           std::generic_category().message(errno), made));
 }
 
 /// Columns in the order of every table; those of results only where `shown` says so.
@@ -141,13 +141,13 @@ Result<Rows> read_rows_csv(const std::string& path) {
     const std::vector<std::string>& head = csv.head();
     if (head.size() < 3 || head[0] != "key" || head[1] != "point")
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
             {}, path);
     std::vector<std::string> fields;
     while (true) {
         const Result<bool> next = csv.next(fields);
-        if (!next && next.error().trouble == Trouble::io) return tl::unexpected<Error>(next.error());
+        if (!next && next.error().trouble == ErrorKind::io) return tl::unexpected<Error>(next.error());
         // A row that was cut off is made again.
         if (!next || !*next || csv.cut()) return out;
         Row row;

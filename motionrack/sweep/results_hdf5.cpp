@@ -82,7 +82,7 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     const Result<File> file = File::open(path);
     if (!file || file->attribute_text("format") != format)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
             {}, path);
     MOTIONRACK_TRY(const std::vector<std::string> keys, read_column(*file, {"key", "", true}));

@@ -42,15 +42,15 @@ std::string axis_column_name(std::size_t axis, const AxisColumn& column) {
 std::string ended_text(const rack::JobOutcome& outcome) {
     if (outcome.ended) return outcome.good() ? "ok" : outcome.position_trusted ? "limits_broken" : "lost_steps";
     switch (outcome.ended.error().trouble) {
-        case Trouble::bad_input:
+        case ErrorKind::bad_input:
             return "bad_input";
-        case Trouble::refused:
+        case ErrorKind::refused:
             return "refused";
-        case Trouble::machine:
+        case ErrorKind::machine:
             return "machine";
-        case Trouble::io:
+        case ErrorKind::io:
             return "io";
-        case Trouble::stopped:
+        case ErrorKind::stopped:
             break;
     }
     return "stopped";
@@ -112,7 +112,7 @@ Result<Row> run_point(std::string_view text, const std::atomic<bool>* stop) {
     auto job = rack::RecordedJob::create(request, {});
     if (!job) return refused(job.error());
     const rack::JobOutcome& outcome = (*job)->run(stop, {});
-    if (!outcome.ended && outcome.ended.error().trouble == Trouble::stopped)
+    if (!outcome.ended && outcome.ended.error().trouble == ErrorKind::stopped)
         return tl::unexpected<Error>(outcome.ended.error());
     return row_of(outcome);
 }

@@ -31,7 +31,7 @@ class Crew {
         std::vector<std::thread> crew;
         for (std::size_t i = 0; i < threads; ++i) crew.emplace_back([this] { take_points(); });
         for (std::thread& one : crew) one.join();
-        if (ended_ && results_.done() < sweep_.points()) return fail(Trouble::stopped, "Stopped on request.");
+        if (ended_ && results_.done() < sweep_.points()) return fail(ErrorKind::stopped, "Stopped on request.");
         return ended_;
     }
 
@@ -55,7 +55,7 @@ class Crew {
             return {};
         } catch (const std::exception& e) {
             return fail(
-                Trouble::io,
+                ErrorKind::io,
                 fmt::format(
                     "Point {} could not be run: {}. Rows that were done are kept; take fewer jobs if memory is short.",
                     point, e.what()));

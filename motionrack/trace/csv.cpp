@@ -73,7 +73,7 @@ Result<CsvWriter> CsvWriter::begin(Result<disk::NewFile> file, const std::string
                                    const std::vector<std::string>& columns) {
     MOTIONRACK_ASSERT(!columns.empty());
     if (!file) {
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("The CSV file could not be made: {}. Choose another place.", file.error().message), {},
                     path);
     }

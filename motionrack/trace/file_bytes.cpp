@@ -11,7 +11,7 @@ namespace motionrack::trace {
 namespace {
 
 tl::unexpected<Error> not_readable(const std::string& path, int why) {
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("The file cannot be read: {}. Check the name and the rights.",
                             std::generic_category().message(why)),
                 {}, path);

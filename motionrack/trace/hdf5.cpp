@@ -157,8 +157,8 @@ Result<File> File::create(const std::string& path) {
     // The library says less than the system about a place where nothing can be made.
     Result<disk::NewFile> made = disk::NewFile::create(path);
     const auto not_made = [&](const std::string& reason) {
-        return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", reason), {},
-                    path);
+        return fail(ErrorKind::io, fmt::format("The recording could not be made: {}. Choose another place.", reason),
+                    {}, path);
     };
     if (!made) return not_made(made.error().message);
     File out;
@@ -178,7 +178,7 @@ Result<void> File::reopen() {
     const Handle access = access_settings();
     file_ = Handle(H5Fopen(made_.path_until_whole().c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
     if (file_) return {};
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("The recording could not be ended: {}. What was written is kept in {}.", why(),
                             made_.path_until_whole()),
                 {}, path_);
@@ -244,7 +244,7 @@ Result<void> File::close_library() {
     const std::string kept =
         made_.is_part_kept() ? " Perhaps some of it can be read in " + made_.path_until_whole() + "." : "";
     return fail(
-        Trouble::io,
+        ErrorKind::io,
         fmt::format("The recording {}. It is not whole and did not take its name.{} Make room or choose another "
                     "place, and run again.",
                     trouble_, kept),
@@ -276,10 +276,10 @@ Result<void> check_signature(const std::string& path) {
         const int why_not = errno;
         const std::string part = path + disk::beside;
         if (why_not == ENOENT && ::access(part.c_str(), F_OK) == 0)
-            return fail(Trouble::io,
+            return fail(ErrorKind::io,
                         fmt::format("The file is not there, but one that was cut off, or is being written: {}.", part),
                         {}, path);
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("The file cannot be read: {}. Check the name and the rights.",
                                 std::generic_category().message(why_not)),
                     {}, path);
@@ -290,10 +290,10 @@ Result<void> check_signature(const std::string& path) {
     const int trouble = std::ferror(file) ? errno : 0;
     std::fclose(file);
     if (trouble != 0)
-        return fail(Trouble::io, fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)),
-                    {}, path);
+        return fail(ErrorKind::io,
+                    fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)), {}, path);
     if (got == sizeof begin && std::memcmp(begin, signature, sizeof begin) == 0) return {};
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 got == 0 ? "The file is empty." : "The file is no recording: it does not begin as an HDF5 file does.",
                 {}, path);
 }
@@ -316,7 +316,7 @@ Result<File> File::open(const std::string& path) {
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()), H5Fclose);
     out.unfinished_ = true;
     if (out.file_) return out;
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 fmt::format("The recording is damaged, or was cut off before anything was in it: {}.", first), {},
                 path);
 }

@@ -8,9 +8,10 @@ namespace motionrack::trace::hdf5 {
 Result<void> load_library() {
     const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_HDF5_SONAME).trouble();
     if (trouble.empty()) return {};
-    return fail(Trouble::io, fmt::format("The HDF5 library cannot be loaded: {}. Nothing was recorded or read; install "
-                                         "it (on Debian 12: apt install libhdf5-103-1).",
-                                         trouble));
+    return fail(ErrorKind::io,
+                fmt::format("The HDF5 library cannot be loaded: {}. Nothing was recorded or read; install "
+                            "it (on Debian 12: apt install libhdf5-103-1).",
+                            trouble));
 }
 
 const Library& library() {

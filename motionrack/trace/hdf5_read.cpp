@@ -19,7 +19,7 @@ constexpr std::size_t most_text = std::size_t{1} << 30;
 }  // namespace
 
 tl::unexpected<Error> Reader::damaged() const {
-    return fail(Trouble::io, fmt::format("The recording is damaged: {} cannot be read.", path_), {}, file_);
+    return fail(ErrorKind::io, fmt::format("The recording is damaged: {} cannot be read.", path_), {}, file_);
 }
 
 Result<void> Reader::read(Type type, std::uint64_t from, std::size_t count, void* out) const {
@@ -38,7 +38,7 @@ Result<std::string> Reader::text(std::uint64_t at) const {
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
     if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
         bytes > most_text || at >= size_)
-        return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} is no text.", path_), {}, file_);
+        return fail(ErrorKind::bad_input, fmt::format("The recording is damaged: {} is no text.", path_), {}, file_);
     const hsize_t begin = at, one = 1;
     const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
     std::string out(bytes, '\0');
@@ -52,7 +52,7 @@ Result<std::string> Reader::text(std::uint64_t at) const {
 
 Result<Reader> File::column(const std::string& path) const {
     const auto refuse = [&](const std::string& what) {
-        return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
+        return fail(ErrorKind::bad_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
     };
     if (!has(path)) return refuse("is not there");
     Reader out;

@@ -103,7 +103,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path, const R
     out.flush(began);
     if (file.trouble().empty()) return out;
     return tl::unexpected<Error>(Error{
-        Trouble::io,
+        ErrorKind::io,
         fmt::format("The recording {}. Choose another place or make room; nothing was moved.", file.trouble()), path});
 }
 

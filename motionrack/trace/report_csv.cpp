@@ -72,7 +72,7 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
         }
     }
     if (timed && !out.others.empty()) return out;
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_speed_mm_s "
                 "or deviation_mm.",
                 {1, 0}, path);
@@ -104,7 +104,7 @@ Result<ReportData> report_from_csv(const std::string& path) {
         }
         const double seconds = number_of(row[columns.time]);
         if (!std::isfinite(seconds) || (!data.seconds.empty() && seconds < data.seconds.back()))
-            return fail(Trouble::bad_input, "The time is no number, or lies before that of the row above.",
+            return fail(ErrorKind::bad_input, "The time is no number, or lies before that of the row above.",
                         {rows.line(), 0}, path);
         data.seconds.push_back(seconds);
         if (columns.driven) data.driven.push_back({});

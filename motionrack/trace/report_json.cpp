@@ -171,7 +171,7 @@ Result<ReportData> report_from_json(std::string_view text) {
     } catch (const std::bad_alloc&) {
         throw;  // the recording is not to blame
     } catch (const std::exception&) {
-        return fail(Trouble::bad_input, "The recording is damaged: what its report says cannot be read.");
+        return fail(ErrorKind::bad_input, "The recording is damaged: what its report says cannot be read.");
     }
     return data;
 }

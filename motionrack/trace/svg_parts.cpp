@@ -159,7 +159,7 @@ double nice_step(double span, int parts) {
 Result<void> write_text(const std::string& text, const std::string& path) {
     const Result<void> done = disk::write_whole(path, text);
     if (done) return {};
-    return fail(Trouble::io,
+    return fail(ErrorKind::io,
                 fmt::format("The file of {} bytes could not be written: {}. Make room or choose another place.",
                             text.size(), done.error().message),
                 {}, path);

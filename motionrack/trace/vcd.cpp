@@ -81,7 +81,7 @@ Result<void> check_unit(Duration unit) {
     const std::string seen =
         unit > Duration{0} ? fmt::format("a timescale of {} ps", unit.count() * 100) : "this timescale";
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("A VCD file cannot have {}: it must be 1, 10 or 100 of ps, ns, us or ms, from 100 ps to 1 s. "
                     "Nothing was written; take 1 ns.",
                     seen));
@@ -92,7 +92,7 @@ Result<VcdWriter> VcdWriter::create(const std::string& path, const VcdSettings& 
     const std::string timescale = timescale_text(settings.timescale.count());
     Result<disk::NewFile> file = disk::NewFile::create(path, disk::NewFile::Part::keep);
     if (!file) {
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("The VCD file could not be made: {}. Choose another place.", file.error().message), {},
                     path);
     }

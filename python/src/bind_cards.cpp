@@ -125,8 +125,8 @@ void write_register(World& world, const std::string& card, int bits, std::uint32
     alone(world, [&]() -> Result<void> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_for_access(world.running(), card, bits, address, true));
         if (value < 0 || value >> bits != 0)
-            return fail(Trouble::refused, fmt::format("{} does not fit into {} bits: 0 to {}; nothing was written.",
-                                                      value, bits, (std::int64_t{1} << bits) - 1));
+            return fail(ErrorKind::refused, fmt::format("{} does not fit into {} bits: 0 to {}; nothing was written.",
+                                                        value, bits, (std::int64_t{1} << bits) - 1));
         on->bus_write(bits, address, static_cast<std::uint32_t>(value));
         return {};
     });
@@ -139,7 +139,7 @@ std::string view(World& world, const std::string& card, bool clearing) {
         const rack::CardKind* kind = rack::find_card_kind(config_of_card(world, card).type);
         if (kind->view == nullptr || on->port() == nullptr)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format(
                     "The registers of a {} cannot be read as a list; nothing was done. Look at them one by one.",
                     kind->type));

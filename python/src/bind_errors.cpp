@@ -9,15 +9,15 @@ namespace {
 const char* class_of(const Raised& raised) {
     if (raised.timeout) return "Timeout";
     switch (raised.error.trouble) {
-        case Trouble::bad_input:
+        case ErrorKind::bad_input:
             return "BadInput";
-        case Trouble::refused:
+        case ErrorKind::refused:
             return "Refused";
-        case Trouble::machine:
+        case ErrorKind::machine:
             return "MachineFault";
-        case Trouble::io:
+        case ErrorKind::io:
             return "FileTrouble";
-        case Trouble::stopped:
+        case ErrorKind::stopped:
             return "Stopped";
     }
     return "Error";

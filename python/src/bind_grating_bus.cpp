@@ -75,7 +75,7 @@ void bind_card(py::module_& m) {
                 try {
                     return told(alone(*self.world, [&] { return self.driver->wait(time); }));
                 } catch (Raised& raised) {
-                    raised.timeout = raised.error.trouble == Trouble::refused && self.world->now() - began >= time;
+                    raised.timeout = raised.error.trouble == ErrorKind::refused && self.world->now() - began >= time;
                     throw;
                 }
             },

@@ -30,7 +30,7 @@ std::int64_t whole(const FunctionInfo& function, const ArgumentInfo* argument, p
     int beyond = 0;
     const long long out = PyLong_AsLongLongAndOverflow(number.ptr(), &beyond);
     if (beyond != 0)
-        raise({Trouble::bad_input,
+        raise({ErrorKind::bad_input,
                fmt::format("{}: {} is {}, but must be {}. Nothing was done.", function.name,
                            argument == nullptr ? std::string_view("an argument") : argument->name,
                            py::cast<std::string>(py::str(py::handle(number))),
@@ -55,7 +55,7 @@ Arguments arguments_of(const FunctionInfo& function, const py::args& places, con
     for (const auto& [key, value] : names) {
         const auto name = py::cast<std::string>(key);
         if (out.count(name) != 0)
-            raise({Trouble::bad_input,
+            raise({ErrorKind::bad_input,
                    fmt::format("{}: {} was given twice, by its place and by its name. Nothing was done.", function.name,
                                name)});
         out[name] = whole(function, argument_named(function, name), value);

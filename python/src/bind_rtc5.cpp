@@ -239,7 +239,7 @@ void bind_answers(Rtc5Class& c) {
                     const Instant end = later(self.world->now(), time);
                     while (!self.engine().at_rest()) {
                         if (self.world->now() >= end)
-                            return fail(Trouble::machine,
+                            return fail(ErrorKind::machine,
                                         fmt::format("The card did not come to rest within {:.6g} s; its list goes on.",
                                                     to_seconds(time)));
                         MOTIONRACK_CHECK(

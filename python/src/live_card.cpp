@@ -20,7 +20,7 @@ const CardMap& map_of(const std::string& type) {
     std::string known;
     for (const rack::CardKind& each : rack::card_kinds())
         if (each.view != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
-    raise({Trouble::bad_input,
+    raise({ErrorKind::bad_input,
            kind == nullptr
                ? fmt::format("There is no type of card {}; a real card is one of: {}. Nothing was opened.", type, known)
                : fmt::format("A real {} cannot be opened: its registers are not known as its maker has them, or live "
@@ -50,9 +50,9 @@ void LiveCard::check_call() const {
     open_port();
     check_trouble();
     if (stopped())
-        raise({Trouble::stopped, fmt::format("The card at {} was stopped, and the stop holds. Nothing was done. Call "
-                                             "reset_stop() once it may move again.",
-                                             place_)});
+        raise({ErrorKind::stopped, fmt::format("The card at {} was stopped, and the stop holds. Nothing was done. Call "
+                                               "reset_stop() once it may move again.",
+                                               place_)});
 }
 
 void LiveCard::check_trouble() const {
@@ -129,7 +129,8 @@ void LiveCard::check_offset(std::uint32_t offset, bool written) const {
         if (reg.offset == offset) return;
         known += fmt::format("{}{} {:02X}h", known.empty() ? "" : ", ", reg.name, reg.offset);
     }
-    raise({Trouble::bad_input, fmt::format("The {} has no register that is {} at {:02X}h; it has {}. Nothing was done.",
+    raise(
+        {ErrorKind::bad_input, fmt::format("The {} has no register that is {} at {:02X}h; it has {}. Nothing was done.",
                                            map_.name, written ? "written" : "read", offset, known)});
 }
 
@@ -146,7 +147,7 @@ void LiveCard::write(std::uint32_t offset, std::int64_t value) {
     alone(*this, [&] {
         check_offset(offset, true);
         if (value < 0 || value > 0xFFFF)
-            raise({Trouble::refused,
+            raise({ErrorKind::refused,
                    fmt::format("{} does not fit into 16 bits: 0 to 65535. Nothing was written.", value)});
         guarded_.write(offset, static_cast<std::uint16_t>(value));
     });

@@ -21,7 +21,7 @@ struct Raised {
     throw Raised{std::move(error), timeout};
 }
 [[noreturn]] inline void refuse(std::string sentence) {
-    raise({Trouble::refused, std::move(sentence)});
+    raise({ErrorKind::refused, std::move(sentence)});
 }
 
 /// The value, or its error thrown.

@@ -96,7 +96,7 @@ auto alone(Host& host, Call call, Duration timeout) {
         end_call(host);
         if constexpr (detail::is_result<Value>::value) {
             if (!result) {
-                const bool machine = result.error().trouble == Trouble::machine;
+                const bool machine = result.error().trouble == ErrorKind::machine;
                 raise(std::move(result).error(), machine && timeout != never && host.now() - began >= timeout);
             }
             if constexpr (!std::is_void_v<typename Value::value_type>) return *std::move(result);

@@ -103,7 +103,7 @@ Result<void> World::run_to(Instant until, const std::function<bool()>& enough) {
         if (recorder_) next = std::min(next, std::max(next_register_look_, now()));
         rack_->kernel().run_until(next);
         between();
-        if (stop_) return fail(Trouble::stopped, fmt::format("The user stopped it at {:.6f} s.", to_seconds(now())));
+        if (stop_) return fail(ErrorKind::stopped, fmt::format("The user stopped it at {:.6f} s.", to_seconds(now())));
     } while (now() < until && !(enough && enough()));
     return {};
 }
@@ -111,11 +111,11 @@ Result<void> World::run_to(Instant until, const std::function<bool()>& enough) {
 Result<void> World::advance(Duration time) {
     running();
     if (time < Duration{})
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Time does not run backwards: {:.9g} s; nothing was run. Use snapshot() and restore().",
                                 to_seconds(time)));
     if (time > latest - now())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Make another rack.",
                                 to_seconds(now()), to_seconds(latest)));
     return run_to(now() + time);
@@ -126,14 +126,14 @@ Result<bool> World::wait_wire(const std::string& name, int level, Duration timeo
     if (wire == sim::WireId::none) {
         MOTIONRACK_CHECK(desk_->get(name));
         return fail(
-            Trouble::bad_input,
+            ErrorKind::bad_input,
             fmt::format(
                 "{} has no edges of its own to wait for; nothing was run. Wait for the pin of a card that it leads to.",
                 name));
     }
     if (timeout < Duration{} || timeout > latest - now())
-        return fail(Trouble::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.",
-                                                  to_seconds(timeout), to_seconds(latest - now())));
+        return fail(ErrorKind::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.",
+                                                    to_seconds(timeout), to_seconds(latest - now())));
     struct Listening {
         Bell& bell;
         ~Listening() { bell.listen_no_more(); }

@@ -10,12 +10,14 @@ namespace motionrack::python {
 Result<void> World::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
     running();
     if (sampler_)
-        return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
+        return fail(ErrorKind::refused,
+                    "A recording runs already; stop it before the next one is started. It goes on.");
     if (period < microseconds(1) || period > whole_seconds(3600))
-        return fail(Trouble::refused, fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.",
-                                                  to_seconds(period)));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
     if (most < 2 || most > 100'000'000)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
     MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
     sampler_ = std::move(sampler);
@@ -26,7 +28,7 @@ Result<void> World::begin_samples(const std::vector<std::string>& names, Duratio
 
 Result<Sampler> World::end_samples() {
     rack();
-    if (!sampler_) return fail(Trouble::refused, "No recording runs; nothing was done.");
+    if (!sampler_) return fail(ErrorKind::refused, "No recording runs; nothing was done.");
     sampler_->take(now());
     bell_->ring_no_more();
     Sampler out = std::move(*sampler_);
@@ -37,7 +39,7 @@ Result<Sampler> World::end_samples() {
 Result<void> World::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
     running();
     if (recorder_)
-        return fail(Trouble::refused, "Waves are recorded already; end that before the next file. It goes on.");
+        return fail(ErrorKind::refused, "Waves are recorded already; end that before the next file. It goes on.");
     rack::WaveSettings settings;
     settings.path = path;
     MOTIONRACK_TRY(settings.format, rack::wave_format(path));
@@ -50,7 +52,7 @@ Result<void> World::begin_waves(const std::string& path, const std::vector<std::
 
 Result<void> World::end_waves() {
     rack();
-    if (!recorder_) return fail(Trouble::refused, "No waves are recorded; nothing was done.");
+    if (!recorder_) return fail(ErrorKind::refused, "No waves are recorded; nothing was done.");
     const std::unique_ptr<rack::WaveRecorder> ended = std::move(recorder_);
     next_register_look_ = never;
     return ended->finish();

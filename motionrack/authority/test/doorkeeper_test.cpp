@@ -205,7 +205,7 @@ TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
     settings.users_file = file() / "users.json";  // in a file, as if it were a folder
     const auto opened = Authenticator::open(settings);
     ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().trouble, Trouble::io);
+    EXPECT_EQ(opened.error().trouble, ErrorKind::io);
     EXPECT_THAT(opened.error().message, HasSubstr("Not a directory"));
     EXPECT_EQ(opened.error().file, settings.users_file.string());
 }
@@ -223,8 +223,8 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
 TEST_F(ADoorkeeper, UnpairsNobodyWhenTheFileCannotBeWritten) {
     const auto anna = *pair(start_codes[0], "anna");
     fs::remove_all(folder);
-    EXPECT_EQ(door->revoke("anna").error().trouble, Trouble::io);
-    EXPECT_EQ(door->forget(anna.identity.id).error().trouble, Trouble::io);
+    EXPECT_EQ(door->revoke("anna").error().trouble, ErrorKind::io);
+    EXPECT_EQ(door->forget(anna.identity.id).error().trouble, ErrorKind::io);
     EXPECT_TRUE(door->authenticate(anna.token, now.wall)) << "as the file has it";
 }
 

@@ -121,7 +121,7 @@ TEST(StateTables, FindWhatIsReachedThroughAChainDeclaredBackwards) {
 
 TEST(Flaws, KeepASentenceThatIsTooLongWithinTheirRoom) {
     const std::string name(500, 'x');
-    EXPECT_EQ(Flaw({name, " is long"}).text(), std::string(159, 'x'));
+    EXPECT_EQ(DeclarationError({name, " is long"}).text(), std::string(159, 'x'));
 }
 
 // A small card with every kind of declaration and awkward characters.

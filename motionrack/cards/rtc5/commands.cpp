@@ -12,7 +12,7 @@ namespace {
 Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, double value) {
     const KindInfo kind = kind_info(param.kind);
     const auto refuse = [&](const std::string& why) {
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: {} {}; the command was not put into the list", command.name, param.name, why));
     };
     if (!std::isfinite(value)) return refuse(fmt::format("is {}, which is no number", value));
@@ -28,8 +28,8 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
 /// Ranges that depend on the command.
 Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
     const auto refuse = [&](std::string_view name, double value, std::string_view range) {
-        return fail(Trouble::refused, fmt::format("{}: {} is {}, outside {}; the command was not put into the list",
-                                                  info.name, name, value, range));
+        return fail(ErrorKind::refused, fmt::format("{}: {} is {}, outside {}; the command was not put into the list",
+                                                    info.name, name, value, range));
     };
     const auto up_to = [&](int param, double greatest) -> Result<void> {
         const double value = c.p[static_cast<std::size_t>(param)];
@@ -73,13 +73,13 @@ Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
 Result<Command> list_command(Op op, std::span<const double> parameters) {
     const auto number = static_cast<std::size_t>(op);
     if (number == 0 || number >= op_count)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("there is no list command {}; nothing was put into the list", number));
     const ListCommandInfo& command = info(op);
     const auto wanted = static_cast<std::size_t>(command.param_count());
     if (parameters.size() != wanted)
-        return fail(Trouble::refused, fmt::format("{} has {} parameters, not {}; it was not put into the list",
-                                                  command.name, wanted, parameters.size()));
+        return fail(ErrorKind::refused, fmt::format("{} has {} parameters, not {}; it was not put into the list",
+                                                    command.name, wanted, parameters.size()));
     Command out;
     out.op = op;
     std::size_t next = 0;
@@ -97,7 +97,7 @@ Result<Command> list_command(Op op, std::span<const double> parameters) {
 Result<void> check_parameter(std::string_view command, std::string_view name, double value, double least,
                              double greatest, std::string_view unit) {
     if (value >= least && value <= greatest) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{}{}{} is {}, outside {} to {}{}{}; nothing was changed", command,
                             command.empty() ? "" : ": ", name, value, least, greatest, unit.empty() ? "" : " ", unit));
 }

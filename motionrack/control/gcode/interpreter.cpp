@@ -316,7 +316,7 @@ Point Interpreter::program_position() const {
     return frame_.to_program(position());
 }
 
-bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble) {
+bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, ErrorKind trouble) {
     set_problem(problem_, block_.text, column, status, std::move(message), trouble);
     return false;
 }

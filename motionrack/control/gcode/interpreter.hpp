@@ -284,7 +284,7 @@ class Interpreter {
     void show_values();
     std::string substitute_values(std::string_view text) const;
 
-    bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
+    bool fail_at(std::size_t column, GrblStatus status, std::string message, ErrorKind trouble = ErrorKind::bad_input);
     bool fail_word(char letter, GrblStatus status, std::string message);
     bool need_integer(char letter, double low, double high, const char* use);
     std::size_t error_column() const;  ///< column of the motion word, or of the first axis or offset word

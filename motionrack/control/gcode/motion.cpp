@@ -229,7 +229,7 @@ bool Interpreter::exceeds_travel(int axis, double value, std::size_t column) {
                     "nothing of this line was done; move the work or change its offset",
                     word_at(block_.text, column), axis_letters[axis], value, unit, shift, limits.min_position,
                     limits.max_position),
-        Trouble::refused);
+        ErrorKind::refused);
 }
 
 }  // namespace motionrack::control::gcode

@@ -136,7 +136,7 @@ Result<ToolTable> read_tool_table(std::string_view text, const std::string& file
         else if (good && !table.put(reader.tool))
             reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", most_tools));
         if (!reader.problem.empty())
-            return fail(Trouble::bad_input, fmt::format("{}; the tool table was not taken", reader.problem),
+            return fail(ErrorKind::bad_input, fmt::format("{}; the tool table was not taken", reader.problem),
                         {lines.number(), static_cast<int>(reader.column)}, file);
     }
     return table;

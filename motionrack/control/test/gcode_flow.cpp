@@ -109,7 +109,7 @@ TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
             return std::string("%\no<hole> sub\nX#1\no<deeper> call [#1 + 1]\nX[#1 + 2]\no<hole> endsub\n%\n");
         if (name == "deeper") return std::string("(a comment)\no<deeper> sub\nX#1\nX1e9\no<deeper> endsub\n");
         if (name == "empty") return std::string("X1\n");
-        return fail(Trouble::bad_input, "there is no such file");
+        return fail(ErrorKind::bad_input, "there is no such file");
     };
     settings.start_in_g0 = true;
     const auto read = testing::read(

@@ -61,7 +61,7 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
         if (name == "2000") return std::string("X66\nO2000\nX7\nX1e9\nM98 P3\nM99\nO3\nX3\nM99\n");
         if (name == "4") return std::string("X1\n");
         if (name == "6") return std::string("\nO6\nX1\n");
-        return fail(Trouble::bad_input, "there is no such file");
+        return fail(ErrorKind::bad_input, "there is no such file");
     };
     EXPECT_THAT(problem_numbered("M98 P2000", settings).file, "2000.ngc");
     settings.start_in_g0 = true;

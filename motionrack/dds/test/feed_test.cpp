@@ -69,7 +69,7 @@ class CountingSource final : public FrameSource {
   public:
     std::uint32_t number = 0, frames = 100, broken = 1000;
     Result<bool> next(Frame& frame) override {
-        if (number == broken) return fail(Trouble::machine, "The scale is broken.");
+        if (number == broken) return fail(ErrorKind::machine, "The scale is broken.");
         frame = sample_of(source_named(1), number).frame;
         return number++ < frames;
     }

@@ -33,16 +33,16 @@ inline int failed(int code, std::string_view sentence) noexcept {
 }
 
 /// Of what failed before anything moved.
-inline int code_of(Trouble trouble) {
+inline int code_of(ErrorKind trouble) {
     switch (trouble) {
-        case Trouble::bad_input:
+        case ErrorKind::bad_input:
             return MR_BAD_CALL;
-        case Trouble::refused:
+        case ErrorKind::refused:
             return MR_REFUSED;
-        case Trouble::io:
+        case ErrorKind::io:
             return MR_IO;
-        case Trouble::machine:
-        case Trouble::stopped:
+        case ErrorKind::machine:
+        case ErrorKind::stopped:
             break;
     }
     return MR_INTERNAL;
@@ -67,7 +67,7 @@ int guarded(Call call) noexcept {
             MOTIONRACK_CHECK(call());
             return static_cast<int>(MR_OK);
         },
-        [](Trouble trouble, std::string_view sentence) { return failed(code_of(trouble), sentence); });
+        [](ErrorKind trouble, std::string_view sentence) { return failed(code_of(trouble), sentence); });
 }
 
 /// The same, after it was made sure that none of these pointers is null.

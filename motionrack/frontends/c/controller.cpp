@@ -7,8 +7,8 @@ namespace {
 
 using namespace motionrack::c;
 using motionrack::Error;
+using motionrack::ErrorKind;
 using motionrack::Result;
-using motionrack::Trouble;
 using motionrack::rack::HomingOutcome;
 using motionrack::rack::JobProgress;
 using motionrack::rack::ProgramOrder;
@@ -20,14 +20,14 @@ constexpr const char* no_program = "The part program is a null pointer. Nothing 
 int code_of_end(const Result<void>& ended) {
     if (ended) return MR_OK;
     switch (ended.error().trouble) {
-        case Trouble::bad_input:
+        case ErrorKind::bad_input:
             return MR_BAD_INPUT;
-        case Trouble::machine:
+        case ErrorKind::machine:
             return MR_MACHINE;
-        case Trouble::stopped:
+        case ErrorKind::stopped:
             return MR_STOPPED;
-        case Trouble::refused:
-        case Trouble::io:
+        case ErrorKind::refused:
+        case ErrorKind::io:
             break;
     }
     return code_of(ended.error().trouble);

@@ -66,7 +66,7 @@ template <class Take>
 Result<void> read_frame(rack::Session& session, std::string_view name, mr_frame& frame, Take take) {
     MOTIONRACK_TRY(const rack::Card* card, rack::card_named(session.rack(), name));
     if (card->map().name != gb::card_map().name)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("Card {} is a {}, which has no frames; a grating_bus has. Nothing was done.", name,
                                 card->map().name));
     SessionPort port(session, name);
@@ -89,8 +89,9 @@ int mr_frame_read(mr_rack* rack, const char* card, mr_frame* frame) {
 int mr_frame_wait(mr_rack* rack, const char* card, uint64_t timeout_ns, mr_frame* frame) {
     return guarded({{rack, no_rack}, {card, no_card}, {frame, no_frame}}, [&]() -> Result<void> {
         if (timeout_ns > rack::Session::most_ns)
-            return fail(Trouble::refused, fmt::format("The timeout is {} ns, but {} ns are the most. Nothing was done.",
-                                                      timeout_ns, rack::Session::most_ns));
+            return fail(ErrorKind::refused,
+                        fmt::format("The timeout is {} ns, but {} ns are the most. Nothing was done.", timeout_ns,
+                                    rack::Session::most_ns));
         const Duration timeout = nanoseconds(static_cast<std::int64_t>(timeout_ns));
         return read_frame(*rack->session, card, *frame,
                           [&](gb::GratingCard& library) { return library.wait(timeout); });

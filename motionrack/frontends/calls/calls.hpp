@@ -15,24 +15,24 @@ namespace motionrack::calls {
 /// failed(trouble, sentence), a Value.
 template <class Call, class Failed>
 auto guarded(Call call, Failed failed) noexcept {
-    using Value = decltype(failed(Trouble::machine, std::string_view()));
+    using Value = decltype(failed(ErrorKind::machine, std::string_view()));
     try {
         Result<Value> result = call();
         if (result) return static_cast<Value>(*result);
         return failed(result.error().trouble, result.error().text());
     } catch (const std::bad_alloc&) {
-        return failed(Trouble::machine, "There is not enough memory; the call was not finished.");
+        return failed(ErrorKind::machine, "There is not enough memory; the call was not finished.");
     } catch (const std::exception& e) {
-        return failed(Trouble::machine, e.what());
+        return failed(ErrorKind::machine, e.what());
     } catch (...) {
-        return failed(Trouble::machine, "Something went wrong in the library that it has no words for.");
+        return failed(ErrorKind::machine, "Something went wrong in the library that it has no words for.");
     }
 }
 
 /// `what`: of the argument, "The name".
 inline Result<void> check_pointer(const void* pointer, std::string_view what) {
     if (pointer != nullptr) return {};
-    return fail(Trouble::bad_input, std::string(what) + " is a null pointer. Nothing was done.");
+    return fail(ErrorKind::bad_input, std::string(what) + " is a null pointer. Nothing was done.");
 }
 
 /// What the functions of a library share in a process.

@@ -61,7 +61,7 @@ class CsvFile {
 
   private:
     Result<void> broken(const std::string& reason) const {
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("{} cannot be written: {}. Choose another name or make room.", path_, reason));
     }
     disk::NewFile file_;

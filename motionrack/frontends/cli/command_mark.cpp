@@ -129,7 +129,7 @@ int run_mark(const MarkOptions& options) {
     const Result<mark::Outcome> outcome = mark::run_job(*read.job, *prepared, watch);
     progress.clear();
     if (!outcome) return report(outcome.error());
-    if (stop_asked) return report(Error{Trouble::stopped, "Stopped; nothing was written."});
+    if (stop_asked) return report(Error{ErrorKind::stopped, "Stopped; nothing was written."});
     fmt::print("{}", options.json ? json_text(*outcome) + "\n" : mark::outcome_text(*read.job, *outcome));
     if (!options.json)
         for (const std::string& warning : mark::warnings_of(*outcome)) print_warning(warning);

@@ -158,9 +158,9 @@ int plan(const PlanOptions& options) {
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
     if (config->point_to_point())
-        return report({Trouble::refused, fmt::format("The axes of {} position one by one: there is no path to plan. "
-                                                     "Give a rack whose axes follow paths together.",
-                                                     config->name)});
+        return report({ErrorKind::refused, fmt::format("The axes of {} position one by one: there is no path to plan. "
+                                                       "Give a rack whose axes follow paths together.",
+                                                       config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     auto reading = program_settings(*config, program->name, options.reading, code);
@@ -182,7 +182,7 @@ int plan(const PlanOptions& options) {
     const Plans plans{program->name, moves.size(), by_trapezoids(moves, limits, settings.start, true),
                       by_trapezoids(moves, limits, settings.start, false),
                       jerk_limited(moves, limits, settings.start, options.json)};
-    if (stop_asked) return report({Trouble::stopped, "Stopped before the plan was whole; nothing is told of it."});
+    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the plan was whole; nothing is told of it."});
     options.json ? print_json(plans, *config) : print_plans(plans, *config);
     if (options.picture.empty()) return exit_done;
     const std::string title =

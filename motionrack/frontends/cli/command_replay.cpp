@@ -90,11 +90,11 @@ int replay(const ReplayOptions& options) {
     const Scratch scratch;
     if (options.record.empty() && scratch.folder.empty())
         return report(
-            {Trouble::io,
+            {ErrorKind::io,
              "There is no folder for temporary files (TMPDIR); choose a name with --record. Nothing was run."});
     const std::string path = options.record.empty() ? scratch.folder + "/replay.h5" : options.record;
     if (const int bad = run_again(*recording, path, options); bad != exit_done) return bad;
-    if (stop_asked) return report({Trouble::stopped, "Stopped before the replay was done; nothing is told of it."});
+    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the replay was done; nothing is told of it."});
     return compare_with_replay(*recording, path, options);
 }
 

@@ -144,8 +144,8 @@ int sweep_all(const SweepOptions& options) {
     stop_on_signals();
     const Result<void> done = run_missing(all, **results, options);
     if (done) return write_tables(all, **results, options);
-    if (done.error().trouble != Trouble::stopped) return report(done.error());
-    return report({Trouble::stopped,
+    if (done.error().trouble != ErrorKind::stopped) return report(done.error());
+    return report({ErrorKind::stopped,
                    fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.",
                                (*results)->done(), rack::count_noun(all.points(), "point"), (*results)->part())});
 }

@@ -16,17 +16,17 @@ enum ExitCode : int {
     exit_stopped = 130   ///< Ctrl-C; what was recorded is kept
 };
 
-constexpr int exit_code(Trouble trouble) {
+constexpr int exit_code(ErrorKind trouble) {
     switch (trouble) {
-        case Trouble::bad_input:
+        case ErrorKind::bad_input:
             return exit_bad_input;
-        case Trouble::refused:
+        case ErrorKind::refused:
             return exit_refused;
-        case Trouble::machine:
+        case ErrorKind::machine:
             return exit_machine;
-        case Trouble::io:
+        case ErrorKind::io:
             return exit_io;
-        case Trouble::stopped:
+        case ErrorKind::stopped:
             return exit_stopped;
     }
     return exit_usage;

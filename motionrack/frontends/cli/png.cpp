@@ -12,7 +12,7 @@ namespace motionrack::cli {
 namespace {
 
 tl::unexpected<Error> not_drawn(std::string_view why) {
-    return fail(Trouble::io, fmt::format("The picture could not be drawn as PNG: {}. Write it as SVG.", why));
+    return fail(ErrorKind::io, fmt::format("The picture could not be drawn as PNG: {}. Write it as SVG.", why));
 }
 
 /// The module beside this program, as it was installed or built; it stays loaded.

@@ -46,7 +46,7 @@ Result<std::string> read_text(const std::string& path, const ReadLimit& limit) {
 namespace {
 
 tl::unexpected<Error> not_writable(const std::string& path, std::string_view why) {
-    return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, why));
+    return fail(ErrorKind::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, why));
 }
 tl::unexpected<Error> not_writable(const std::string& path, int code) {
     return not_writable(path, std::string_view(std::strerror(code)));

@@ -29,7 +29,7 @@ void failed(const char* who, std::string_view sentence) noexcept {
 
 Result<unsigned> mask_of(int axis) {
     if (axis >= 1 && axis <= static_cast<int>(mcx314::xyzu)) return static_cast<unsigned>(axis);
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("the axis mask is {}, but X is 1, Y 2, Z 4, U 8, and sums of these are 1 to 15. "
                             "Nothing was written.",
                             axis));
@@ -38,13 +38,13 @@ Result<unsigned> mask_of(int axis) {
 Result<int> channel_of(int axis) {
     for (int i = 0; i < 4; ++i)
         if (axis == 1 << i) return i;
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("the axis is {}, but it must be one of X 1, Y 2, Z 4, U 8. Nothing was written.", axis));
 }
 
 Result<unsigned> mode_word(int word) {
     if (word >= 0 && word <= 0xFFFF) return static_cast<unsigned>(word);
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("WR1Reg is {}, but a word is 0 to 65535. Nothing was written, nothing moved.", word));
 }
 

@@ -17,7 +17,7 @@ void failed(const char* who, std::string_view sentence) noexcept;
 template <class Value, class Call>
 Value with_bench(const char* who, Value otherwise, Call call) noexcept {
     return calls::guarded([&]() -> Result<Value> { return process().alone(call); },
-                          [&](Trouble, std::string_view sentence) { return failed(who, sentence), otherwise; });
+                          [&](ErrorKind, std::string_view sentence) { return failed(who, sentence), otherwise; });
 }
 
 /// Runs `call` with the selected chip; it gives a Result<Value>.

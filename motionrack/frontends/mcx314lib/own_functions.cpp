@@ -10,10 +10,10 @@ namespace {
 
 using namespace motionrack::mcx314lib;
 using motionrack::Duration;
+using motionrack::ErrorKind;
 using motionrack::fail;
 using motionrack::Instant;
 using motionrack::Result;
-using motionrack::Trouble;
 using motionrack::mcx314::channels_of;
 using motionrack::mcx314::FourAxes;
 using motionrack::mcx314::StopKind;
@@ -23,14 +23,14 @@ thread_local std::string report_text;
 
 Result<Duration> time_of(int milliseconds) {
     if (milliseconds >= 0) return motionrack::milliseconds(milliseconds);
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("the time is {} ms, but it is 0 to 2147483647 ms. Nothing was run.", milliseconds));
 }
 
 /// 0 or 1.
 Result<bool> bit_of(int value, const char* what) {
     if (value == 0 || value == 1) return value == 1;
-    return fail(Trouble::refused, fmt::format("the {} is {}, but it is 0 or 1. Nothing was written.", what, value));
+    return fail(ErrorKind::refused, fmt::format("the {} is {}, but it is 0 or 1. Nothing was written.", what, value));
 }
 
 /// The axes of the mask for which `fits`, as a mask.
@@ -83,7 +83,7 @@ int change_interrupts(const char* who, int axis, int causes,
                       Result<void> (motionrack::mcx314::Driver::*function)(unsigned, std::uint16_t)) {
     return on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
         if (causes < 1 || causes > motionrack::mcx314::cause::all)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("the causes are {}, but they are 1 to 255, bits of enum mcx314_cause. "
                                     "Nothing was written.",
                                     causes));
@@ -300,7 +300,7 @@ int mcx314_pattern_steps(const MCX314_STEPS* steps) {
         motionrack::mcx314::BPWORD word;
         for (std::size_t i = 0; i < 3; ++i) {
             if (steps->plus[i] > 0xFFFF || steps->minus[i] > 0xFFFF)
-                return fail(Trouble::refused,
+                return fail(ErrorKind::refused,
                             fmt::format("the words of the axis number {} are {} and {}, but they are 0 to 65535. "
                                         "Nothing was written.",
                                         i + 1, steps->plus[i], steps->minus[i]));

@@ -24,7 +24,7 @@ struct By {
 };
 
 tl::unexpected<Error> not_drawn(std::string why) {
-    return fail(Trouble::io, std::move(why));
+    return fail(ErrorKind::io, std::move(why));
 }
 
 std::string taken(GError* error) {

@@ -7,9 +7,9 @@
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;
+using motionrack::ErrorKind;
 using motionrack::fail;
 using motionrack::Result;
-using motionrack::Trouble;
 namespace rtc5 = motionrack::rtc5;
 
 namespace {
@@ -29,12 +29,12 @@ Result<std::string> bytes_of(const char* name, std::size_t limit) {
         out.append(piece.data(), static_cast<std::size_t>(file.gcount()));
     }
     if (file.eof() || out.size() > limit) return out;
-    return fail(Trouble::io, fmt::format("{} cannot be read. Nothing was loaded; is the name right?", name));
+    return fail(ErrorKind::io, fmt::format("{} cannot be read. Nothing was loaded; is the name right?", name));
 }
 
 Result<void> check_range(std::string_view what, UINT value, UINT least, UINT greatest) {
     if (value >= least && value <= greatest) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{} is {}, outside {} to {}; nothing was done", what, value, least, greatest));
 }
 
@@ -217,7 +217,7 @@ void n_set_extstartpos(UINT CardNo, UINT Pos) {
 long n_read_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 3));
-        return as(Trouble::stopped, card.engine.read_mcbsp(small(No)));
+        return as(ErrorKind::stopped, card.engine.read_mcbsp(small(No)));
     });
 }
 
@@ -276,7 +276,7 @@ void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
 void n_get_waveform(UINT CardNo, UINT Channel, UINT Number, ULONG_PTR Ptr) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         const rtc5::Recording& r = card.engine.recording();
-        if (r.count == 0) return fail(Trouble::refused, "nothing was recorded (set_trigger); nothing was given");
+        if (r.count == 0) return fail(ErrorKind::refused, "nothing was recorded (set_trigger); nothing was given");
         MOTIONRACK_CHECK(check_range("Channel", Channel, 1, static_cast<UINT>(r.channels)));
         MOTIONRACK_CHECK(check_range("Number", Number, 1, static_cast<UINT>(r.count)));
         // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number

@@ -54,7 +54,7 @@ Result<UINT> cards_wanted() {
     UINT number = 0;
     const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
     if (error != std::errc() || end != all.data() + all.size() || number < 1 || number > most_cards)
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     fmt::format("the environment variable RTC5SIM_CARDS is \"{}\", but the number of cards "
                                 "is 1 to {}. Nothing was done.",
                                 all, most_cards));
@@ -107,9 +107,9 @@ Result<Card*> Bench::card(UINT number) {
     }
     if (rack_)
         return fail(
-            Trouble::bad_input,
+            ErrorKind::bad_input,
             fmt::format("there is no card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
-    return fail(Trouble::bad_input,
+    return fail(ErrorKind::bad_input,
                 fmt::format("there is no card {}; the environment variable RTC5SIM_CARDS makes it {}. "
                             "Nothing was done.",
                             number,
@@ -131,7 +131,7 @@ Result<std::int64_t> Bench::tick() {
 
 Result<void> Bench::pass(std::int64_t ticks) {
     MOTIONRACK_TRY(const std::int64_t present, tick());
-    if (ticks > end_of_time - present) return fail(Trouble::refused, "the end of time is reached. Nothing was run.");
+    if (ticks > end_of_time - present) return fail(ErrorKind::refused, "the end of time is reached. Nothing was run.");
     const Inside inside(samples != nullptr);
     if (rack_) return pass_rack(ticks);
     for (const auto& card : cards_) {
@@ -157,7 +157,7 @@ Result<void> Bench::open_rack(std::string_view path_or_text) {
         if (rtc5::Card* card = rack::rtc5_card_of(opened->rack(), each.name))
             found.push_back(std::make_unique<Card>(static_cast<UINT>(found.size() + 1), *card));
     if (found.empty())
-        return fail(Trouble::bad_input,
+        return fail(ErrorKind::bad_input,
                     "the rack has no card of type rtc5. Nothing was done; the cards are as before.");
     close();
     cards_ = std::move(found);
@@ -167,7 +167,7 @@ Result<void> Bench::open_rack(std::string_view path_or_text) {
 
 Result<rack::Session*> Bench::rack() {
     if (rack_) return rack_.get();
-    return fail(Trouble::refused, "the cards are not those of a rack. Nothing was done; call rtc5sim_open first.");
+    return fail(ErrorKind::refused, "the cards are not those of a rack. Nothing was done; call rtc5sim_open first.");
 }
 
 void Bench::close() {
@@ -216,13 +216,13 @@ Result<void> checked(rtc5::Op op, double parameter) {
     std::string sentence = made.error().message;
     // The list's name and what was not done to it.
     sentence.erase(0, std::min(sentence.size(), command.name.size() + 2));
-    return fail(Trouble::refused, sentence.substr(0, sentence.rfind(';')) + "; nothing was changed");
+    return fail(ErrorKind::refused, sentence.substr(0, sentence.rfind(';')) + "; nothing was changed");
 }
 
 Result<std::int32_t> whole32(std::string_view what, long value) {
     if (value >= std::numeric_limits<std::int32_t>::min() && value <= std::numeric_limits<std::int32_t>::max())
         return static_cast<std::int32_t>(value);
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{} is {}, outside -2147483648 to 2147483647; nothing was changed", what, value));
 }
 
@@ -233,7 +233,7 @@ int small(UINT value) {
 void put_list(UINT number, rtc5::Op op, std::span<const double> parameters) noexcept {
     command(rtc5::info(op).name, number, [&](Card& card) -> Result<void> {
         MOTIONRACK_TRY(const rtc5::Command made, rtc5::list_command(op, parameters));
-        return as(Trouble::stopped, card.engine.put(made));
+        return as(ErrorKind::stopped, card.engine.put(made));
     });
 }
 

@@ -101,12 +101,12 @@ Value with_bench(std::string_view who, Value otherwise, Call call) noexcept {
     return calls::guarded(
         [&]() -> Result<Value> {
             if (inside_handler)
-                return fail(Trouble::refused,
+                return fail(ErrorKind::refused,
                             "it was called by the samples handler, while the cards run. Nothing was "
                             "done; call it after them.");
             return process().alone(call);
         },
-        [&](Trouble, std::string_view sentence) { return failed(who, sentence), otherwise; });
+        [&](ErrorKind, std::string_view sentence) { return failed(who, sentence), otherwise; });
 }
 
 /// Runs `call` with a card; it gives a Result<Value>. The card keeps the error's bits. One that asks takes time before.
@@ -173,7 +173,7 @@ int small(UINT value);
 
 /// The error of `result` as one of the board's kind `trouble`.
 template <class Value>
-Result<Value> as(Trouble trouble, Result<Value> result) {
+Result<Value> as(ErrorKind trouble, Result<Value> result) {
     if (!result) result.error().trouble = trouble;
     return result;
 }

@@ -2,8 +2,8 @@
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;
+using motionrack::ErrorKind;
 using motionrack::Result;
-using motionrack::Trouble;
 namespace rtc5 = motionrack::rtc5;
 
 namespace {
@@ -12,8 +12,8 @@ bool busy(const Card& card) {
     return (card.engine.status() & (rtc5::status_bit("BUSY") | rtc5::status_bit("INTERNAL_BUSY"))) != 0;
 }
 /// What it is if the card does not start.
-Trouble busy_or_wrong(const Card& card) {
-    return busy(card) ? Trouble::machine : Trouble::refused;
+ErrorKind busy_or_wrong(const Card& card) {
+    return busy(card) ? ErrorKind::machine : ErrorKind::refused;
 }
 void execute(const char* who, UINT number, UINT list, UINT position = 0) {
     command(who, number, [&](Card& card) { return as(busy_or_wrong(card), card.engine.execute_list(list, position)); });

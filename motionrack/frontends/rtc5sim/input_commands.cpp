@@ -2,8 +2,8 @@
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;
+using motionrack::ErrorKind;
 using motionrack::Result;
-using motionrack::Trouble;
 namespace rtc5 = motionrack::rtc5;
 
 namespace {
@@ -59,7 +59,7 @@ UINT n_get_startstop_info(UINT CardNo) {
 
 long n_get_mcbsp(UINT CardNo) {
     return question(__func__, CardNo, 0L,
-                    [](Card& card) -> Result<long> { return as(Trouble::stopped, card.engine.get_mcbsp()); });
+                    [](Card& card) -> Result<long> { return as(ErrorKind::stopped, card.engine.get_mcbsp()); });
 }
 
 void n_set_mcbsp_in(UINT CardNo, UINT Mode, double Scale) {

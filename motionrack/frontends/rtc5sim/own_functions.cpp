@@ -6,9 +6,9 @@
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;
+using motionrack::ErrorKind;
 using motionrack::fail;
 using motionrack::Result;
-using motionrack::Trouble;
 namespace rtc5 = motionrack::rtc5;
 
 namespace {
@@ -19,14 +19,14 @@ thread_local std::string info_text, note_text;
 
 Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t most) {
     if (us >= 0 && us <= most && us % us_per_tick == 0) return us / us_per_tick;
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("the time is {} us, but it is 0 to {} us, a multiple of {} us. Nothing was done.", us, most,
                             us_per_tick));
 }
 
 Result<void> check_encoder(UINT encoder) {
     if (encoder < rtc5::encoder_count) return {};
-    return fail(Trouble::refused, fmt::format("there is no encoder {}; 0 or 1. Nothing was changed.", encoder));
+    return fail(ErrorKind::refused, fmt::format("there is no encoder {}; 0 or 1. Nothing was changed.", encoder));
 }
 
 /// `call` gives a Result<void>. 0, or -1 where it failed.
@@ -41,7 +41,7 @@ int done(const char* who, UINT number, Call call) {
 Result<void> check_unwired(const Card& card) {
     if (card.wired == nullptr) return {};
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         "the card is that of a rack, whose wires turn its encoders. Nothing was changed; set the speed of a belt "
         "by rtc5sim_part_set.");
 }
@@ -97,7 +97,7 @@ int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
         MOTIONRACK_CHECK(check_unwired(card));
         if (!(std::abs(counts_per_s) <= 1e9))
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("the speed is {} counts/s, outside -1e9 to 1e9. Nothing was changed.", counts_per_s));
         move(card, Encoder, card.belt.count(Encoder, card.engine.tick()), counts_per_s);
         return {};
@@ -165,8 +165,8 @@ const char* rtc5sim_table_note(UINT CardNo, UINT TableNo) {
     note_text.clear();
     done(__func__, CardNo, [&](Card& card) -> Result<void> {
         if (TableNo < 1 || TableNo > rtc5::table_count)
-            return fail(Trouble::refused, fmt::format("there is no table {}; 1 to {}. Nothing was looked at.", TableNo,
-                                                      rtc5::table_count));
+            return fail(ErrorKind::refused, fmt::format("there is no table {}; 1 to {}. Nothing was looked at.",
+                                                        TableNo, rtc5::table_count));
         const rtc5::Table* const table = card.engine.table(TableNo);
         if (table != nullptr) note_text = table->note;
         return {};

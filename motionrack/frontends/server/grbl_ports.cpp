@@ -95,7 +95,7 @@ class GrblPorts::Inside {
         if (!trouble) acceptor_.listen(16, trouble);
         if (trouble)
             return fail(
-                Trouble::io,
+                ErrorKind::io,
                 fmt::format(
                     "The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.",
                     port, trouble.message()));

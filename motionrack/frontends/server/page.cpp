@@ -65,12 +65,12 @@ Result<Page> Page::read(const fs::path& folder) {
         std::ifstream in(it->path(), std::ios::binary);
         std::string text((std::istreambuf_iterator<char>(in)), {});
         if (!in)
-            return fail(Trouble::io, "This file of the page could not be read. Nothing was started.", {},
+            return fail(ErrorKind::io, "This file of the page could not be read. Nothing was started.", {},
                         it->path().string());
         size += text.size();
         if (size > greatest_size || page.files_.size() >= most_files)
             return fail(
-                Trouble::bad_input,
+                ErrorKind::bad_input,
                 fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.",
                             greatest_size >> 20, most_files),
                 {}, folder.string());
@@ -82,12 +82,13 @@ Result<Page> Page::read(const fs::path& folder) {
             std::make_shared<const std::string>(std::move(text))};
     }
     if (error)
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("The page's folder could not be read: {}. Nothing was started.", error.message()), {},
                     folder.string());
     if (page.find("/") == nullptr)
-        return fail(Trouble::bad_input, "There is no index.html in this folder, so it is no page. Nothing was started.",
-                    {}, folder.string());
+        return fail(ErrorKind::bad_input,
+                    "There is no index.html in this folder, so it is no page. Nothing was started.", {},
+                    folder.string());
     return page;
 }
 

@@ -40,7 +40,7 @@ int OpenFile::give() {
 namespace {
 
 tl::unexpected<Error> failed(const std::string& what) {
-    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {}: {}.", what, std::strerror(errno)));
+    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: {}: {}.", what, std::strerror(errno)));
 }
 
 /// One program at a time leads a link: a name that ends with the program, however that ends.
@@ -59,9 +59,10 @@ Result<OpenFile> reserve(const std::string& link) {
                static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size())) == 0)
         return out;
     if (errno != EADDRINUSE) return failed("bind");
-    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: another program that runs has the link {}. "
-                                         "Give another path, or end that program.",
-                                         link));
+    return fail(ErrorKind::io,
+                fmt::format("The pseudo-terminal was not made: another program that runs has the link {}. "
+                            "Give another path, or end that program.",
+                            link));
 }
 
 /// What is in the place of the link: nothing, or a link that a run of ours has left.
@@ -69,9 +70,9 @@ Result<void> check_place(const std::string& link) {
     struct stat about {};
     if (::lstat(link.c_str(), &about) != 0) return {};
     const auto refused = [&](const std::string& why) {
-        return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {} {}. It was left as it is; give "
-                                             "another path, or take it away.",
-                                             link, why));
+        return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: {} {}. It was left as it is; give "
+                                               "another path, or take it away.",
+                                               link, why));
     };
     if (!S_ISLNK(about.st_mode)) return refused("is there and is not a symbolic link");
     std::error_code trouble;
@@ -93,8 +94,8 @@ Result<void> lead(const std::string& link, const std::string& target) {
     if (!trouble) return {};
     std::error_code ignored;
     fs::remove(beside, ignored);
-    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: the link {} to {}: {}.", link, target,
-                                         trouble.message()));
+    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: the link {} to {}: {}.", link, target,
+                                           trouble.message()));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ Result<void> SenderPort::take_control() {
 Result<void> SenderPort::may_stop() const {
     const auto holder = lease_.holder();
     if (resets_stop_all_ || !holder || holder->left || holder->session == id_) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("Only this connection was reset, for {} drives the machine. ! holds it, STOP on the page "
                             "ends it",
                             holder->user.empty() ? "another session" : holder->user));

@@ -31,7 +31,7 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
     MOTIONRACK_CHECK(pacer_.set(settings.clock, settings.factor));
     if (!settings.machine.live.empty() && (settings.clock != operate::ClockMode::real || settings.factor != 1))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Card {} is a real one, whose time is the computer's, but the rack's clock is '{}' with "
                         "factor {:g}. Nothing was started. Serve it in real time with factor 1.",
                         settings.machine.live.front().card, operate::name_of(settings.clock), settings.factor));

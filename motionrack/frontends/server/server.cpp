@@ -31,13 +31,13 @@ Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
     tls->use_certificate_chain_file(files.certificate, error);
     if (error)
         return fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format("The certificate cannot be used: {}. It is a PEM file, yours first. Nothing was started.",
                         error.message()),
             {}, files.certificate);
     tls->use_private_key_file(files.key, asio::ssl::context::pem, error);
     if (error)
-        return fail(Trouble::io,
+        return fail(ErrorKind::io,
                     fmt::format("The key cannot be used, or is not that of the certificate: {}. It is a PEM file "
                                 "without a password. Nothing was started.",
                                 error.message()),
@@ -55,16 +55,16 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (!error) acceptor.non_blocking(true, error);
     if (error == asio::error::address_in_use)
-        return fail(Trouble::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose "
-                                             "another with --port, or 0 for any free one.",
-                                             port, address.to_string()));
+        return fail(ErrorKind::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose "
+                                               "another with --port, or 0 for any free one.",
+                                               port, address.to_string()));
     if (error == asio::error::access_denied)
-        return fail(Trouble::io, fmt::format("Port {} may not be used by this user: those below 1024 are root's. "
-                                             "Nothing was started; choose another with --port.",
-                                             port));
+        return fail(ErrorKind::io, fmt::format("Port {} may not be used by this user: those below 1024 are root's. "
+                                               "Nothing was started; choose another with --port.",
+                                               port));
     if (error)
-        return fail(Trouble::io, fmt::format("{} port {} cannot be served: {}. Nothing was started.",
-                                             address.to_string(), port, error.message()));
+        return fail(ErrorKind::io, fmt::format("{} port {} cannot be served: {}. Nothing was started.",
+                                               address.to_string(), port, error.message()));
     return acceptor;
 }
 
@@ -84,11 +84,11 @@ class Server::Inside {
         error_code error;
         const asio::ip::address address = asio::ip::make_address(settings.address, error);
         if (error)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("\"{}\" is no IPv4 or IPv6 address. Nothing was started.", settings.address));
         if (!address.is_loopback() && !settings.tls)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format(
                     "{} can be reached from other computers, which is served with TLS only. Nothing was started; "
                     "add --tls-cert and --tls-key, or serve 127.0.0.1.",

@@ -163,7 +163,7 @@ TEST(AGrblPort, EnablesNoDriveBeforeALineMovesIt) {
 
 TEST(AGrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
     SessionSettings settings;
-    settings.may_stop = []() -> Result<void> { return fail(Trouble::refused, "Anna drives."); };
+    settings.may_stop = []() -> Result<void> { return fail(ErrorKind::refused, "Anna drives."); };
     Bench b(three_axes(), settings);
     EXPECT_EQ(b.ask("G1 X100 F3000\nG4 P1\n", 0.1), "ok\r\n");
     EXPECT_EQ(b.ask("\x18", 0.1), banner + "[MSG:Anna drives.]\r\n");
@@ -325,7 +325,7 @@ TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     SessionSettings settings;
     settings.take_control = [&]() -> Result<void> {
         if (mine) return {};
-        return fail(Trouble::refused, "Anna has control [here]\xC3\xA4.");
+        return fail(ErrorKind::refused, "Anna has control [here]\xC3\xA4.");
     };
     Bench b(three_axes(), settings);
     const std::string said = "[MSG:Anna has control ?here???.]\r\n";

@@ -6,7 +6,7 @@
 namespace motionrack::live {
 
 Result<Line> Line::open(const std::string& path) {
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("interrupt={} cannot be had on Windows, which brings no interrupt of a card "
                             "to a program. Nothing was opened. Leave interrupt= out.",
                             path));

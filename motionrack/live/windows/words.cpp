@@ -75,7 +75,7 @@ class PortWords final : public Words {
 Result<void> check_ports(const PortSpec& spec, std::uint64_t length) {
     if (spec.offset >= first_of_cards && spec.offset <= end_of_ports && length <= end_of_ports - spec.offset) return {};
     return fail(
-        Trouble::bad_input,
+        ErrorKind::bad_input,
         fmt::format("The card's registers are {} bytes from the I/O port {:#x} on (offset, stride), but cards are "
                     "at 0x100 to 0xffff. Nothing was opened. Give the card's first port as offset=, such as "
                     "offset=0x300.",
@@ -86,7 +86,7 @@ Result<void> check_ports(const PortSpec& spec, std::uint64_t length) {
 
 Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t length) {
     if (spec.reach != Reach::port)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "uio: and memory: are files of Linux; Windows maps no card for a program. Nothing was opened. Use "
                     "port:inpoutx64.dll,offset=N for a card at I/O ports, or a computer with Linux.");
     MOTIONRACK_CHECK(check_ports(spec, length));
@@ -95,14 +95,14 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
     library.find_in(file);
     if (!file.trouble().empty())
         return fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format("{} cannot be used: {}. Windows lets no program reach I/O ports without a driver, which "
                         "the library InpOut32 brings (inpoutx64.dll, for 32 bits inpout32.dll). Nothing was "
                         "opened. Put that file beside the program, or its whole path behind port:.",
                         spec.path, file.trouble()));
     if (library.is_open() == 0)
         return fail(
-            Trouble::io,
+            ErrorKind::io,
             fmt::format("The driver of {} is not running. Nothing was opened. Run InstallDriver.exe, which comes "
                         "with it, once as administrator.",
                         spec.path));

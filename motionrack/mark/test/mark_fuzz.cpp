@@ -85,7 +85,7 @@ std::string check_job(std::string_view text) {
         if (path.find("ngc") != std::string::npos) return "G21 G90 G0 X1 Y1\nG1 X5 F100\nG3 X5 Y6 I0 J2.5\nM2\n";
         if (path.find("svg") != std::string::npos)
             return "<svg width='10mm' viewBox='0 0 10 10'><path d='M0 0H10V10'/><circle cx='5' cy='5' r='3'/></svg>";
-        return fail(Trouble::io, "no such file");
+        return fail(ErrorKind::io, "no such file");
     };
     const Result<Prepared> prepared = prepare(*read.job, load);
     if (!prepared) return prepared.error().message.empty() ? "an error without words" : "";

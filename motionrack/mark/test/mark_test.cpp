@@ -165,7 +165,7 @@ TEST(MarkJob, StopsWhenAsked) {
     const Job job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_mm_s = 10\n");
     const Result<Outcome> out = run_job(job, *prepare(job, one_file("")), {{}, [] { return true; }});
     ASSERT_FALSE(out);
-    EXPECT_EQ(out.error().trouble, Trouble::stopped);
+    EXPECT_EQ(out.error().trouble, ErrorKind::stopped);
 }
 
 }  // namespace

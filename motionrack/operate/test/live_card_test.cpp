@@ -91,7 +91,7 @@ TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
         EXPECT_TRUE(m.status().axes[0].trusted) << "it is another card's";
         const auto second = live::Port::open(m.service().live()->place().spec, m.rack().card("bench")->map());
         ASSERT_FALSE(second);
-        EXPECT_EQ(second.error().trouble, Trouble::refused) << "no other program drives it meanwhile";
+        EXPECT_EQ(second.error().trouble, ErrorKind::refused) << "no other program drives it meanwhile";
     });
     o.end(0.3);
     o.at(0.4, [&](Machine& m) {

@@ -165,7 +165,7 @@ TEST(RackFile, TellsWhatIsWrongAndWhere) {
         EXPECT_FALSE(reading.config.has_value()) << bad.text;
         ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors) << bad.text;
         const Error& error = reading.errors[0];
-        EXPECT_EQ(error.trouble, Trouble::bad_input);
+        EXPECT_EQ(error.trouble, ErrorKind::bad_input);
         EXPECT_EQ(error.place, bad.place) << error.text() << '\n' << bad.text;
         EXPECT_EQ(error.file, "bad.toml");
         for (const std::string& word : bad.words) EXPECT_THAT(error.message, HasSubstr(word)) << bad.text;
@@ -310,7 +310,7 @@ TEST(RackFile, TheShortFormBesideAxesIsACardWithDefaultSettings) {
 TEST(RackFile, NamesAFileThatIsNotThere) {
     const RackReading reading = read_rack("no/such/rack.toml");
     ASSERT_EQ(reading.errors.size(), 1U);
-    EXPECT_EQ(reading.errors[0].trouble, Trouble::io);
+    EXPECT_EQ(reading.errors[0].trouble, ErrorKind::io);
     EXPECT_EQ(reading.errors[0].file, "no/such/rack.toml");
     EXPECT_THAT(reading.errors[0].message, HasSubstr("motionrack new"));
     EXPECT_THAT(read_rack("/").errors.at(0).message, HasSubstr("folder"));

@@ -53,7 +53,7 @@ TEST(AFollowingError, BelowItsWarningLimitIsNotTold) {
 TEST(AFollowingError, AboveItsAlarmLimitStopsTheMachineAndTakesTheTrust) {
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0.2\n", {"X.motor.stall@1s"});
     ASSERT_FALSE(outcome.ended);
-    EXPECT_EQ(outcome.ended.error().trouble, Trouble::machine);
+    EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::machine);
     // 0.2 mm are 20 ms, looked at each millisecond.
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 0.2"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 0.2 mm at 1.02"));

@@ -95,7 +95,7 @@ TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
     text.replace(text.find("home_mm = 2"), 11, "home_mm = 0");
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
-    EXPECT_EQ(out.ended.error().trouble, Trouble::machine);
+    EXPECT_EQ(out.ended.error().trouble, ErrorKind::machine);
     EXPECT_THAT(out.ended.error().message, HasSubstr("Shift the switch by half a motor turn"));
     EXPECT_FALSE(out.axes[1].begun);
     EXPECT_DOUBLE_EQ(out.axes[1].machine_position, 7);
@@ -106,7 +106,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     const auto message = [](const std::string& text, const HomingSettings& settings = {}) {
         const HomingOutcome out = homed(text, settings);
         EXPECT_FALSE(out.ended);
-        EXPECT_EQ(out.ended.error().trouble, Trouble::refused);
+        EXPECT_EQ(out.ended.error().trouble, ErrorKind::refused);
         return out.ended.error().message;
     };
     HomingSettings unknown;
@@ -136,7 +136,7 @@ TEST(RackHomes, StopsWhenAskedAndKeepsWhatWasSeen) {
     settings.progress = [&](const HomingProgress& p) { stop = p.seconds > 0.3; };
     const HomingOutcome out = homed(two_axes, settings);
     ASSERT_FALSE(out.ended);
-    EXPECT_EQ(out.ended.error().trouble, Trouble::stopped);
+    EXPECT_EQ(out.ended.error().trouble, ErrorKind::stopped);
     EXPECT_FALSE(out.all_homed());
     EXPECT_GT(out.axes[0].samples.seconds.size(), 300u);
     EXPECT_LT(out.seconds, 1.0);

@@ -163,7 +163,7 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     EXPECT_EQ(may.axes[0].real_end, 60);
     const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
-    EXPECT_EQ(must.ended.error().trouble, Trouble::machine);
+    EXPECT_EQ(must.ended.error().trouble, ErrorKind::machine);
     EXPECT_THAT(must.ended.error().message, HasSubstr("In line 2 the probe did not touch"));
     EXPECT_EQ(must.axes[0].real_end, 50);
 }

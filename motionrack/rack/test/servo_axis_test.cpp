@@ -65,7 +65,7 @@ TEST(ServoAxis, RefusesWithTheNumbersAndMovesNothing) {
     Machine m;
     const auto refused = [&](const Result<void>& done, const char* why) {
         ASSERT_FALSE(done);
-        EXPECT_EQ(done.error().trouble, Trouble::refused);
+        EXPECT_EQ(done.error().trouble, ErrorKind::refused);
         EXPECT_THAT(done.error().message, HasSubstr(why));
     };
     refused(m.axis->move_to(200, 100), "not trusted");
@@ -147,7 +147,7 @@ TEST(ServoAxis, TheEndStopEndsAMoveAndTheWayBackIsFree) {
     ASSERT_TRUE(m.axis->move_by(3'500, 300));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);
-    EXPECT_EQ(moved.error().trouble, Trouble::machine);
+    EXPECT_EQ(moved.error().trouble, ErrorKind::machine);
     EXPECT_THAT(moved.error().message, HasSubstr("the right end stop is active"));
     EXPECT_EQ(m.axis->state(), AxisState::error);
     EXPECT_GT(m.mm(), 3'000);

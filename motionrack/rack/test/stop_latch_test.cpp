@@ -41,7 +41,7 @@ StoppedRun run_stopped(const std::string& rack, const std::string& program, cons
 
 void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {
     ASSERT_FALSE(ran.outcome.ended) << "it went on";
-    EXPECT_EQ(ran.outcome.ended.error().trouble, Trouble::machine);
+    EXPECT_EQ(ran.outcome.ended.error().trouble, ErrorKind::machine);
     EXPECT_THAT(ran.error(), HasSubstr(words));
     EXPECT_NEAR(ran.x(), x, 0.01) << "nothing moves after a stop";
     EXPECT_THAT(summary_json(ran.config, ran.outcome), HasSubstr("\"ok\": false"));
@@ -127,7 +127,7 @@ TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
 TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {}, {"stop@1s"});
     ASSERT_FALSE(ran.outcome.ended);
-    EXPECT_EQ(ran.outcome.ended.error().trouble, Trouble::stopped);
+    EXPECT_EQ(ran.outcome.ended.error().trouble, ErrorKind::stopped);
     EXPECT_LT(to_seconds(ran.outcome.time), 1.1);
 }
 

@@ -27,21 +27,22 @@ double radians_per_bit(const ScanLens& lens) {
 Result<void> check(const ScanLens& lens) {
     const auto ranged = [](double v, double least, double greatest) { return v >= least && v <= greatest; };
     if (!ranged(lens.f_mm[0], 1, 10'000))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("a lens with f1 = {} mm: 1 to 10000 mm can be computed", lens.f_mm[0]));
     if (!ranged(lens.calibration_deg, 1, 22))
-        return fail(Trouble::refused, fmt::format("an angle calibration of {} degrees: 1 to 22 degrees can be computed",
-                                                  lens.calibration_deg));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("an angle calibration of {} degrees: 1 to 22 degrees can be computed", lens.calibration_deg));
     if (!ranged(lens.bits_per_mm, 1, 1e6))
-        return fail(Trouble::refused, fmt::format("{} bits/mm: 1 to 1000000 can be computed", lens.bits_per_mm));
+        return fail(ErrorKind::refused, fmt::format("{} bits/mm: 1 to 1000000 can be computed", lens.bits_per_mm));
     const double corner = 1.5 * radians_per_bit(lens) * full_bits;
     for (int i = 0; i <= 64; ++i) {
         const double theta = corner * i / 64;
         if (!(slope(lens, theta) > 0))
-            return fail(Trouble::refused, fmt::format("a lens whose image height does not grow at {:.3f} rad: its "
-                                                      "coefficients f1 .. f4 ({}, {}, {}, {} mm) are "
-                                                      "none of an f-theta lens",
-                                                      theta, lens.f_mm[0], lens.f_mm[1], lens.f_mm[2], lens.f_mm[3]));
+            return fail(ErrorKind::refused, fmt::format("a lens whose image height does not grow at {:.3f} rad: its "
+                                                        "coefficients f1 .. f4 ({}, {}, {}, {} mm) are "
+                                                        "none of an f-theta lens",
+                                                        theta, lens.f_mm[0], lens.f_mm[1], lens.f_mm[2], lens.f_mm[3]));
     }
     return {};
 }

@@ -35,7 +35,7 @@ Matrix exponential_of(Matrix m) {
 Result<void> check(const GalvoSettings& s) {
     const auto range = [](const char* name, double value, double least, double greatest) -> Result<void> {
         if (value >= least && value <= greatest) return {};
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("mirrors with {} {}: {} to {} are possible", name, value, least, greatest));
     };
     MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, greatest_dead_us));

@@ -8,7 +8,7 @@ namespace motionrack::parts {
 Result<LaserGate> LaserGate::make(const LaserSettings& s) {
     const auto within = [](double v, double greatest) { return v >= 0 && v <= greatest; };
     if (!within(s.power_w, 1e5) || !within(s.on_delay_us, 1e5) || !within(s.off_delay_us, 1e5))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("a laser of {} W with delays of {} and {} us: 0 to 100000 each are possible", s.power_w,
                                 s.on_delay_us, s.off_delay_us));
     LaserGate out;

@@ -12,17 +12,17 @@ Result<SerialPositionSource> SerialPositionSource::make(const Conveyor& track, c
     const auto within = [](double v, double least, double greatest) { return v >= least && v <= greatest; };
     if (!within(std::abs(s.bits_per_mm), 1e-6, 1e9))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("a position sender with {} bits/mm: 0.000001 to 1e9 are possible, or negative", s.bits_per_mm));
     if (!within(s.period_us, 1, 1e6) || !within(s.delay_us, 0, 1e6))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format(
                 "a position sender with a period of {} us and a delay of {} us: 1 and 0 to 1000000 us are possible",
                 s.period_us, s.delay_us));
     if (s.two_axes && track.settings().rotary)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "a position sender with two axes on a rotary table: a table has one angle; use a belt, or one axis");
     SerialPositionSource out;
     out.track_ = &track;

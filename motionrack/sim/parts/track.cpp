@@ -43,7 +43,7 @@ double time_for(double way, double speed, double accel) {
 }  // namespace
 
 Result<Conveyor> Conveyor::make(const ConveyorSettings& s) {
-    const auto refuse = [](std::string why) { return fail(Trouble::refused, std::move(why)); };
+    const auto refuse = [](std::string why) { return fail(ErrorKind::refused, std::move(why)); };
     if (s.profile.empty()) return refuse("a track without a speed: its profile needs a point at least");
     for (std::size_t i = 0; i < s.profile.size(); ++i) {
         const SpeedPoint& p = s.profile[i];

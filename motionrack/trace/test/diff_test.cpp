@@ -173,7 +173,7 @@ TEST(DiffOfWaves, IsToldWhereAVcdFileIsNone) {
           "$timescale 1 ns $end $scope module " + std::string(1000, 'a') + " $end $enddefinitions $end\n"}) {
         const auto diff = diff_of_texts(head + "#5 1! \n", bad, "vcd");
         ASSERT_FALSE(diff) << bad;
-        EXPECT_EQ(diff.error().trouble, Trouble::bad_input);
+        EXPECT_EQ(diff.error().trouble, ErrorKind::bad_input);
     }
     EXPECT_TRUE(diff_of_texts(head + "#5 1!\n", head + "$comment x $end #5\n$dumpvars 1! $end\n#9\n", "vcd")->same());
 }
@@ -225,7 +225,7 @@ TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("b.vcd")).error().message, HasSubstr("same kind"));
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("c.bin")).error().message,
                 HasSubstr("none that is read"));
-    EXPECT_EQ(diff_files(scratch.path("a.csv"), scratch.path("nowhere")).error().trouble, Trouble::io);
+    EXPECT_EQ(diff_files(scratch.path("a.csv"), scratch.path("nowhere")).error().trouble, ErrorKind::io);
 }
 
 TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {

@@ -267,7 +267,7 @@ TEST(Report, StaysBelowFourMegabytesWhateverComesIn) {
 TEST(Report, SaysThatItCouldNotBeWritten) {
     const auto written = write_report(circle(10), "/nowhere/at/all.html");
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().trouble, Trouble::io);
+    EXPECT_EQ(written.error().trouble, ErrorKind::io);
     const Scratch scratch;
     ASSERT_TRUE(write_report(circle(10), scratch.path("r.html")));
     EXPECT_EQ(file_text(scratch.path("r.html")), report_html(circle(10)));

@@ -7,7 +7,7 @@ int main() {
     const JobRead read =
         read_job("[drawing]\ntext = 'A1'\n[belt]\nspeed_mm_s = 100\n[fly]\nmode = 'encoder'\n", "mine");
     const Load none = [](const std::string&) -> motionrack::Result<std::string> {
-        return motionrack::fail(motionrack::Trouble::io, "no files");
+        return motionrack::fail(motionrack::ErrorKind::io, "no files");
     };
     if (!read.job) return 1;
     const auto prepared = prepare(*read.job, none);

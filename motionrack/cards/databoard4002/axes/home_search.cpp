@@ -22,7 +22,7 @@ std::string_view HomeSearch::state_name() const {
 tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
     const std::string where =
         state_ == State::idle ? "Nothing was moved" : fmt::format("It was stopped in {}", state_name());
-    return fail(Trouble::machine,
+    return fail(ErrorKind::machine,
                 fmt::format("Homing of axis {}: {}. {}; the position is not trusted.", frame_.name, why, where));
 }
 
@@ -66,8 +66,8 @@ void HomeSearch::fail_with(const Error& error, Instant now) {
 
 void HomeSearch::stop() {
     if (!running()) return;
-    fail_with({Trouble::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not trusted.",
-                                             frame_.name, state_name())},
+    fail_with({ErrorKind::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not trusted.",
+                                               frame_.name, state_name())},
               host_.now());
 }
 

@@ -50,7 +50,7 @@ Result<void> PositionAxis::set_up() {
 // ---- what is refused
 
 tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& why) const {
-    return fail(Trouble::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
+    return fail(ErrorKind::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
 }
 
 Result<int> PositionAxis::rate_of(const char* what, double speed) const {
@@ -204,7 +204,7 @@ void PositionAxis::look_at_progress(Instant now) {
     progress_due_ = later(now, progress_time_);
     if (gone >= least_progress) return;
     end_with(
-        {Trouble::machine,
+        {ErrorKind::machine,
          fmt::format(
              "Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
              "ended and the position is not "

@@ -22,7 +22,7 @@ void PositionAxis::look_at_events(Instant now) {
     if (!seen) return end_with(seen.error());
     if (seen->was_reset())
         return end_with(
-            {Trouble::machine,
+            {ErrorKind::machine,
              fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
                          "trusted. Home it, by which the card is set up anew.",
                          settings_.name)});
@@ -42,7 +42,7 @@ void PositionAxis::look_at_stop() {
         if (*rate != 0 || driver_.status().event()) return;
         why = "the emergency stop was active";
     }
-    end_with({Trouble::machine,
+    end_with({ErrorKind::machine,
               fmt::format(
                   "Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
                   "other way, or release the stop.",
@@ -114,7 +114,7 @@ Result<void> PositionAxis::wait(Duration timeout) {
         }
         if (host_.now() >= end)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format(
                     "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
                     settings_.name, to_seconds(timeout), position(), settings_.unit));
@@ -122,8 +122,8 @@ Result<void> PositionAxis::wait(Duration timeout) {
     }
     if (homing && !search_.homed()) return tl::unexpected<Error>(search_.error());
     if (asked)
-        return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
-                                                  settings_.name, position(), settings_.unit));
+        return fail(ErrorKind::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
+                                                    settings_.name, position(), settings_.unit));
     if (error_) return tl::unexpected<Error>(*error_);
     return {};
 }

@@ -36,7 +36,7 @@ Result<void> Driver::wait_ready(const char* what) {
     while (!status().ready()) {
         if (interrupt_.now() >= until)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format(
                     "Card {} was not Ready for {} within {:.0f} ms, so it was not sent. If this lasts more than a "
                     "second, not even its watchdog helps: reset the card.",
@@ -75,15 +75,15 @@ Result<std::int64_t> Driver::ask(std::uint8_t code, int bytes) {
 
 Result<void> Driver::in_range(const char* what, std::int64_t value, std::int64_t least, std::int64_t greatest) const {
     if (value >= least && value <= greatest) return {};
-    return fail(Trouble::refused, fmt::format("{} of card {} is {}, but it takes {} to {}. Nothing was sent.", what,
-                                              settings_.select, value, least, greatest));
+    return fail(ErrorKind::refused, fmt::format("{} of card {} is {}, but it takes {} to {}. Nothing was sent.", what,
+                                                settings_.select, value, least, greatest));
 }
 
 Result<int> Driver::connect() {
     const std::uint8_t word = status().word;
     if (word == 0xFF)
         return fail(
-            Trouble::machine,
+            ErrorKind::machine,
             fmt::format("No card answers under the number {} (STAT reads FFh). Check the number and its straps.",
                         settings_.select));
     MOTIONRACK_CHECK(enable_events(0));
@@ -176,7 +176,7 @@ Result<int> Driver::version() {
 Result<std::int64_t> Driver::to_counts(double mm) const {
     const double counts = std::floor(mm * settings_.counts_per_mm + 0.5);
     if (!(counts >= static_cast<double>(map::least_24) && counts <= static_cast<double>(map::greatest_24)))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The position {} mm is beyond what card {} can count: {:.3f} to {:.3f} mm. Nothing "
                                 "was moved.",
                                 mm, settings_.select, to_mm(map::least_24), to_mm(map::greatest_24)));

@@ -26,7 +26,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
         if (now.event()) {
             MOTIONRACK_TRY(const Events seen, enable_events(enables_));
             if (seen.was_reset())
-                return fail(Trouble::machine,
+                return fail(ErrorKind::machine,
                             fmt::format("Card {} was reset while an event was waited for (its watchdog, or the bus); "
                                         "position and table are gone. Set it up again.",
                                         settings_.select));
@@ -35,11 +35,11 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
         }
         if (interrupt_.stop_requested()) {
             MOTIONRACK_CHECK(quit());
-            return fail(Trouble::stopped,
+            return fail(ErrorKind::stopped,
                         fmt::format("Stopped on request; the move of card {} was ended by Q.", settings_.select));
         }
         if (interrupt_.now() >= until)
-            return fail(Trouble::machine,
+            return fail(ErrorKind::machine,
                         fmt::format("Card {} told of no event {:02X}h within {:.3f} s. Check that it moves, and the "
                                     "time-out.",
                                     settings_.select, wanted, to_seconds(timeout)));
@@ -55,7 +55,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
 /// Ends the move after an error, and adds to it which stops are active.
 Result<void> Driver::end_move(const Error& error) {
     Error out = error;
-    if (out.trouble == Trouble::machine) {
+    if (out.trouble == ErrorKind::machine) {
         (void)quit();
         if (const std::string stops = status().stops(); !stops.empty())
             out.message += fmt::format(" At present {}.", stops);
@@ -75,12 +75,12 @@ Result<bool> Driver::held(bool forward) {
 
 Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeout, Waiting how) {
     if (const Status now = status(); now.emergency())
-        return fail(Trouble::machine, fmt::format("Card {} was not told to move because {}. Release it first.",
-                                                  settings_.select, now.stops()));
+        return fail(ErrorKind::machine, fmt::format("Card {} was not told to move because {}. Release it first.",
+                                                    settings_.select, now.stops()));
     const auto wake = static_cast<std::uint8_t>(how == Waiting::interrupt ? event::ON_EVENT : 0);
     MOTIONRACK_TRY(const Events old, enable_events(static_cast<std::uint8_t>(wanted | event::STOP | wake)));
     if (old.was_reset())
-        return fail(Trouble::machine,
+        return fail(ErrorKind::machine,
                     fmt::format("Card {} was reset since it was set up; position and table are gone, so it was not "
                                 "moved. Set it up again.",
                                 settings_.select));
@@ -98,7 +98,7 @@ Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeou
     MOTIONRACK_CHECK(quit());
     MOTIONRACK_TRY(const std::int64_t there, position());
     return fail(
-        Trouble::machine,
+        ErrorKind::machine,
         fmt::format(
             "Card {} met a stop at {} counts ({:.3f} mm): {}. The move was ended; move away in the other direction, or "
             "release the stop.",
@@ -128,7 +128,7 @@ Result<void> Driver::move_to_mm(double mm, Duration timeout, Waiting how) {
 
 Result<void> Driver::find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout, Waiting how) {
     if (marks == 0 || (marks & ~(event::ZERO | event::REF)) != 0)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The marks to look for are {:02X}h, but they are 02h (zero pulse), 04h (reference) or "
                                 "06h (both). Nothing was moved.",
                                 marks));

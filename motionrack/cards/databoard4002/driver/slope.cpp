@@ -34,19 +34,20 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
         {"The top speed", d.top_speed}, {"The acceleration", d.acceleration}, {"The deceleration", d.deceleration}};
     for (const auto& each : positive)
         if (!(each.value > 0 && each.value < 1e12))
-            return fail(Trouble::refused, fmt::format("{} is {}, but it must be greater than 0. No table was made.",
-                                                      each.name, each.value));
+            return fail(ErrorKind::refused, fmt::format("{} is {}, but it must be greater than 0. No table was made.",
+                                                        each.name, each.value));
     if (!(d.load >= 0 && d.load < 1e6))
-        return fail(Trouble::refused, fmt::format("The load is {}, but it is 0 or more. No table was made.", d.load));
+        return fail(ErrorKind::refused, fmt::format("The load is {}, but it is 0 or more. No table was made.", d.load));
     if (!(d.lag_s >= 0 && d.lag_s < 1e6))
-        return fail(Trouble::refused, fmt::format("The lag is {} s, but it is 0 or more. No table was made.", d.lag_s));
+        return fail(ErrorKind::refused,
+                    fmt::format("The lag is {} s, but it is 0 or more. No table was made.", d.lag_s));
     if (!(d.creep_speed >= 0 && d.creep_speed < d.top_speed))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The creep speed is {} counts/s, but it must be below the top speed, {} counts/s. No "
                                 "table was made.",
                                 d.creep_speed, d.top_speed));
     if (d.top_speed > scale.speed(most_rate))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The top speed is {} counts/s, but this machine reaches {} at the card's greatest "
                                 "rate. No table was made.",
                                 d.top_speed, scale.speed(most_rate)));
@@ -65,14 +66,14 @@ Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, doubl
         const int rate = scale.rate_for(speed * (1 + 1e-12));
         if (rate == 0)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("The lowest step is {:.3f} counts/s, but the card's slowest rate gives {:.3f}. Take "
                             "a greater creep speed. No table was made.",
                             speed, scale.speed(1)));
         const double longer = i == 0 ? 4 * lag * scale.speed(rate) : lag * step;
         position = std::max(position + scale.speed(rate) * step / ramp + longer, position + 1);
         if (position > static_cast<double>(longest_move))
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Take a "
                                     "lower top speed or a steeper ramp. No table was made.",
                                     d.top_speed, ramp, longest_move));
@@ -96,7 +97,7 @@ Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& sca
 
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale) {
     if (distance < 0 || distance > longest_move)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The move is {} counts long, but it is 0 to {}.", distance, longest_move));
     SlopeMotion motion;
     motion.distance = distance;
@@ -106,7 +107,7 @@ Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, in
         const int rate = std::min({rate_limit, faster.rate, slower.rate});
         const double speed = scale.speed(rate);
         if (!(speed > 0))
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("At {} counts from the start the speed is 0, so the move would never end.", at));
         const std::int64_t next = std::min({distance, faster.greatest + 1, distance - slower.least + 1});
         const double time = static_cast<double>(next - at) / speed;

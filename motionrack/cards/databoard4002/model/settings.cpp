@@ -7,18 +7,18 @@ namespace motionrack::databoard4002 {
 
 Result<void> check(const Settings& s) {
     if (s.pass_ticks < 1 || s.pass_ticks > 4'000)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("A pass of the firmware is {} ticks of 2.5 us, but it is 1 to 4,000.", s.pass_ticks));
     if (s.byte_time < nanoseconds(2'500) || s.byte_time > milliseconds(100))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The firmware takes {} ns for a byte, but that is 2,500 to 100,000,000.",
                                 s.byte_time.count() / 10));
     const int most_pair = s.folding == sim::Edges::all ? 0 : s.folding == sim::Edges::both_of_a ? 1 : 3;
     if (s.first_pair < 0 || s.first_pair > most_pair)
-        return fail(Trouble::refused, fmt::format("The first strap pair is {}, but with folding {} it is 0 to {}.",
-                                                  s.first_pair, static_cast<int>(s.folding), most_pair));
+        return fail(ErrorKind::refused, fmt::format("The first strap pair is {}, but with folding {} it is 0 to {}.",
+                                                    s.first_pair, static_cast<int>(s.folding), most_pair));
     if (!sound(s.trim))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "The trim table must have 1 to 64 rows whose voltages (up to 10 V) and rates (up to 16,383) rise.");
     return {};
 }

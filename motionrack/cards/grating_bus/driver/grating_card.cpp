@@ -25,7 +25,7 @@ Result<CardInfo> GratingCard::open() {
     const std::uint16_t answer = port_.read(offset("SIGNATURE"));
     if (answer != signature)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format(
                 "What answers has the signature {:04X}h, but a card of a grating bus has {:04X}h. Look at its address.",
                 answer, signature));
@@ -36,7 +36,7 @@ Result<CardInfo> GratingCard::open() {
     info.wrong_direction = DIRECTION.test(port_.read(offset("STATUS")));
     info.scales = port_.read(offset("SCALES"));
     if (info.scales < 1 || info.scales > most_scales)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The card says that it reads {} scales, but a frame has 1 to {}. Look at its address.",
                                 info.scales, most_scales));
     info.first = port_.read(offset("FIRST"));
@@ -56,10 +56,10 @@ Result<Reading> GratingCard::take() {
     frame.words = port_.read(offset("WORDS"));
     if (frame.words == 0)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "The card has no frame yet: no host has read one since the start. Is there a host, and does it run?");
     if (frame.words > most_scales)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The card says that its frame has {} scales, but {} are the most; it was not read.",
                                 frame.words, most_scales));
     frame.sequence = read32(offset("SEQUENCE_L"));
@@ -76,7 +76,7 @@ Result<Reading> GratingCard::take() {
     }
     if (!sound(frame))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Frame {} has the CRC {:08X}h, but its content gives {:08X}h; its positions were not used.",
                         frame.sequence, frame.crc, crc_of(frame)));
     for (std::uint32_t k = 0; k < frame.words; ++k) {
@@ -93,10 +93,10 @@ Result<Reading> GratingCard::read() {
     Result<Reading> out = take();
     port_.write(offset("CONTROL"), RELEASE.mask);
     if (out && stale())
-        return fail(Trouble::refused, fmt::format("Frame {} of {:.7f} s is older than two periods: the positions are "
-                                                  "stale and must not be used. Look at the "
-                                                  "bus' host.",
-                                                  out->frame.sequence, to_seconds(out->frame.instant())));
+        return fail(ErrorKind::refused, fmt::format("Frame {} of {:.7f} s is older than two periods: the positions are "
+                                                    "stale and must not be used. Look at the "
+                                                    "bus' host.",
+                                                    out->frame.sequence, to_seconds(out->frame.instant())));
     return out;
 }
 
@@ -105,10 +105,10 @@ Result<Reading> GratingCard::wait(Duration timeout) {
     while (!FRAME.test(port_.read(offset("STATUS")))) {
         const Duration left = end - interrupt_.now();
         if (interrupt_.stop_requested())
-            return fail(Trouble::stopped,
+            return fail(ErrorKind::stopped,
                         "Waiting for a frame was stopped by the user; none was read. The card goes on reading frames.");
         if (left <= Duration{0})
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("No frame came within {} us. Is there a host on the bus, and does it run?",
                                     to_seconds(timeout) * 1e6));
         interrupt_.wait(left);

@@ -15,13 +15,13 @@ double ns(Duration d) {
 
 Result<void> within(const char* name, Duration value, Duration least, Duration most) {
     if (value >= least && value <= most) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{} is {:.1f} ns, but it is {:.1f} to {:.1f} ns.", name, ns(value), ns(least), ns(most)));
 }
 
 Result<void> within(const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return {};
-    return fail(Trouble::refused, fmt::format("{} is {}, but it is {} to {}.", name, value, least, most));
+    return fail(ErrorKind::refused, fmt::format("{} is {}, but it is {} to {}.", name, value, least, most));
 }
 
 constexpr Duration least_wait{1}, most_wait = microseconds(6);
@@ -29,14 +29,14 @@ constexpr Duration least_wait{1}, most_wait = microseconds(6);
 /// Each address in range and only once.
 Result<void> check_list(const std::vector<int>& addresses) {
     if (addresses.size() > most_scales)
-        return fail(Trouble::bad_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
-                                                    addresses.size(), most_scales));
+        return fail(ErrorKind::bad_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
+                                                      addresses.size(), most_scales));
     for (auto at = addresses.begin(); at != addresses.end(); ++at) {
         if (*at < 0 || *at >= most_scales)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("The list has the address {}, but an address is 0 to {}.", *at, most_scales - 1));
         if (std::find(addresses.begin(), at, *at) != at)
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("The list has the address {} twice; a frame reads each scale once.", *at));
     }
     return {};
@@ -72,7 +72,7 @@ Result<std::vector<int>> addresses_from_text(std::string_view text) {
         int address = -1;
         const auto [behind, bad] = std::from_chars(at, end, address);
         if (bad != std::errc())
-            return fail(Trouble::bad_input,
+            return fail(ErrorKind::bad_input,
                         fmt::format("Character {} of the list begins no whole number; a list is like "
                                     "\"5, 2, 9\".",
                                     at - text.data() + 1));
@@ -82,7 +82,7 @@ Result<std::vector<int>> addresses_from_text(std::string_view text) {
         if (at == end) break;
         if (*at != ',')
             return fail(
-                Trouble::bad_input,
+                ErrorKind::bad_input,
                 fmt::format("Character {} of the list is no comma; a list is like \"5, 2, 9\".", at - text.data() + 1));
         ++at;
     }
@@ -95,7 +95,7 @@ Result<void> check(const CardSettings& s) {
     if (s.addresses.empty()) {
         MOTIONRACK_CHECK(within("The address of the first scale", s.first, 0, most_scales - s.scales));
     } else if (s.addresses.size() != static_cast<std::size_t>(s.scales)) {
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The list has {} addresses, but a frame has {} scales.", s.addresses.size(), s.scales));
     }
     MOTIONRACK_CHECK(check_list(s.addresses));
@@ -107,7 +107,7 @@ Result<void> check(const CardSettings& s) {
     MOTIONRACK_CHECK(within("The offset of the first pulse", s.offset, Duration{0}, s.period));
     const Duration frame = s.timing.frame_time(s.scales);
     if (frame < s.period) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("A frame of {} scales takes {:.1f} ns ({} x (T1 {:.1f} + T2 {:.1f} + T3 {:.1f}) + {} x "
                             "{:.1f} ns), which does not fit "
                             "into its period of {:.1f} ns. Read fewer scales, wait less or take a longer period.",
@@ -123,15 +123,15 @@ Result<void> check(const DecoderSettings& s) {
 
 Result<void> check(const CardSettings& card, const DecoderSettings& decoder) {
     if (card.last_address() >= decoder.scales)
-        return fail(Trouble::refused, fmt::format("The card reads {}, but the decoder has {} (0 to {}).",
-                                                  scales_text(card), decoder.scales, decoder.scales - 1));
+        return fail(ErrorKind::refused, fmt::format("The card reads {}, but the decoder has {} (0 to {}).",
+                                                    scales_text(card), decoder.scales, decoder.scales - 1));
     if (decoder.latch > card.timing.t1)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("The decoder needs {:.1f} ns to latch, but the card waits T1 = {:.1f} ns only.",
                                 ns(decoder.latch), ns(card.timing.t1)));
     if (decoder.output >= card.timing.t2)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format(
                 "The decoder needs {:.1f} ns to put data out, but the card takes them after T2 = {:.1f} ns; T2 must "
                 "be longer.",

@@ -183,15 +183,15 @@ std::array<tIOFlexSts, axis_count> Flex2Pos::statuses() {
 
 motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
-    if (!ok()) return fail(Trouble::machine, why());
+    if (!ok()) return fail(ErrorKind::machine, why());
     const Instant until = later(now(), timeout);
     while (statuses()[static_cast<std::size_t>(axis)] != sCal) {
         if (stop_requested())
-            return fail(Trouble::stopped,
+            return fail(ErrorKind::stopped,
                         fmt::format("Waiting for the calibration of axis {} was stopped by the user.", axis));
         if (now() >= until)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format(
                     "Axis {} was not calibrated within {:.3f} s: no index pulse came. Move the axis over its zero "
                     "position, and look at lines Z and Cal.",
@@ -203,14 +203,14 @@ motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
 
 motionrack::Result<void> Flex2Pos::set_mode(int axis, const AxisMode& wanted) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
-    if (!ok()) return fail(Trouble::machine, why());
+    if (!ok()) return fail(ErrorKind::machine, why());
     if (wanted.edges != 4 && wanted.edges != 2 && wanted.edges != 1)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Axis {} is to count {} edges of a line, but that is 4, 2 or 1. Nothing was written.",
                                 axis, wanted.edges));
     if (wanted.filter < 0 || wanted.filter > 15)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("The filter of axis {} is {}, but it is 0 to 15. Nothing was written.", axis, wanted.filter));
     std::uint16_t word = 0;
     word = REVERSED.set(word, wanted.reversed);

@@ -30,7 +30,7 @@ class Units {
     static Result<Units> of(double counts_per_unit, const char* what) {
         if (!std::isfinite(counts_per_unit) || counts_per_unit == 0)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("There are {} {}, but that must be a number other than 0. The units were not changed.",
                             counts_per_unit, what));
         Units out;

@@ -305,7 +305,7 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
     }
     if (why.empty()) why = "the chip's counters are not where the path ends";
     chain_running_ = false;
-    return fail(Trouble::machine,
+    return fail(ErrorKind::machine,
                 fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
                             "clear the cause, move back and start again.",
                             current_line_, why, control::position_text(commanded_position(), map_.limits)),

@@ -28,7 +28,7 @@ Result<control::ProbeResult> Axes::probe(const control::PlannedMove& move, bool 
     control::ProbeResult outcome;
     outcome.hit = probe_hit();
     // A move that was cut short is no fault if the probe did it.
-    if (!driven && (!outcome.hit || driven.error().trouble != Trouble::machine || stopped_by_other())) {
+    if (!driven && (!outcome.hit || driven.error().trouble != ErrorKind::machine || stopped_by_other())) {
         MOTIONRACK_CHECK(disarm_probe());
         return tl::unexpected<Error>(std::move(driven.error()));
     }
@@ -55,16 +55,16 @@ Result<void> Axes::check_probe(bool release) {
     for (const int channel : map_.channel)
         if (channel >= 0) used |= 1u << channel;
     if (probe_channels_ == 0)
-        return fail(Trouble::refused, "There is no probe at the inputs IN3 of this card. Nothing was moved.");
+        return fail(ErrorKind::refused, "There is no probe at the inputs IN3 of this card. Nothing was moved.");
     if ((used & ~probe_channels_) != 0) {
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "The probe is not at the input IN3 of each channel that moves an axis, so not all places could be caught. "
             "Nothing was moved; wire them in the rack file.");
     }
     for (int c = 0; c < channel_count; ++c) {
         if ((used >> c & 1) == 0 || driver_.inputs(c).in[probe_input] == release) continue;
-        return fail(Trouble::machine,
+        return fail(ErrorKind::machine,
                     release
                         ? "The probe does not touch before the move that should lead it away. Nothing was moved."
                         : "The probe touches already before the move that should find the contact. Nothing was moved; "

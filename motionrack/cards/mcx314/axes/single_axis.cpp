@@ -46,7 +46,7 @@ Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool tr
 // ---- what is refused
 
 tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& why) const {
-    return fail(Trouble::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
+    return fail(ErrorKind::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
 }
 
 Result<void> SingleAxis::check_speed(const char* what, double speed) const {
@@ -337,7 +337,7 @@ Result<void> SingleAxis::wait(Duration timeout) {
         }
         if (host.now() >= end)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format(
                     "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
                     settings_.name, to_seconds(timeout), position(), settings_.unit));
@@ -347,11 +347,11 @@ Result<void> SingleAxis::wait(Duration timeout) {
     }
     if (homing && !home_.homed()) return home_.report().result();
     if (asked)
-        return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
-                                                  settings_.name, position(), settings_.unit));
+        return fail(ErrorKind::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
+                                                    settings_.name, position(), settings_.unit));
     const std::string why = jogged_ ? manual_.why_ended() : driver_.axis_status(settings_.channel).why_stopped();
     if (!homing && !why.empty())
-        return fail(Trouble::machine,
+        return fail(ErrorKind::machine,
                     fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit,
                                 why, trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
     return {};

@@ -23,7 +23,7 @@ Result<void> Driver::check_chain_speed(int axis, std::int64_t v) const {
     const double rate = static_cast<double>(v) * multiple(axis);
     if (rate <= most_chain_rate) return {};
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("V = {} of {} is {:.0f} pulses/s, but continuous interpolation makes at most {:.0f}. Nothing "
                     "was written.",
                     v, axes_text(1u << axis), rate, most_chain_rate));
@@ -33,7 +33,7 @@ Result<void> Driver::ContStart(const CONTDATA& data) {
     const Speeds speeds{data.A == 0 ? Curve::constant : Curve::t, data.SV, data.V, data.A, data.D, 0};
     MOTIONRACK_CHECK(check_speeds(axis_x, speeds));
     if (chain_.open && chain_.running && status().interpolating())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "ContStart: the chain before runs still. Nothing was written. Call ContEnd or stop it first.");
     chain_ = {};
     chain_.open = true;
@@ -56,7 +56,7 @@ Result<void> Driver::ContArc(unsigned axes, const FourAxes& finish, const FourAx
 
 Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int64_t v, Duration timeout) {
     if (!chain_.open)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: no chain is open. Nothing was written. Call ContStart first.", who));
     const int generator = chain_.kept_back ? chain_.generator : channels_of(piece.axes).channel[0];
     MOTIONRACK_CHECK(check_piece(who, piece));
@@ -65,7 +65,7 @@ Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int6
         MOTIONRACK_CHECK(check(1u << generator, param::V, v));
         if (chain_.speeds.kind == Curve::constant)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("{}: a chain of constant speed cannot change it. Nothing was written. Give ContStart an "
                             "acceleration.",
                             who));
@@ -167,9 +167,9 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
             const std::string why = error_text(path_axes_);
             if (may_end && why.empty()) return {};
             chain_.open = chain_.running = false;
-            if (!why.empty()) return fail(Trouble::machine, "The chain was stopped. " + why);
+            if (!why.empty()) return fail(ErrorKind::machine, "The chain was stopped. " + why);
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format("Segment {} of the chain came too late: the axes stand at its start. Lower the speed, or "
                             "give longer segments.",
                             chain_.segments + 1));
@@ -178,11 +178,11 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
             SlowStop(path_axes_);
             chain_.open = chain_.running = false;
             MOTIONRACK_CHECK(wait_until_stopped(path_axes_, timeout));
-            return fail(Trouble::stopped, "The chain was stopped on request.");
+            return fail(ErrorKind::stopped, "The chain was stopped on request.");
         }
         if (interrupt_.now() >= end)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format("The running segment of the chain did not end within {:.3f} s; it was not stopped. Wait "
                             "longer, or stop the axes.",
                             to_seconds(timeout)));
@@ -193,7 +193,7 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
 Result<ContOutcome> Driver::ContEnd(Duration timeout) {
     if (!chain_.open || !chain_.kept_back)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "ContEnd: no chain with a segment is open. Nothing was written. Call ContStart and ContLine first.");
     const bool first = !chain_.running;
     const std::int64_t length = basic_pulses(*chain_.kept_back);

@@ -6,7 +6,7 @@ namespace motionrack::mcx314 {
 
 Result<void> check_axes(unsigned axes, const char* who) {
     if (axes >= 1 && axes <= xyzu) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8, and sums of these up "
                             "to 15. Nothing was written.",
                             who, axes));
@@ -15,21 +15,21 @@ Result<void> check_axes(unsigned axes, const char* who) {
 Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value) {
     MOTIONRACK_CHECK(check_axes(axes, parameter.name));
     if (value >= parameter.least && value <= parameter.greatest) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", parameter.name,
                             axes_text(axes), value, parameter.least, parameter.greatest));
 }
 
 Result<void> check_switch(const char* who, int n, int greatest, const char* meanings) {
     if (n >= 0 && n <= greatest) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
 }
 
 Result<void> check_no_path(const char* who, MainStatus main) {
     if (!main.interpolating()) return {};
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("{}: an interpolation runs. Nothing was written. Wait for its end, or stop it first.", who));
 }
 

@@ -208,7 +208,7 @@ Result<void> check(const CurveData& data) {
     for (const Item& item : items) {
         const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.least;
         if (item.used && (item.value < least || item.value > item.parameter.greatest))
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("{} of the plan is {}, but the chip takes {} to {}. Nothing was planned.",
                                     item.parameter.name, item.value, least, item.parameter.greatest));
     }
@@ -234,7 +234,7 @@ Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(con
 Result<std::int64_t> best_dec_point(const CurveData& data) {
     MOTIONRACK_CHECK(check(data));
     if (!data.pulses)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "A continuous drive has no deceleration point. Nothing was planned. Give the number of pulses.");
     CurveData tried = data;
     const std::function<void(const CurveSpan&)> nobody;
@@ -257,7 +257,7 @@ Result<std::int64_t> best_dec_point(const CurveData& data) {
 Result<std::int64_t> best_offset(const CurveData& data) {
     MOTIONRACK_CHECK(check(data));
     if (!data.pulses)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "A continuous drive needs no offset. Nothing was planned. Give the number of pulses.");
     CurveData tried = data;
     tried.dec_point.reset();

@@ -76,8 +76,8 @@ struct CurveSpan {
     int ramp = 0;         ///< -1, 0, +1 in the span's last tick, before its speed step
 };
 
-/// Plans a drive. Errors: Trouble::refused with the range of the value that is out of it. `spans`, if given, is called
-/// with every span from the first to the last.
+/// Plans a drive. Errors: ErrorKind::refused with the range of the value that is out of it. `spans`, if given, is
+/// called with every span from the first to the last.
 Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(const CurveSpan&)>& spans = {});
 
 /// The latest manual deceleration point with which the drive still reaches SV at its last pulse, 0 if none does.

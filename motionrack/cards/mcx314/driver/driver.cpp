@@ -77,14 +77,14 @@ const Driver::Kept& Driver::kept(int axis) const {
 Result<void> Driver::check_channel(int axis, const char* who) {
     if (axis >= 0 && axis < 4) return {};
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("{}: the axis is {}, but it is one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
 }
 
 Result<void> Driver::check_standing(unsigned axes, const char* who, MainStatus main) {
     const unsigned busy = field("RR0", "DRV").get(main.word) & axes;
     if (busy == 0) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{}: {} {} driving. Nothing was written. Wait for the end of the drive, or stop it first.",
                             who, axes_text(busy), (busy & (busy - 1)) == 0 ? "is" : "are"));
 }
@@ -94,7 +94,7 @@ Result<void> Driver::check_initialised(unsigned axes, const char* who) const {
     for (const int i : channels_of(axes))
         if (!kept(i).data[cmd::R]) without |= 1u << i;
     if (without == 0) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("{}: the multiple of {} is not set. Nothing was written. Call SetMultiple, SetRange or "
                             "SetMaxSpeed first.",
                             who, axes_text(without)));
@@ -158,7 +158,7 @@ Result<void> Driver::SetPulseLevels(unsigned axes, bool negative, bool direction
 
 Result<void> Driver::SetMultiple(unsigned axes, std::int64_t multiple) {
     if (multiple < 1 || multiple > most_multiple)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("SetMultiple: the multiple is {}, but the chip takes 1 to {}. Nothing was written.",
                                 multiple, most_multiple));
     MOTIONRACK_CHECK(check_axes(axes, "SetMultiple"));
@@ -174,7 +174,7 @@ Result<void> Driver::SetRange(unsigned axes, std::int64_t range) {
 
 Result<void> Driver::SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second) {
     if (pulses_a_second < 1 || pulses_a_second > most_pulse_rate)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("SetMaxSpeed: the speed is {} pulses/s, but the chip makes 1 to {}. Nothing was "
                                 "written.",
                                 pulses_a_second, most_pulse_rate));

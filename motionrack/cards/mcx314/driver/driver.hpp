@@ -2,7 +2,7 @@
 // anything is written. It knows the chip only by its registers, so it cannot tell a virtual chip from a real one.
 //
 // Functions with the source's names (CamelCase) take register units; see units.hpp for millimetres and curves.hpp for
-// plans. Axis masks: X 1, Y 2, Z 4, U 8 and their sums. What is refused (Trouble::refused) wrote nothing.
+// plans. Axis masks: X 1, Y 2, Z 4, U 8 and their sums. What is refused (ErrorKind::refused) wrote nothing.
 #pragma once
 
 #include <motionrack/base/port.hpp>
@@ -228,10 +228,11 @@ class Driver {
     /// Refuses what is no channel, in the name of `who`.
     static Result<void> check_channel(int axis, const char* who);
 
-    /// Waits until none of the axes drives. Errors: Trouble::machine after `timeout`; Trouble::stopped where the user
-    /// asked to stop (the axes are then decelerated and standing).
+    /// Waits until none of the axes drives. Errors: ErrorKind::machine after `timeout`; ErrorKind::stopped where the
+    /// user asked to stop (the axes are then decelerated and standing).
     Result<void> wait_until_stopped(unsigned axes, Duration timeout);
-    /// The same, and Trouble::machine with the reports if one was stopped by a limit, an alarm or the emergency input.
+    /// The same, and ErrorKind::machine with the reports if one was stopped by a limit, an alarm or the emergency
+    /// input.
     Result<void> wait_until_done(unsigned axes, Duration timeout);
 
     /// What was last written of a parameter, cmd::R .. cmd::L: nothing after a reset.

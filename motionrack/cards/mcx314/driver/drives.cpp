@@ -74,7 +74,7 @@ Result<CurveData> Driver::planned_curve(const char* who, int axis, Speeds speeds
     const Kept& own = kept(axis);
     if (own.asymmetric && !written(axis, cmd::D))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call SetD "
                         "first, or SetAsymmetric(.., false).",
                         who, axes_text(1u << axis)));
@@ -168,7 +168,7 @@ Result<void> Driver::DriveFixed(unsigned axes) {
     for (const int i : channels_of(axes))
         for (const Parameter& needed : {param::SV, param::V, param::A, param::pulses})
             if (!written(i, needed.code))
-                return fail(Trouble::refused,
+                return fail(ErrorKind::refused,
                             fmt::format("DriveFixed: {} of {} is not set. Nothing was written. Set it first.",
                                         needed.name, axes_text(1u << i)));
     MOTIONRACK_CHECK(check_standing(axes, "DriveFixed"));

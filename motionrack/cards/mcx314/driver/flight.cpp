@@ -40,7 +40,7 @@ Result<void> Driver::change_speed(unsigned axes, std::int64_t v) {
     for (const int i : channels_of(axes)) {
         const std::string why = not_changeable(i, main);
         if (!why.empty())
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("change_speed: {}. The speed was not changed; SetV gives the speed of the next "
                                     "drive.",
                                     why));
@@ -55,7 +55,7 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
     Kept& own = kept(axis);
     MOTIONRACK_CHECK(check(mask, param::pulses, pulses));
     auto refused = [&](const std::string& why) {
-        return fail(Trouble::refused, fmt::format("change_pulses: {}. The target was not changed.", why));
+        return fail(ErrorKind::refused, fmt::format("change_pulses: {}. The target was not changed.", why));
     };
     const MainStatus main = status();
     const std::string why = not_changeable(axis, main);

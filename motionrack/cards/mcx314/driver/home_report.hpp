@@ -76,7 +76,7 @@ struct HomeReport {
     std::int64_t relative(std::int32_t lp) const;
     /// Pulses from the switch's edge to the index.
     std::optional<std::int64_t> switch_to_index() const;
-    /// What to return to a caller: Trouble::stopped or Trouble::machine with the sentence, nothing if homed.
+    /// What to return to a caller: ErrorKind::stopped or ErrorKind::machine with the sentence, nothing if homed.
     Result<void> result() const;
 };
 

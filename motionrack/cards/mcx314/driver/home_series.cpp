@@ -20,7 +20,7 @@ std::int64_t spread_of(const std::vector<std::int64_t>& values) {
 Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axes, unsigned wr1, std::int64_t sv,
                                           std::int64_t v, std::int64_t a) {
     if (axes == 0 || axes > xyzu)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("HomeType{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8 and sums of these. "
                                 "Nothing was moved.",
                                 type, axes));
@@ -91,7 +91,7 @@ Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& set
     const bool fine =
         repeats >= 1 && !away.empty() && std::all_of(away.begin(), away.end(), [](std::int64_t p) { return p > 0; });
     if (!fine)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "repeat_home: it takes at least one repeat and ways off from home above 0. Nothing was moved.");
     MOTIONRACK_TRY(const HomeReport first, home(driver, axis, settings, timeout));
     HomeSpread out;

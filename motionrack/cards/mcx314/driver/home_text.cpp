@@ -39,14 +39,14 @@ std::optional<std::int64_t> HomeReport::switch_to_index() const {
 
 Result<void> HomeReport::result() const {
     if (homed) return {};
-    return motionrack::fail(fault == HomeFault::stopped ? Trouble::stopped : Trouble::machine, sentence);
+    return motionrack::fail(fault == HomeFault::stopped ? ErrorKind::stopped : ErrorKind::machine, sentence);
 }
 
 // ---- what is refused
 
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
     if (type < 1 || type > 4)
-        return motionrack::fail(Trouble::refused,
+        return motionrack::fail(ErrorKind::refused,
                                 fmt::format("The type of homing is {}, but it is 1 to 4. Nothing was moved.", type));
     HomeSettings out;
     const bool to_index = type >= 3;
@@ -60,7 +60,7 @@ Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, s
         if ((WR1Reg >> 2 * i & 2) != 0 && !(to_index && i == out.index_input)) out.input = i;
     if (out.input < 0)
         return motionrack::fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of {} as home switch (bits {}). Nothing was "
                         "moved; enable one, with its level in the bit below.",
                         type, WR1Reg, to_index ? "IN0, IN1 and IN3" : "IN0 to IN3",
@@ -75,7 +75,7 @@ Result<void> Home::check_ready() {
     const HomeSettings& s = settings_;
     const std::string name = s.name.empty() ? std::string(1, "XYZU"[axis_]) : s.name;
     const auto refuse = [&](std::string why) {
-        return motionrack::fail(Trouble::refused,
+        return motionrack::fail(ErrorKind::refused,
                                 fmt::format("Axis {} was not homed: {}. Nothing was moved.", name, why));
     };
     const Bound bounds[] = {

@@ -98,7 +98,7 @@ Result<void> Driver::SetCP(unsigned axes, std::int64_t centre) {
 
 Result<void> Driver::set_arc_tolerance(double part) {
     if (!(part >= 0 && part <= 1))
-        return fail(Trouble::refused, fmt::format("set_arc_tolerance: {} is not 0 to 1. Nothing was changed.", part));
+        return fail(ErrorKind::refused, fmt::format("set_arc_tolerance: {} is not 0 to 1. Nothing was changed.", part));
     arc_tolerance_ = part;
     return {};
 }
@@ -106,7 +106,7 @@ Result<void> Driver::set_arc_tolerance(double part) {
 Result<void> Driver::SetVectorSpeed(int axes_count) {
     if (axes_count < 1 || axes_count > 3)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("SetVectorSpeed: {} axes, but it is 1 (off), 2 or 3. Nothing was changed.", axes_count));
     vector_axes_ = axes_count;
     return {};
@@ -117,10 +117,10 @@ Result<void> Driver::SetVectorSpeed(int axes_count) {
 Result<void> Driver::check_count(const char* who, unsigned axes, int count) {
     MOTIONRACK_CHECK(check_axes(axes, who));
     if (channels_of(axes).count == count) return {};
-    return fail(Trouble::refused, fmt::format("{}: the axis mask {} is {}, but it must name {}. Nothing was written.",
-                                              who, axes, axes_text(axes),
-                                              count == 2 ? "two axes: xy 3, xz 5, xu 9, yz 6, yu 10, zu 12"
-                                                         : "three axes: xyz 7, xyu 11, xzu 13, yzu 14"));
+    return fail(ErrorKind::refused, fmt::format("{}: the axis mask {} is {}, but it must name {}. Nothing was written.",
+                                                who, axes, axes_text(axes),
+                                                count == 2 ? "two axes: xy 3, xz 5, xu 9, yz 6, yu 10, zu 12"
+                                                           : "three axes: xyz 7, xyu 11, xzu 13, yzu 14"));
 }
 
 /// Finish points and centres in range and useful.
@@ -131,7 +131,7 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
     }
     if (!piece.arc) {
         if (!is_zero(piece.finish, piece.axes)) return {};
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: every finish point of {} is 0. Nothing was written. Give P, or call SetFP first.",
                                 who, axes_text(piece.axes)));
     }
@@ -141,7 +141,7 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
     const double fx = static_cast<double>(piece.finish[h]) - cx, fy = static_cast<double>(piece.finish[v]) - cy;
     const double radius = std::sqrt(cx * cx + cy * cy), reach = std::sqrt(fx * fx + fy * fy);
     if (radius == 0)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{}: the centre is the start, so the radius is 0. Nothing was written. Give C, or call "
                                 "SetCP first.",
                                 who));
@@ -150,7 +150,7 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
     const rules::ArcEnd end =
         rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise);
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format(
             "{}: the finish point ({}, {}) is {:.1f} pulses from the centre, but the start is {:.1f}; at most {:.1f} "
             "pulses of difference are allowed. Nothing was written. The chip would end at ({}, {}).",

@@ -61,12 +61,12 @@ Result<void> Manual::set(const ManualSettings& settings) {
     };
     for (const Bound& bound : bounds)
         if (bound.value < bound.least || bound.value > bound.greatest)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         fmt::format("Manual operation of {}: {} is {}, but may be {} to {}. Nothing was changed.",
                                     name(), bound.name, bound.value, bound.least, bound.greatest));
     if (state_ != ManualState::standing)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("Manual operation of {}: it is {}. Nothing was changed; stop it first.", name(), state_name()));
     settings_ = settings;
     return {};
@@ -75,7 +75,7 @@ Result<void> Manual::set(const ManualSettings& settings) {
 /// Whether a manual drive at `v` may start now, or go on.
 Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     const auto refuse = [&](const std::string& why) {
-        return fail(Trouble::refused, fmt::format("{} of {}: {}. Nothing was moved.", what, name(), why));
+        return fail(ErrorKind::refused, fmt::format("{} of {}: {}. Nothing was moved.", what, name(), why));
     };
     if (v == 0 || v > settings_.most_v || v < -settings_.most_v)
         return refuse(fmt::format("the speed is {}, but may be 1 to {} in either direction", v, settings_.most_v));
@@ -154,12 +154,12 @@ Result<void> Manual::jog(std::int64_t v, Instant now) {
 Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
     MOTIONRACK_CHECK(Driver::check_channel(axis_, "Step"));
     if (state_ != ManualState::standing)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
     if (pulses == 0)
-        return fail(Trouble::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));
+        return fail(ErrorKind::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));
     if (v < 0)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("Step of {}: the speed is {}, but the sign belongs to the pulses. Nothing was moved.",
                                 name(), v));
     MOTIONRACK_CHECK(check_ready("Step", pulses < 0 ? -v : v));
@@ -172,8 +172,9 @@ Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
 Result<void> Manual::home(const HomeSettings& settings, Instant now) {
     if (state_ != ManualState::homing) {
         if (state_ != ManualState::standing)
-            return fail(Trouble::refused, fmt::format("Manual home of {}: it is {}. Nothing was moved; stop it first.",
-                                                      name(), state_name()));
+            return fail(
+                ErrorKind::refused,
+                fmt::format("Manual home of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
         MOTIONRACK_CHECK(home_.start(settings, now));
         why_.clear();
         state_ = ManualState::homing;

@@ -60,7 +60,7 @@ Result<void> Driver::begin_pattern(const char* who, const BPDATA& data, unsigned
 
 Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
     if (pattern_.axes == 0)
-        return fail(Trouble::refused, "BPStack: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
+        return fail(ErrorKind::refused, "BPStack: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
     const Instant end = later(interrupt_.now(), timeout);
     while (true) {
         const MainStatus main = status();
@@ -68,7 +68,7 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
             const unsigned axes = pattern_.axes;
             close_pattern();
             const std::string why = error_text(axes);
-            return fail(Trouble::machine,
+            return fail(ErrorKind::machine,
                         why.empty()
                             ? "The pattern's next word came too late or behind its end code: the drive has ended. "
                               "Lower the speed, or stack words earlier."
@@ -76,17 +76,17 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
         }
         if (main.patterns_stacked() < stack_size) break;
         if (!pattern_.running)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         "BPStack: the stack holds three words and the drive does not run. Nothing was written. Call "
                         "BPStart.");
         if (interrupt_.stop_requested()) {
             SlowStop(pattern_.axes);
             close_pattern();
-            return fail(Trouble::stopped, "The pattern was stopped on request.");
+            return fail(ErrorKind::stopped, "The pattern was stopped on request.");
         }
         if (interrupt_.now() >= end)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format("The pattern's stack had no room for {:.3f} s; nothing was stopped. Wait longer, or stop "
                             "the axes.",
                             to_seconds(timeout)));
@@ -103,9 +103,9 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
 
 Result<void> Driver::BPStart() {
     if (pattern_.axes == 0 || pattern_.words == 0)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "BPStart: no pattern with data is open. Nothing was written. Call BP2D or BP3D and BPStack first.");
-    if (pattern_.running) return fail(Trouble::refused, "BPStart: the pattern runs already. Nothing was written.");
+    if (pattern_.running) return fail(ErrorKind::refused, "BPStart: the pattern runs already. Nothing was written.");
     command(0, pattern_.count == 3 ? cmd::BP3 : cmd::BP2);
     pattern_.running = true;
     return {};
@@ -113,7 +113,7 @@ Result<void> Driver::BPStart() {
 
 Result<void> Driver::BPEnd(Duration timeout) {
     if (pattern_.axes == 0)
-        return fail(Trouble::refused, "BPEnd: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
+        return fail(ErrorKind::refused, "BPEnd: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
     const unsigned axes = pattern_.axes;
     close_pattern();
     return wait_until_done(axes, timeout);
@@ -142,7 +142,7 @@ Result<void> Driver::SetStep(StepBy by) {
 Result<void> Driver::Step() {
     if (!field("WR5", "CMPLS").test(path_mode_))
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "Step: the interpolation does not step by command. Nothing was written. Call SetStep(StepBy::command) "
             "before it starts.");
     command(0, cmd::STEP);

@@ -24,8 +24,9 @@ Result<RealSetting> RealAxis::set(const RealDrive& drive) {
 
 Result<void> RealAxis::check_set(const char* who) const {
     if (set_) return {};
-    return fail(Trouble::refused, fmt::format("{}: the speeds of {} are not set. Nothing was written. Call set first.",
-                                              who, axis_ >= 0 && axis_ < 4 ? axes_text(1u << axis_) : "no axis"));
+    return fail(ErrorKind::refused,
+                fmt::format("{}: the speeds of {} are not set. Nothing was written. Call set first.", who,
+                            axis_ >= 0 && axis_ < 4 ? axes_text(1u << axis_) : "no axis"));
 }
 
 /// The curve of a move, as the library makes it end at its start speed.

@@ -147,7 +147,7 @@ Result<void> Driver::change_interrupts(const char* who, unsigned axes, std::uint
     MOTIONRACK_CHECK(check_axes(axes, who));
     if (causes == 0 || (causes & ~unsigned{cause::all}) != 0)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("{}: the causes {:04X}h are not bits 0 to 7 of RR3. Nothing was written.", who, causes));
     for (const int i : channels_of(axes)) {
         const unsigned bits = unsigned{causes} << cause_shift;

@@ -30,7 +30,7 @@ constexpr Kind jerk_kind{"jerk", "s3", jerk_unit};
 
 Result<void> check_scale(const Scale& scale) {
     if (std::isfinite(scale.pulses_per_unit) && scale.pulses_per_unit > 0) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("The scale is {} pulses a unit, but it must be more than 0. Nothing was set.",
                             scale.pulses_per_unit));
 }
@@ -38,12 +38,13 @@ Result<void> check_scale(const Scale& scale) {
 /// Finite, above 0 and within reach of the multiple.
 Result<void> check_value(const Kind& kind, const Scale& scale, double value, double multiple) {
     if (!std::isfinite(value) || value <= 0)
-        return fail(Trouble::refused, fmt::format("The {} is {} units/{}, but it must be more than 0. Nothing was set.",
-                                                  kind.name, value, kind.time));
+        return fail(ErrorKind::refused,
+                    fmt::format("The {} is {} units/{}, but it must be more than 0. Nothing was set.", kind.name, value,
+                                kind.time));
     const double most = kind.most_per_multiple * multiple;
     // R is a whole number, so the multiple that was chosen may miss by the last digit of a double.
     if (value * scale.pulses_per_unit <= most * (1 + 1e-12)) return {};
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("The {} of {} units/{} is {:.0f} pulses/{}, but the chip makes at most {:.0f}{}: {:.6g} "
                             "units/{}. Nothing was set.",
                             kind.name, value, kind.time, value * scale.pulses_per_unit, kind.time, most,
@@ -117,8 +118,8 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
 
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range) {
     if (range < param::R.least || range > param::R.greatest)
-        return fail(Trouble::refused, fmt::format("{} is {}, but the chip takes {} to {}. Nothing was set.",
-                                                  param::R.name, range, param::R.least, param::R.greatest));
+        return fail(ErrorKind::refused, fmt::format("{} is {}, but the chip takes {} to {}. Nothing was set.",
+                                                    param::R.name, range, param::R.least, param::R.greatest));
     MOTIONRACK_CHECK(check_drive(scale, drive, clock_hz / static_cast<double>(range)));
     return with_range(scale, drive, range);
 }
@@ -136,7 +137,7 @@ Result<Rounded> to_pulses(const Scale& scale, double distance) {
     const double pulses = std::floor(distance * scale.pulses_per_unit + 0.5);
     if (!std::isfinite(pulses) || std::fabs(pulses) > most_distance)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("The distance of {} units is {} pulses, but counters hold at most {:.0f}: {:.6g} units. "
                         "Nothing was set.",
                         distance, pulses, most_distance, most_distance / scale.pulses_per_unit));

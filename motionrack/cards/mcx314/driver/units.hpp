@@ -49,7 +49,7 @@ struct RealSetting {
     CurveData curve() const;
 };
 
-/// Chooses R. Errors: Trouble::refused with the greatest possible value in the same unit; also for what is not a
+/// Chooses R. Errors: ErrorKind::refused with the greatest possible value in the same unit; also for what is not a
 /// number, or not above 0.
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive);
 /// The same with a given R, 16,000 .. 8,000,000.

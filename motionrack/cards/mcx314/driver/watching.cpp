@@ -72,13 +72,13 @@ Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
         }
         if (interrupt_.now() >= end)
             return fail(
-                Trouble::machine,
+                ErrorKind::machine,
                 fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
                             to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
         // The drive-end interrupt, where enabled, wakes at once; otherwise the status is looked at now and then.
         doze(axes, default_poll_period);
     }
-    if (stopped) return fail(Trouble::stopped, fmt::format("Stopped on request; {} stands still.", axes_text(axes)));
+    if (stopped) return fail(ErrorKind::stopped, fmt::format("Stopped on request; {} stands still.", axes_text(axes)));
     return {};
 }
 
@@ -86,7 +86,7 @@ Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
     MOTIONRACK_CHECK(wait_until_stopped(axes, timeout));
     const std::string why = error_text(axes);
     if (why.empty()) return {};
-    return fail(Trouble::machine, why);
+    return fail(ErrorKind::machine, why);
 }
 
 // ---- speeds
@@ -120,7 +120,7 @@ Result<std::array<double, 4>> Driver::axis_speeds() {
     if (path != 0) {
         const Piece& piece = main.can_queue() ? pieces_[1] : pieces_[0];
         if (piece.axes == 0)
-            return fail(Trouble::refused,
+            return fail(ErrorKind::refused,
                         "axis_speeds: the shares of the axes are not known: a bit pattern runs, the interpolation was "
                         "started by "
                         "bare commands, or LPS moved a counter since. Nothing was read.");

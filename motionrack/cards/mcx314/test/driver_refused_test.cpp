@@ -52,7 +52,7 @@ class Refused : public testing::Test {
     template <class T>
     void expect_refused(const Result<T>& result, const std::string& part) {
         ASSERT_FALSE(result) << part;
-        EXPECT_EQ(result.error().trouble, Trouble::refused);
+        EXPECT_EQ(result.error().trouble, ErrorKind::refused);
         EXPECT_THAT(result.error().message, HasSubstr(part));
         EXPECT_THAT(result.error().message, testing::AnyOf(HasSubstr("Nothing was"), HasSubstr("was not changed")));
     }

@@ -41,7 +41,7 @@ TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotTrusted) {
             EXPECT_EQ(one.report().fault, HomeFault::stopped) << state.name;
             EXPECT_THAT(one.report().sentence, HasSubstr("stopped on request"));
             EXPECT_EQ(one.state(), "FAILED");
-            EXPECT_EQ(one.report().result().error().trouble, Trouble::stopped);
+            EXPECT_EQ(one.report().result().error().trouble, ErrorKind::stopped);
         }
     }
 }

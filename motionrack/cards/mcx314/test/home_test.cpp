@@ -169,7 +169,7 @@ TEST_P(EachType, ReportsASwitchThatIsMissing) {
     s.turn_at_limit = false;
     const Result<HomeReport> done = home(rig.driver, 0, s);
     ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().trouble, Trouble::machine);
+    EXPECT_EQ(done.error().trouble, ErrorKind::machine);
     EXPECT_THAT(done.error().message, HasSubstr("the home switch (IN0, active Low) was not found"));
     EXPECT_THAT(done.error().message, HasSubstr("a limit switch ended the search in - direction"));
     EXPECT_THAT(done.error().message, HasSubstr("not trusted"));
@@ -321,7 +321,7 @@ TEST(Homing, RefusesWhatCannotBeDoneAndMovesNothing) {
         change(s);
         const Result<void> started = one.start(s, rig.port.now());
         EXPECT_FALSE(started);
-        EXPECT_EQ(started.error().trouble, Trouble::refused);
+        EXPECT_EQ(started.error().trouble, ErrorKind::refused);
         return started ? std::string() : started.error().message;
     };
     EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 6; }), HasSubstr("the type is 6, but may be 1 to 5"));

@@ -187,7 +187,7 @@ TEST(ADeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
     ASSERT_TRUE(rig.call("TCurve_C", {{"axis", 5}, {"m_SV", 1}, {"m_V", 8000}, {"m_A", 1}}));
     const Result<CallAnswer> answer = rig.call("wait", {{"axis", 15}, {"milliseconds", 60'000}});
     ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().trouble, Trouble::stopped);
+    EXPECT_EQ(answer.error().trouble, ErrorKind::stopped);
     EXPECT_LT(rig.kernel.now() - asked, milliseconds(2));
     EXPECT_FALSE(rig.library.moving());
 }

@@ -286,8 +286,9 @@ inline constexpr ListCommandInfo list_commands[op_count] = {
 };
 // clang-format on
 
-constexpr Flaw list_commands_flaw(std::span<const ListCommandInfo> commands) {
-    if (const Flaw flaw = names_flaw("the list commands", "list command", commands); !flaw.empty()) return flaw;
+constexpr DeclarationError list_commands_flaw(std::span<const ListCommandInfo> commands) {
+    if (const DeclarationError flaw = names_flaw("the list commands", "list command", commands); !flaw.empty())
+        return flaw;
     for (std::size_t i = 0; i < commands.size(); ++i)
         if (commands[i].op != static_cast<Op>(i))
             return {"the list command ", commands[i].name, " is not at its place"};

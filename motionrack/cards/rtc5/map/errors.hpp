@@ -24,15 +24,15 @@ consteval std::uint32_t error_bit(std::string_view name) {
 }
 
 /// Of a command that ended so.
-constexpr std::uint32_t error_bits_of(Trouble trouble) {
+constexpr std::uint32_t error_bits_of(ErrorKind trouble) {
     switch (trouble) {
-        case Trouble::bad_input:
-        case Trouble::refused:
-        case Trouble::io:
+        case ErrorKind::bad_input:
+        case ErrorKind::refused:
+        case ErrorKind::io:
             return error_bit("PARAM_ERROR");
-        case Trouble::machine:
+        case ErrorKind::machine:
             return error_bit("BUSY");
-        case Trouble::stopped:
+        case ErrorKind::stopped:
             break;
     }
     return error_bit("REJECTED");

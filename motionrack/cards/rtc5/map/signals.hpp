@@ -59,8 +59,8 @@ inline constexpr SignalInfo signals[] = {
     {"MarkSpeed", 45, Source::mark_speed, 0, 0, false, "the mark speed set, bits/ms, rounded"},
 };
 
-constexpr Flaw signals_flaw(std::span<const SignalInfo> all) {
-    if (const Flaw flaw = names_flaw("the signals", "signal", all); !flaw.empty()) return flaw;
+constexpr DeclarationError signals_flaw(std::span<const SignalInfo> all) {
+    if (const DeclarationError flaw = names_flaw("the signals", "signal", all); !flaw.empty()) return flaw;
     for (std::size_t i = 1; i < all.size(); ++i)
         if (all[i].number <= all[i - 1].number) return {"the signal ", all[i].name, " is not at its place"};
     return {};

@@ -62,7 +62,7 @@ inline constexpr BitInfo list_status_bits[] = {
     {"USED2", 7, "list 2 ran to its end, and nothing was put into it since"},
 };
 
-constexpr Flaw bits_flaw(std::span<const BitInfo> bits) {
+constexpr DeclarationError bits_flaw(std::span<const BitInfo> bits) {
     return names_flaw("the status words", "bit", bits);
 }
 static_assert(declared<bits_flaw(marking_info_bits)>() && declared<bits_flaw(startstop_info_bits)>() &&

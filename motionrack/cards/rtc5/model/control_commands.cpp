@@ -259,22 +259,22 @@ constexpr ControlCommand commands[] = {
 
 std::uint32_t error_bits_of(const Error& error, Refusal refusal, const Engine& engine) {
     const bool moves = (engine.status() & (status_bit("BUSY") | status_bit("INTERNAL_BUSY"))) != 0;
-    if (error.trouble == Trouble::refused && refusal == Refusal::rejected) return error_bit("REJECTED");
-    if (error.trouble == Trouble::refused && refusal == Refusal::busy && moves) return error_bit("BUSY");
+    if (error.trouble == ErrorKind::refused && refusal == Refusal::rejected) return error_bit("REJECTED");
+    if (error.trouble == ErrorKind::refused && refusal == Refusal::busy && moves) return error_bit("BUSY");
     return error_bits_of(error.trouble);
 }
 
 Result<void> ControlCommand::check(std::span<const double> parameters) const {
     const std::span<const ControlParam> wanted = params();
     if (parameters.size() != wanted.size())
-        return fail(Trouble::refused, fmt::format("{} has {} parameters, not {}; nothing was done", name, wanted.size(),
-                                                  parameters.size()));
+        return fail(ErrorKind::refused, fmt::format("{} has {} parameters, not {}; nothing was done", name,
+                                                    wanted.size(), parameters.size()));
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const ControlParam& param = wanted[i];
         MOTIONRACK_CHECK(check_parameter(name, param.name, parameters[i], param.least, param.greatest, param.unit));
         if (param.whole && parameters[i] != std::floor(parameters[i]))
-            return fail(Trouble::refused, fmt::format("{}: {} is {}, but must be whole; nothing was changed", name,
-                                                      param.name, parameters[i]));
+            return fail(ErrorKind::refused, fmt::format("{}: {} is {}, but must be whole; nothing was changed", name,
+                                                        param.name, parameters[i]));
     }
     return {};
 }

@@ -10,11 +10,11 @@ namespace motionrack::rtc5 {
 
 Result<void> check(const Settings& s) {
     if (s.list_memory < least_list_memory || s.list_memory > greatest_list_memory)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("a list memory of {} positions is outside {} to {}; nothing was changed", s.list_memory,
                                 least_list_memory, greatest_list_memory));
     if (s.list1 < 1 || s.list2 < 0 || s.list1 > s.list_memory - s.list2)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("lists of {} and {} positions do not fit a memory of {}; nothing was changed. List 1 "
                                 "takes 1 or more, list 2 none or more",
                                 s.list1, s.list2, s.list_memory));
@@ -23,7 +23,7 @@ Result<void> check(const Settings& s) {
 
 Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
     if (state_.lists.running)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "config_list: a list is running; the memory was left as it is. Stop the list first");
     const std::int64_t rest = settings_.list_memory - std::clamp<std::int64_t>(list1, 0, settings_.list_memory);
     Settings changed = settings_;
@@ -39,8 +39,8 @@ namespace {
 
 Result<void> check_position(std::int64_t position) {
     if (position >= 0 && position < greatest_list_memory) return {};
-    return fail(Trouble::refused, fmt::format("the list position {} is outside 0 to {}; nothing was changed", position,
-                                              greatest_list_memory - 1));
+    return fail(ErrorKind::refused, fmt::format("the list position {} is outside 0 to {}; nothing was changed",
+                                                position, greatest_list_memory - 1));
 }
 
 /// Hash of a command at its place; 0 where nothing was put.
@@ -95,8 +95,8 @@ void Engine::open(std::int64_t input, std::int64_t end) {
 Result<void> Engine::load_sub(std::uint32_t index) {
     Lists& l = state_.lists;
     if (index >= subroutine_count)
-        return fail(Trouble::refused, fmt::format("load_sub: there is no subroutine {}; 0 to {}. Nothing was changed",
-                                                  index, subroutine_count - 1));
+        return fail(ErrorKind::refused, fmt::format("load_sub: there is no subroutine {}; 0 to {}. Nothing was changed",
+                                                    index, subroutine_count - 1));
     open(l.begin[2] + l.list3_used, l.begin[3]);
     l.loading = index + 1;
     return {};
@@ -125,14 +125,15 @@ Result<void> Engine::put(const Command& command) {
     Lists& l = state_.lists;
     const ListCommandInfo& what = info(command.op);
     if (l.input < 0)
-        return fail(Trouble::refused, fmt::format("{}: no list is open; the command was not put into one. Open a list "
-                                                  "(load_list, set_start_list)",
-                                                  what.name));
+        return fail(ErrorKind::refused,
+                    fmt::format("{}: no list is open; the command was not put into one. Open a list "
+                                "(load_list, set_start_list)",
+                                what.name));
     if (l.input + what.positions > l.input_end)
-        return fail(Trouble::refused, fmt::format("{}: the list is full at position {}; the command was not put into "
-                                                  "it. Split the job over two lists (auto_change), or give "
-                                                  "the list more memory (config_list)",
-                                                  what.name, l.input));
+        return fail(ErrorKind::refused, fmt::format("{}: the list is full at position {}; the command was not put into "
+                                                    "it. Split the job over two lists (auto_change), or give "
+                                                    "the list more memory (config_list)",
+                                                    what.name, l.input));
     store(memory(), state_.memory_hash, l.input, command);
     for (int i = 1; i < what.positions; ++i) store(memory(), state_.memory_hash, l.input + i, {});
     l.input += what.positions;
@@ -160,10 +161,10 @@ Result<void> Engine::execute_at(std::int64_t position) {
     Lists& l = state_.lists;
     if (l.running || l.moving_alone)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             "execute_list: a list is running, or the card moves; nothing was started. Wait until it is not busy");
     if (position < 0 || position >= l.begin[3])
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("execute_at_pointer: position {} is outside 0 to {}; nothing was started", position,
                                 l.begin[3] - 1));
     l.running = 1;
@@ -249,7 +250,7 @@ void Engine::restart_list() {
 
 Result<void> Engine::goto_xy(double x, double y) {
     if (state_.lists.running || state_.activity.kind != ActivityKind::none)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     "goto_xy: a list is running, or the card moves; nothing was moved. Wait until it is not busy");
     MOTIONRACK_TRY(const Command jump, list_command(Op::jump_abs, {x, y}));
     jump_to({jump.p[0], jump.p[1]});

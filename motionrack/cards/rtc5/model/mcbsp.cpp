@@ -28,16 +28,17 @@ bool McBsp::goes_to(int location) const {
 
 Result<std::int32_t> McBsp::read(int location) const {
     if (location < 0 || location > 3)
-        return fail(Trouble::refused, fmt::format("read_mcbsp: No is {}, outside 0 to 3; nothing was done", location));
+        return fail(ErrorKind::refused,
+                    fmt::format("read_mcbsp: No is {}, outside 0 to 3; nothing was done", location));
     if (filled >> location & 1) return memory[static_cast<std::size_t>(location)];
     if (!goes_to(location))
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("read_mcbsp: nothing was ever put into location {}, so there is nothing to read; "
                                 "first give {}",
                                 location, commands_before_reading[static_cast<std::size_t>(location)]));
-    if (!received) return fail(Trouble::refused, fmt::format("read_mcbsp: {}", no_word_yet));
+    if (!received) return fail(ErrorKind::refused, fmt::format("read_mcbsp: {}", no_word_yet));
     return fail(
-        Trouble::refused,
+        ErrorKind::refused,
         fmt::format("read_mcbsp: location {} gets its first word in the next 10 us; let time pass first", location));
 }
 

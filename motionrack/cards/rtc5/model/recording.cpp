@@ -84,20 +84,20 @@ std::int32_t Engine::value_of(const SignalInfo& s) const {
 
 Result<std::int32_t> Engine::get_value(std::uint32_t signal) const {
     if (const SignalInfo* const info = signal_info(signal)) return value_of(*info);
-    return fail(Trouble::refused,
+    return fail(ErrorKind::refused,
                 fmt::format("get_value: the card has no signal of the number {}; nothing was read", signal));
 }
 
 Result<void> Engine::set_mcbsp_out(std::span<const std::uint32_t> signals) {
     Sender sender{static_cast<std::int64_t>(signals.size()), state_.tick};
     if (signals.size() > sender.signals.size())
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("set_mcbsp_out: {} signals, but at most {} are sent in turn; nothing was changed",
                                 signals.size(), sender.signals.size()));
     for (std::size_t i = 0; i < signals.size(); ++i) {
         if (signal_info(signals[i]) == nullptr)
             return fail(
-                Trouble::refused,
+                ErrorKind::refused,
                 fmt::format("set_mcbsp_out: the card has no signal of the number {}; nothing was changed", signals[i]));
         sender.signals[i] = signals[i];
     }

@@ -112,7 +112,7 @@ Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode)
 
 Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
     if (!std::isfinite(scale_x) || !std::isfinite(scale_y) || !std::isfinite(resolution))
-        return fail(Trouble::refused, "set_mcbsp_x, _y, _rot: a scale is no number; nothing was changed");
+        return fail(ErrorKind::refused, "set_mcbsp_x, _y, _rot: a scale is no number; nothing was changed");
     McBsp& m = state_.mcbsp;
     m.online_x = scale_x != 0, m.online_y = scale_y != 0, m.online_rot = std::abs(resolution) >= least_resolution;
     m.online_scale_x = scale_x, m.online_scale_y = scale_y, m.online_resolution = resolution;
@@ -153,7 +153,7 @@ void Engine::set_online(std::size_t which, double value) {
 
 Result<std::int32_t> Engine::get_mcbsp() {
     McBsp& m = state_.mcbsp;
-    if (!m.received) return fail(Trouble::refused, fmt::format("get_mcbsp: {}", no_word_yet));
+    if (!m.received) return fail(ErrorKind::refused, fmt::format("get_mcbsp: {}", no_word_yet));
     m.put(0, static_cast<std::int32_t>(static_cast<std::uint32_t>(m.word)));
     return m.memory[0];
 }

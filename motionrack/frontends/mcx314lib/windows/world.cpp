@@ -45,7 +45,7 @@ std::string_view card_in(std::string_view line) {
 }
 
 tl::unexpected<Error> wrong(std::string message, std::string_view file, int line) {
-    return fail(Trouble::bad_input, std::move(message), Place{line, 1}, std::string(file));
+    return fail(ErrorKind::bad_input, std::move(message), Place{line, 1}, std::string(file));
 }
 
 Result<std::vector<std::string>> read_cards(std::string_view text, std::string_view file) {
@@ -145,7 +145,7 @@ Result<void> ChipsAlone::advance(std::uint64_t ns) {
     const Duration time = nanoseconds(static_cast<std::int64_t>(std::min(ns, most_ns)));
     if (ns > most_ns || kernel_.now() > latest - time)
         return fail(
-            Trouble::refused,
+            ErrorKind::refused,
             fmt::format("{} ns are more than one call may run, or the time ends: it is {:.0f} s. Nothing was run. "
                         "Open the card again.",
                         ns, to_seconds(kernel_.now())));
@@ -166,14 +166,15 @@ Result<void> ChipsAlone::set_wire(std::string_view name, double value) {
     const sim::WireId wire =
         driven.empty() ? sim::WireId::none : kernel_.find_wire(fmt::format("{}.{}", driven.front()->name(), pin));
     if (wire == sim::WireId::none)
-        return fail(Trouble::bad_input, fmt::format("There is no wire {}; inputs are CARD.PIN, as {}.xlmtp, and estop. "
-                                                    "Nothing was done.",
-                                                    in_quotes(name), cards_.front()->name()));
+        return fail(ErrorKind::bad_input,
+                    fmt::format("There is no wire {}; inputs are CARD.PIN, as {}.xlmtp, and estop. "
+                                "Nothing was done.",
+                                in_quotes(name), cards_.front()->name()));
     if (kernel_.lazy(wire) || pin == "int_n" || pin.find("out") != std::string_view::npos)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} is an output of the card; inputs can be driven. Nothing was done.", name));
     if (!std::isnan(value) && value != 0 && value != 1)
-        return fail(Trouble::refused,
+        return fail(ErrorKind::refused,
                     fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
                                 "Nothing was done.",
                                 name, value));
