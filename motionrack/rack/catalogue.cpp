@@ -138,7 +138,7 @@ class Mcx314Card final : public MotionCard {
         group_trusted_.fill(false);
         return library_over(port_, port_);
     }
-    double accel_reserve() const override { return mcx314::Axes::accel_reserve; }
+    double accel_reserve() const override { return mcx314::ChipAxisGroup::accel_reserve; }
     double jump_hz(const RackConfig& config) const override {
         // A ramp changes the rate by one speed unit at a time, of the long axis or of two axes stepping together.
         return 1.5 * 8e6 / mcx314::Segmenter::best_range(axis_map(config));
@@ -231,7 +231,7 @@ class Mcx314Card final : public MotionCard {
     sim::VirtualPort port_;
     mcx314::Driver driver_;
     Duration latency_;
-    std::optional<mcx314::Axes> axes_;
+    std::optional<mcx314::ChipAxisGroup> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
     Stand before_singles_;  // when the group lost the card

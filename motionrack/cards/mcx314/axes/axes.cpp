@@ -26,11 +26,11 @@ bool wait_for_interrupt(Interrupt& host, bool brakes) {
     return false;
 }
 
-/// The queue has room behind a joint, and where a switch ahead of an axis has the chip brake within its segment: it
-/// drops the queued one then. No speed of that may be written while it brakes.
-bool are_at(Driver& driver, const Pulses4& joint, int companion) {
+/// The queue has room behind a joint, and where a switch ahead of an axis has the chip decelerate within its segment:
+/// it drops the queued one then. No speed of that may be written while it brakes.
+bool are_at(Driver& driver, const Pulses4& joint, int auxiliary) {
     for (int c = 0; c < channel_count; ++c) {
-        if (c == companion) continue;
+        if (c == auxiliary) continue;
         if (std::llabs(joint[static_cast<std::size_t>(c)] - driver.ReadLPS(c)) > pulses_past_joint) return false;
     }
     return true;
@@ -38,10 +38,10 @@ bool are_at(Driver& driver, const Pulses4& joint, int companion) {
 
 }  // namespace
 
-Axes::Axes(Driver& driver, const AxisMap& map, const HostTimes& host)
+ChipAxisGroup::ChipAxisGroup(Driver& driver, const AxisMap& map, const HostTimes& host)
     : driver_(driver), map_(map), host_(host), rule_(map, host), range_(Segmenter::best_range(map)) {}
 
-Result<void> Axes::set_up(const control::Point& position) {
+Result<void> ChipAxisGroup::set_up(const control::Point& position) {
     MOTIONRACK_CHECK(prepare_chip(driver_));
     const Pulses4 at = map_.pulses(position);
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
@@ -55,7 +55,7 @@ Result<void> Axes::set_up(const control::Point& position) {
     return {};
 }
 
-Result<void> Axes::begin() {
+Result<void> ChipAxisGroup::begin() {
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
     notes_ = take_path_warnings();
     segmenter_.emplace(map_, range_, expected_, host_);
@@ -63,18 +63,18 @@ Result<void> Axes::begin() {
     last_block_ = -2;
     segments_ = 0;
     chain_running_ = false;
-    companion_ = -1;
+    auxiliary_ = -1;
     driver_.WriteMode1(xyzu, field("WR1", "DEND").mask);
     clear_interrupts();
     return {};
 }
 
-Result<void> Axes::follow(const control::PlannedMove& move) {
+Result<void> ChipAxisGroup::follow(const control::PlannedMove& move) {
     segmenter_->add(move);
     return play_ready(1);
 }
 
-Result<void> Axes::finish() {
+Result<void> ChipAxisGroup::finish() {
     segmenter_->finish();
     MOTIONRACK_CHECK(play_ready(0));
     MOTIONRACK_CHECK(wait_for_standstill());
@@ -82,7 +82,7 @@ Result<void> Axes::finish() {
     return {};
 }
 
-Result<void> Axes::play_ready(std::size_t keep) {
+Result<void> ChipAxisGroup::play_ready(std::size_t keep) {
     while (segmenter_->ready() > keep) {
         const Segment segment = (*segmenter_)[0];
         segmenter_->pop();
@@ -91,7 +91,7 @@ Result<void> Axes::play_ready(std::size_t keep) {
     return {};
 }
 
-Result<void> Axes::play(const Segment& segment) {
+Result<void> ChipAxisGroup::play(const Segment& segment) {
     if (segment.kind == SegmentKind::pause) return play_pause(segment);
     if (segment.starts_chain || !chain_running_) {
         MOTIONRACK_CHECK(wait_for_standstill());
@@ -108,7 +108,7 @@ Result<void> Axes::play(const Segment& segment) {
     return {};
 }
 
-Result<void> Axes::play_pause(const Segment& segment) {
+Result<void> ChipAxisGroup::play_pause(const Segment& segment) {
     MOTIONRACK_CHECK(wait_for_standstill());
     starts_.push_back({segment.block, segment.line, driver_.interrupt().now()});
     last_block_ = segment.block;
@@ -123,7 +123,7 @@ Result<void> Axes::play_pause(const Segment& segment) {
 
 // ---- chains
 
-Result<void> Axes::start_chain(const Segment& segment) {
+Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
     s_curve_ = segment.s_curve;
     even_ = segment.even;
@@ -147,7 +147,7 @@ Result<void> Axes::start_chain(const Segment& segment) {
 
 /// Puts the segment behind the running one. If the host came too late, the chip stands at the joint and it starts from
 /// there.
-Result<void> Axes::queue(const Segment& segment) {
+Result<void> ChipAxisGroup::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
     if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
@@ -157,14 +157,14 @@ Result<void> Axes::queue(const Segment& segment) {
 }
 
 /// The chip stood before it had this segment.
-void Axes::tell_late(const Segment& segment) {
+void ChipAxisGroup::tell_late(const Segment& segment) {
     const Instant now = driver_.interrupt().now();
     notes_.push_back({segment.line, "", 0, to_seconds(std::max<Duration>(host_.access, now - runs_until_)),
                       std::min(now, runs_until_)});
     clear_interrupts();
 }
 
-Result<void> Axes::command(const Segment& segment) {
+Result<void> ChipAxisGroup::command(const Segment& segment) {
     driver_.SetInterpolationAxes(segment.axes[0], segment.axes[1], segment.axis_count > 2 ? segment.axes[2] : -1,
                                  segment.constant_vector, true);
     if (segment.kind == SegmentKind::line) {
@@ -178,12 +178,12 @@ Result<void> Axes::command(const Segment& segment) {
 }
 
 /// Until the queued segment is driven.
-Result<void> Axes::wait_for_joint(const Segment& queued) {
+Result<void> ChipAxisGroup::wait_for_joint(const Segment& queued) {
     bool woken = false;
     for (bool first = true;; first = false) {
         const MainStatus status = driver_.status();
         if (status.can_queue()) {
-            if (status.error(xyzu) && !are_at(driver_, expected_, companion_)) return stopped_by_machine();
+            if (status.error(xyzu) && !are_at(driver_, expected_, auxiliary_)) return stopped_by_machine();
             // What is driven at once may have begun from rest: the chip may have stood when the last word came.
             if (first && (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) != 0) tell_late(queued);
             return {};
@@ -194,18 +194,18 @@ Result<void> Axes::wait_for_joint(const Segment& queued) {
             return {};
         }
         if (std::exchange(woken, false)) {
-            // Something else woke us, a companion's end. What was cleared with it may have been the room in the queue.
+            // Something else woke us, a auxiliary's end. What was cleared with it may have been the room in the queue.
             clear_interrupts();
             continue;
         }
         const bool brakes = driver_.interrupt().stop_requested();
-        if (brakes) MOTIONRACK_CHECK(brake());
-        // The next piece is queued as soon as there is room for it, while the axes brake too.
+        if (brakes) MOTIONRACK_CHECK(decelerate());
+        // The next piece is queued as soon as there is room for it, while the axes decelerate too.
         woken = wait_for_interrupt(driver_.interrupt(), brakes);
     }
 }
 
-Result<void> Axes::write_speed(const Segment& segment) {
+Result<void> ChipAxisGroup::write_speed(const Segment& segment) {
     const unsigned own = 1u << generator_;
     rest_speed_ = segment.rest_speed;
     const std::int32_t speed = braking_ ? std::min(segment.speed, rest_speed_) : segment.speed;
@@ -215,7 +215,7 @@ Result<void> Axes::write_speed(const Segment& segment) {
     return write_acceleration(braking_ ? segment.braking : segment.acceleration);
 }
 
-Result<void> Axes::write_acceleration(std::int32_t acceleration) {
+Result<void> ChipAxisGroup::write_acceleration(std::int32_t acceleration) {
     if (acceleration != written_acceleration_) MOTIONRACK_CHECK(driver_.SetA(1u << generator_, acceleration));
     written_acceleration_ = acceleration;
     return {};
@@ -224,7 +224,7 @@ Result<void> Axes::write_acceleration(std::int32_t acceleration) {
 /// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the
 /// speed is written down, segments go on being queued, and the command comes when it has fallen. One look at it; the
 /// S-curve's stop fits into its line, and pieces of a ride go on until the ride has slowed down.
-Result<void> Axes::brake() {
+Result<void> ChipAxisGroup::decelerate() {
     if (even_) return {};
     if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
     if (!braking_ && written_speed_ > rest_speed_) {
@@ -237,7 +237,7 @@ Result<void> Axes::brake() {
     return {};
 }
 
-Result<void> Axes::begin_segment(const Segment& segment) {
+Result<void> ChipAxisGroup::begin_segment(const Segment& segment) {
     if (segment.block != last_block_) starts_.push_back({segment.block, segment.line, driver_.interrupt().now()});
     last_block_ = segment.block;
     current_line_ = segment.line;
@@ -246,32 +246,32 @@ Result<void> Axes::begin_segment(const Segment& segment) {
     runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_));
     running_speed_ = segment.speed;
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
-    if (segment.companion_channel >= 0) MOTIONRACK_CHECK(steer_companion(segment));
+    if (segment.companion_channel >= 0) MOTIONRACK_CHECK(update_auxiliary_velocity(segment));
     return {};
 }
 
-Result<void> Axes::wait_until_all_stand() {
+Result<void> ChipAxisGroup::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
         if (!status.driving(xyzu) && !status.interpolating()) break;
         // The path was ended by a switch or an alarm; a fourth axis has not heard of it.
         if (!status.interpolating() && status.error(xyzu)) driver_.SlowStop(xyzu);
         const bool brakes = driver_.interrupt().stop_requested();
-        if (brakes) MOTIONRACK_CHECK(brake());
+        if (brakes) MOTIONRACK_CHECK(decelerate());
         if (wait_for_interrupt(driver_.interrupt(), brakes)) clear_interrupts();
     }
     clear_interrupts();
     return {};
 }
 
-Result<void> Axes::wait_for_standstill() {
+Result<void> ChipAxisGroup::wait_for_standstill() {
     chain_running_ = false;
     MOTIONRACK_CHECK(wait_until_all_stand());
-    if (companion_ >= 0) {
+    if (auxiliary_ >= 0) {
         MOTIONRACK_CHECK(finish_companion());
         MOTIONRACK_CHECK(wait_until_all_stand());
     }
-    companion_ = -1;
+    auxiliary_ = -1;
     for (int c = 0; c < channel_count; ++c)
         if (driver_.ReadLPS(c) != expected_[static_cast<std::size_t>(c)]) return stopped_by_machine();
     return {};
@@ -279,7 +279,7 @@ Result<void> Axes::wait_for_standstill() {
 
 // ---- stops
 
-void Axes::stop(bool immediate) {
+void ChipAxisGroup::stop(bool immediate) {
     if (immediate)
         driver_.QuickStop(xyzu);
     else
@@ -288,12 +288,12 @@ void Axes::stop(bool immediate) {
     if (segmenter_) segmenter_.emplace(map_, range_, expected_, host_);
 }
 
-void Axes::clear_interrupts() {
+void ChipAxisGroup::clear_interrupts() {
     for (int c = 0; c < channel_count; ++c) driver_.read_interrupts(c);
     driver_.ClearInterpolationInterrupt();
 }
 
-tl::unexpected<Error> Axes::stopped_by_machine() {
+tl::unexpected<Error> ChipAxisGroup::stopped_by_machine() {
     driver_.SlowStop(xyzu);
     while (driver_.status().driving(xyzu)) driver_.interrupt().pass(microseconds(100));
     std::string why;
@@ -312,7 +312,7 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
                 {current_line_, 1});
 }
 
-tl::unexpected<Error> Axes::stopped_by_user() {
+tl::unexpected<Error> ChipAxisGroup::stopped_by_user() {
     braking_ = false;
     driver_.SlowStop(xyzu);
     while (driver_.status().driving(xyzu)) driver_.interrupt().pass(microseconds(100));
@@ -322,14 +322,14 @@ tl::unexpected<Error> Axes::stopped_by_user() {
 
 // ---- looking
 
-control::Point Axes::commanded_position() {
+control::Point ChipAxisGroup::commanded_position() {
     control::Point out = {};
     for (std::size_t i = 0; i < map_.channel.size(); ++i)
         if (map_.channel[i] >= 0) out[i] = driver_.ReadLPS(map_.channel[i]) / map_.limits[i].pulses_per_unit;
     return out;
 }
 
-std::vector<control::PathWarning> Axes::take_path_warnings() {
+std::vector<control::PathWarning> ChipAxisGroup::take_path_warnings() {
     std::vector<control::PathWarning> out = std::exchange(notes_, {});
     if (segmenter_)
         for (control::PathWarning& note : segmenter_->take_path_warnings()) out.push_back(std::move(note));

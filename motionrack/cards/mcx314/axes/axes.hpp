@@ -20,14 +20,14 @@
 
 namespace motionrack::mcx314 {
 
-class Axes final : public control::AxisGroup {
+class ChipAxisGroup final : public control::AxisGroup {
   public:
     /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are
     /// whole numbers.
     static constexpr double accel_reserve = 0.03;
 
     /// The driver must outlive this.
-    Axes(Driver& driver, const AxisMap& map, const HostTimes& host);
+    ChipAxisGroup(Driver& driver, const AxisMap& map, const HostTimes& host);
 
     /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software
     /// limits at the travel, encoders x4, positions as given (mm, degrees).
@@ -64,7 +64,7 @@ class Axes final : public control::AxisGroup {
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
     Result<void> wait_for_joint(const Segment& queued);
-    Result<void> brake();
+    Result<void> decelerate();
     Result<void> wait_for_standstill();
     Result<void> write_speed(const Segment& segment);
     Result<void> write_acceleration(std::int32_t acceleration);
@@ -72,7 +72,7 @@ class Axes final : public control::AxisGroup {
     Result<void> begin_segment(const Segment& segment);
     Result<void> wait_until_all_stand();
     Result<void> take_companion(int channel, std::int64_t at);
-    Result<void> steer_companion(const Segment& segment);
+    Result<void> update_auxiliary_velocity(const Segment& segment);
     Result<void> steer_evenly(const Segment& segment, bool driving, std::int64_t at);
     std::int32_t companion_speed(double v) const;
     Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
@@ -111,8 +111,8 @@ class Axes final : public control::AxisGroup {
     unsigned probe_channels_ = 0;
     bool probing_ = false;
     std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed
-    // The companion's present drive.
-    int companion_ = -1;
+    // The auxiliary's present drive.
+    int auxiliary_ = -1;
     std::int32_t companion_start_speed_ = 1;  ///< SV, A and the greatest V that it drives with
     std::int32_t companion_acceleration_ = 1;
     std::int32_t companion_top_speed_ = 1;

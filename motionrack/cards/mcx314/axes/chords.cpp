@@ -50,24 +50,24 @@ double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
     return std::max(tolerated_angle(map, path.radius), shortest_angle(map, path)) / 2;
 }
 
-void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
+void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
     const double count = chords_of(map_, work.path, work.move.cruise, least_seconds_);
     const double half = arc ? std::fabs(work.path.sweep) / count / 2 : 0;
     const double deviation = arc ? work.path.radius * (1 - sin_cos(half).cos) : 0;
-    if (work.companion >= 0)
+    if (work.auxiliary >= 0)
         note_split(
             work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator",
             deviation);
     else
         note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
     const double step = work.path.length / count;
-    // A companion is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can
+    // A auxiliary is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can
     // follow.
     const double top_speed = work.move.cruise,
-                 accel = work.companion >= 0 ? companion_share * work.move.accel : work.move.accel;
-    // First the speeds that the limits allow, from the start; then, from the end, what the chip can brake: the basic
-    // pulses for a mm change from chord to chord, so this is counted in the chip's own pulses and speed units.
+                 accel = work.auxiliary >= 0 ? companion_share * work.move.accel : work.move.accel;
+    // First the speeds that the limits allow, from the start; then, from the end, what the chip can decelerate: the
+    // basic pulses for a mm change from chord to chord, so this is counted in the chip's own pulses and speed units.
     struct Chord {
         double to = 0;
         Pulses4 at = {};
@@ -86,7 +86,7 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
         const double next =
             arc && !last ? units_along(work, control::tangent_at(work.path, chord.to + step / 2)) : units;
         const double raised =
-            work.companion >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * chord.to) : top_speed;
+            work.auxiliary >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * chord.to) : top_speed;
         chord.v = speed_units(std::min(units, next), std::min(top_speed, raised));
         chord.acceleration = acceleration_units(std::max(units, units_before), work.move.accel);
         units_before = units;
@@ -96,7 +96,7 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
         const Chord& after = chords[i];
         const Pulses4 way = way_between(work, chords[i - 1].at, after.at);
         const std::int64_t pulses = basic_pulses(way);
-        const double share = work.companion >= 0 ? companion_share : 1;
+        const double share = work.auxiliary >= 0 ? companion_share : 1;
         // V units squared; less the steps of whole units and the register accesses before the new speed counts.
         const double slope = rules::rate_unit * after.acceleration * share,
                      spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
@@ -111,17 +111,17 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     add_rest(work, speeds);
 }
 
-/// What is left of a companion after the last pulse of the others belongs to their last piece.
-void Segmenter::add_rest(const Work& work, const Speeds& speeds) {
+/// What is left of a auxiliary after the last pulse of the others belongs to their last piece.
+void Segmenter::add_rest(const PendingMove& work, const Speeds& speeds) {
     if (at_ == work.to) return;
-    const auto c = static_cast<std::size_t>(std::max(0, work.companion));
-    if (work.companion >= 0 && chain_open_ && !ready_.empty() && ready_.back().companion_channel == work.companion) {
+    const auto c = static_cast<std::size_t>(std::max(0, work.auxiliary));
+    if (work.auxiliary >= 0 && chain_open_ && !ready_.empty() && ready_.back().companion_channel == work.auxiliary) {
         ready_.back().companion_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
         at_[c] = work.to[c];
         return;
     }
-    Work alone = work;
-    alone.companion = -1;
+    PendingMove alone = work;
+    alone.auxiliary = -1;
     emit_line(alone, work.to, speeds.exit, speeds.acceleration);
 }
 

@@ -11,9 +11,9 @@
 
 namespace motionrack::mcx314 {
 
-/// Sets a channel up as the companion; it stands.
-Result<void> Axes::take_companion(int channel, std::int64_t at) {
-    companion_ = channel;
+/// Sets a channel up as the auxiliary; it stands.
+Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
+    auxiliary_ = channel;
     companion_target_ = companion_from_ = at;
     double acceleration = most_units, start = 1, top = most_units;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
@@ -58,7 +58,7 @@ double basic_pulses(const Segment& segment) {
 }  // namespace
 
 /// About how long the segment takes: from a V to its own, then on.
-double Axes::segment_seconds(const Segment& segment, double from) const {
+double ChipAxisGroup::segment_seconds(const Segment& segment, double from) const {
     const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
     const double v0 = std::max(1.0, from), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
@@ -67,10 +67,10 @@ double Axes::segment_seconds(const Segment& segment, double from) const {
     return 2 * length / (v0 + end);
 }
 
-Result<void> Axes::steer_companion(const Segment& segment) {
+Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
     const int c = segment.companion_channel;
     const std::int64_t at = driver_.ReadLPS(c);
-    if (companion_ != c) MOTIONRACK_CHECK(take_companion(c, at));
+    if (auxiliary_ != c) MOTIONRACK_CHECK(take_companion(c, at));
     companion_target_ += segment.companion_pulses;
     expected_[static_cast<std::size_t>(c)] = companion_target_;
     const bool driving = driver_.status().driving(1u << c);
@@ -93,21 +93,21 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     return driver_.SetV(1u << c, v);
 }
 
-std::int32_t Axes::companion_speed(double v) const {
+std::int32_t ChipAxisGroup::companion_speed(double v) const {
     return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(companion_top_speed_)));
 }
 
 /// Its speed changes as evenly as theirs: to what the plan has at the segment's end, and by as much more as it lacks
 /// pulses. The ride slows down for its rests, so the chip need not. One that is too fast for its place stands a little
 /// beyond it, and comes back when all stand.
-Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
-    const unsigned axis = 1u << companion_;
+Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
+    const unsigned axis = 1u << auxiliary_;
     if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
     const int direction = companion_negative_ ? -1 : 1;
-    const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(companion_, direction);
+    const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(auxiliary_, direction);
     const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * companion_acceleration_,
                  start = companion_start_speed_;
-    const double from = driving ? driver_.ReadCV(companion_) : start;
+    const double from = driving ? driver_.ReadCV(auxiliary_) : start;
     const auto left = static_cast<double>(direction * (companion_target_ - at));
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
     const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
@@ -134,7 +134,7 @@ Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64
 }
 
 /// The pulse from which its speed must fall to have the start speed at the end.
-std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v) const {
+std::int64_t ChipAxisGroup::companion_fall_from(std::int64_t pulses, std::int32_t v) const {
     const std::int64_t all = std::llabs(pulses);
     if (v <= companion_start_speed_) return all;
     const double top = v, low = companion_start_speed_;
@@ -143,8 +143,8 @@ std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v) cons
 }
 
 /// From where it stands.
-Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
-    const unsigned axis = 1u << companion_;
+Result<void> ChipAxisGroup::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
+    const unsigned axis = 1u << auxiliary_;
     const std::int64_t pulses = to - from;
     if (pulses == 0) return {};
     companion_from_ = from;
@@ -158,14 +158,14 @@ Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int3
 }
 
 /// The others stand and it does: what it still lacks.
-Result<void> Axes::finish_companion() {
-    const std::int64_t at = driver_.ReadLPS(companion_);
+Result<void> ChipAxisGroup::finish_companion() {
+    const std::int64_t at = driver_.ReadLPS(auxiliary_);
     if (driver_.status().error(xyzu)) return {};  // what has ended the path has ended it for all
-    const std::int64_t target = expected_[static_cast<std::size_t>(companion_)];
+    const std::int64_t target = expected_[static_cast<std::size_t>(auxiliary_)];
     const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
     const double half =
         0.5 * static_cast<double>(std::llabs(target - at)) * range_ / rules::clock_hz;  // V units * seconds
-    MOTIONRACK_CHECK(driver_.SetA(1u << companion_, companion_acceleration_));
+    MOTIONRACK_CHECK(driver_.SetA(1u << auxiliary_, companion_acceleration_));
     return drive_companion(at, target, companion_speed(std::sqrt(start * start + 2 * slope * half)));
 }
 

@@ -13,11 +13,11 @@ constexpr double spent_pulses = 0.6;
 
 }  // namespace
 
-/// Without its companion's.
-Pulses4 Segmenter::way_between(const Work& work, const Pulses4& from, const Pulses4& to) {
+/// Without its auxiliary's.
+Pulses4 Segmenter::way_between(const PendingMove& work, const Pulses4& from, const Pulses4& to) {
     Pulses4 way = {};
     for (std::size_t c = 0; c < way.size(); ++c)
-        if (static_cast<int>(c) != work.companion) way[c] = to[c] - from[c];
+        if (static_cast<int>(c) != work.auxiliary) way[c] = to[c] - from[c];
     return way;
 }
 
@@ -30,7 +30,7 @@ std::int64_t Segmenter::basic_pulses(const Pulses4& way) {
 
 /// Where the path turns round it is slow, but less slow than planned by half a pulse: it stands there, or the speed
 /// would jump twice.
-void Segmenter::look_at_next(Work& work, const Work& next) const {
+void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
     const Pulses4 way = way_between(next, work.to, next.to);
     work.most_at_end = most_on(way, false).speed;
     double along = 0;
@@ -41,7 +41,7 @@ void Segmenter::look_at_next(Work& work, const Work& next) const {
 
 /// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the
 /// basic pulses for a mm change from piece to piece too.
-void Segmenter::make_even(const Work& work, Speeds& speeds) {
+void Segmenter::make_even(const PendingMove& work, Speeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
     const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
     const Pulses4 way = way_between(work, at_, work.to);

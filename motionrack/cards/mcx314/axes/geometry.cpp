@@ -44,7 +44,7 @@ Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8
         scale = std::max(scale, map.limits[i].pulses_per_unit);
         least = std::min(least, map.limits[i].pulses_per_unit);
     }
-    out.companion = moving > 3 ? last : -1;
+    out.auxiliary = moving > 3 ? last : -1;
     out.constant_vector = moving == 2 && !rotary && !beside_plane && scale - least <= 1e-9 * scale;
     return out;
 }
@@ -52,7 +52,7 @@ Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8
 double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent) {
     double most = 0, second = 0;
     for (std::size_t i = 0; i < tangent.size(); ++i) {
-        if (map.channel[i] < 0 || map.channel[i] == drawing.companion) continue;
+        if (map.channel[i] < 0 || map.channel[i] == drawing.auxiliary) continue;
         const double rate = std::fabs(tangent[i]) * map.limits[i].pulses_per_unit;
         second = std::max(second, std::min(most, rate));
         most = std::max(most, rate);

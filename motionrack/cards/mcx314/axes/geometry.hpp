@@ -36,11 +36,11 @@ struct AxisMap {
 };
 
 /// Basic pulses of the chip for one mm (degree) along `tangent` of a path, of which the axes in `path` move: the long
-/// axis gives them, with constant vector speed a pulse of two axes counts 1.414. `companion`: a fourth moving axis that
+/// axis gives them, with constant vector speed a pulse of two axes counts 1.414. `auxiliary`: a fourth moving axis that
 /// is not interpolated, -1: none.
 struct Drawing {
     bool constant_vector = false;
-    int companion = -1;         ///< channel
+    int auxiliary = -1;         ///< channel
     std::uint8_t channels = 0;  ///< that move, a bit each
 };
 /// `axes`: those that may move, a bit each; 0: those that do.

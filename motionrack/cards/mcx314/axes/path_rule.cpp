@@ -13,8 +13,8 @@ namespace motionrack::mcx314 {
 double PathRule::max_junction_velocity(const control::Geometry& before, const control::Geometry& after) const {
     // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one
     // drive only.
-    const int steered = drawing_of(map_, before).companion;
-    if (steered != drawing_of(map_, after).companion) return 0;
+    const int steered = drawing_of(map_, before).auxiliary;
+    if (steered != drawing_of(map_, after).auxiliary) return 0;
     // And before it turns round: its drive ends, and a new one begins.
     for (std::size_t i = 0; steered >= 0 && i < map_.channel.size(); ++i)
         if (map_.channel[i] == steered && before.tangent_out[i] * after.tangent_in[i] <= 0) return 0;

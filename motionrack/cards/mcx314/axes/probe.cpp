@@ -18,7 +18,7 @@ constexpr int probe_input = 3;
 
 }  // namespace
 
-Result<control::ProbeResult> Axes::probe(const control::PlannedMove& move, bool release) {
+Result<control::ProbeResult> ChipAxisGroup::probe(const control::PlannedMove& move, bool release) {
     MOTIONRACK_CHECK(check_probe(release));
     MOTIONRACK_CHECK(arm_probe(release));
     probing_ = true;
@@ -41,16 +41,16 @@ Result<control::ProbeResult> Axes::probe(const control::PlannedMove& move, bool 
 }
 
 /// The path goes on where the axes stand, not where the move was to end.
-void Axes::go_on_from_here() {
+void ChipAxisGroup::go_on_from_here() {
     starts_.push_back({-1, current_line_, driver_.interrupt().now()});
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
     notes_ = take_path_warnings();
-    const std::int32_t block = segmenter_->next_block();
+    const std::int32_t block = segmenter_->next_move();
     segmenter_.emplace(map_, range_, expected_, host_);
     segmenter_->count_from(block);
 }
 
-Result<void> Axes::check_probe(bool release) {
+Result<void> ChipAxisGroup::check_probe(bool release) {
     unsigned used = 0;
     for (const int channel : map_.channel)
         if (channel >= 0) used |= 1u << channel;
@@ -74,7 +74,7 @@ Result<void> Axes::check_probe(bool release) {
 }
 
 /// Every axis at the probe saves its own LP; before, each saves it once by command, so that a change tells of the edge.
-Result<void> Axes::arm_probe(bool release) {
+Result<void> ChipAxisGroup::arm_probe(bool release) {
     const auto save = field("SM7", "LPSAV").mask;
     MOTIONRACK_CHECK(
         driver_.SetStopInput(probe_channels_, probe_input, release ? StopInput::at_low : StopInput::at_high));
@@ -86,19 +86,19 @@ Result<void> Axes::arm_probe(bool release) {
     return driver_.SetSynchronous(probe_channels_, edge, save);
 }
 
-Result<void> Axes::disarm_probe() {
+Result<void> ChipAxisGroup::disarm_probe() {
     MOTIONRACK_CHECK(driver_.SetSynchronous(probe_channels_, 0, 0));
     return driver_.SetStopInput(probe_channels_, probe_input, StopInput::off);
 }
 
-bool Axes::probe_hit() {
+bool ChipAxisGroup::probe_hit() {
     for (int c = 0; c < channel_count; ++c)
         if ((probe_channels_ >> c & 1) != 0 && driver_.ReadBR(c) != saved_before_[static_cast<std::size_t>(c)])
             return true;
     return false;
 }
 
-bool Axes::stopped_by_other() {
+bool ChipAxisGroup::stopped_by_other() {
     for (int c = 0; c < channel_count; ++c) {
         const AxisStatus status = driver_.axis_status(c);
         if (status.at_limit() || status.alarm() || status.emergency()) return true;

@@ -14,8 +14,8 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// The planner keeps a little of each axis' acceleration back (Axes::accel_reserve); this much of it is given to the
-// chip, so that its whole-number steps are never slower than the plan.
+// The planner keeps a little of each axis' acceleration back (ChipAxisGroup::accel_reserve); this much of it is given
+// to the chip, so that its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_write_speed = 8;
@@ -48,7 +48,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
       at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {
-    Work work = classify(move);
+    PendingMove work = classify(move);
     if (waiting_ && work.move.even) look_at_next(*waiting_, work);
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
     // A move's start is where the one before it really ends, which only emit knows.
@@ -62,8 +62,8 @@ void Segmenter::finish() {
 
 // ---- what a move is
 
-Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
-    Work work;
+Segmenter::PendingMove Segmenter::classify(const control::PlannedMove& move) {
+    PendingMove work;
     work.move = move;
     work.block = next_block_++;
     work.path = control::geometry_of(move.move, move.start);
@@ -73,7 +73,7 @@ Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
         return work;
     }
     const Drawing drawing = drawing_of(map_, work.path, move.axes);
-    work.companion = drawing.companion;
+    work.auxiliary = drawing.auxiliary;
     work.channels = drawing.channels;
     // From piece to piece of a ride a basic pulse must stay what it is: pulses of the longest axis.
     work.constant_vector = drawing.constant_vector && !move.even;
@@ -86,8 +86,8 @@ Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
     return work;
 }
 
-double Segmenter::units_along(const Work& work, const control::Point& tangent) const {
-    return basic_pulses_along(map_, {work.constant_vector, work.companion}, tangent) / pulses_per_v_;
+double Segmenter::units_along(const PendingMove& work, const control::Point& tangent) const {
+    return basic_pulses_along(map_, {work.constant_vector, work.auxiliary}, tangent) / pulses_per_v_;
 }
 
 std::int32_t Segmenter::speed_units(double units, double speed) const {
@@ -109,7 +109,7 @@ double Segmenter::start_speed(const control::Point& tangent) const {
     return speed;
 }
 
-Pulses4 Segmenter::pulses_at(const Work& work, double s) const {
+Pulses4 Segmenter::pulses_at(const PendingMove& work, double s) const {
     return s >= work.path.length ? work.to : map_.pulses(control::position_at(work.path, s));
 }
 
@@ -126,7 +126,7 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
 
 /// Where a move is cut so that its second piece falls to the exit speed. Both pieces take the host's least time, or it
 /// is not cut and has the exit speed from its beginning on.
-double Segmenter::fall_from(const Work& work, double units, const Speeds& speeds) const {
+double Segmenter::fall_from(const PendingMove& work, double units, const Speeds& speeds) const {
     const double fall = fall_length(units, speeds);
     if (fall <= 0) return work.path.length;
     const double least = least_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
@@ -139,7 +139,7 @@ double Segmenter::fall_from(const Work& work, double units, const Speeds& speeds
 
 /// Whether the host can serve a piece from one place to another, by the whole pulses that it has: of a few, rounding
 /// may take one.
-bool Segmenter::leaves_time(const Work& work, double from, double to, std::int32_t v) const {
+bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const {
     const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
     const auto pulses = static_cast<double>(basic_pulses(way_between(work, begin, pulses_at(work, to))));
     return pulses >= counted_reserve / piece_reserve * least_seconds_ * v * pulses_per_v_;
@@ -147,7 +147,7 @@ bool Segmenter::leaves_time(const Work& work, double from, double to, std::int32
 
 // ---- moves to pieces
 
-void Segmenter::emit(const Work& work, std::optional<double> next_units) {
+void Segmenter::emit(const PendingMove& work, std::optional<double> next_units) {
     if (work.shape == Shape::pause) return emit_pause(work);
     const bool rests = !next_units || work.move.exit <= 0 || work.turns_back;
     if (rests && !chain_open_ && work.move.jerk > 0 && emit_s_curve(work)) return;
@@ -178,7 +178,7 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
     }
 }
 
-void Segmenter::emit_pause(const Work& work) {
+void Segmenter::emit_pause(const PendingMove& work) {
     close_chain();
     if (work.move.move.seconds <= 0) return;
     Segment segment;
@@ -195,8 +195,8 @@ void Segmenter::close_chain() {
     chain_open_ = false;
 }
 
-void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
-    if (work.companion >= 0 && !work.move.even) return emit_chords(work, speeds);
+void Segmenter::emit_straight(const PendingMove& work, const Speeds& speeds) {
+    if (work.auxiliary >= 0 && !work.move.even) return emit_chords(work, speeds);
     if (speeds.fall_from > 0) {
         const Pulses4 middle = pulses_at(work, speeds.fall_from);
         Pulses4 fall = {};
@@ -212,12 +212,12 @@ void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
 /// One S-curve from rest to rest, if the chip's ramp fits into the move and its slowest jerk is slow enough. It is the
 /// whole chain, so no axis may be left for a piece with room: a third one, which the moves before have less than a
 /// pulse each of, goes into the line too.
-bool Segmenter::emit_s_curve(const Work& planned) {
-    if (planned.shape != Shape::line || planned.companion >= 0) return false;
+bool Segmenter::emit_s_curve(const PendingMove& planned) {
+    if (planned.shape != Shape::line || planned.auxiliary >= 0) return false;
     const Pulses4 way = way_between(planned, at_, planned.to);
     const auto moving = way.size() - static_cast<std::size_t>(std::count(way.begin(), way.end(), 0));
     if (moving > 3) return false;
-    Work work = planned;
+    PendingMove work = planned;
     if (moving > 2 && work.constant_vector) {
         work.constant_vector = false;
         work.units_in = work.units_out = units_along(work, work.path.tangent_in);

@@ -38,12 +38,12 @@ class Segmenter {
     const Segment& operator[](std::size_t i) const { return ready_[i]; }
     void pop() { ready_.pop_front(); }
 
-    /// Pulses that this channel's companion has before it in the present chain, as far as they are known and go on in
+    /// Pulses that this channel's auxiliary has before it in the present chain, as far as they are known and go on in
     /// one direction: 1 or -1.
     std::int64_t companion_pulses_ahead(int channel, int direction) const;
 
     /// The number of the next planned move, from 0.
-    std::int32_t next_block() const { return next_block_; }
+    std::int32_t next_move() const { return next_block_; }
     void count_from(std::int32_t block) { next_block_ = block; }
 
     /// Notes since the last call, oldest first.
@@ -60,7 +60,7 @@ class Segmenter {
 
     enum class Shape : std::uint8_t { pause, line, chip_arc, chords };
     /// A planned move and how the chip will draw it.
-    struct Work {
+    struct PendingMove {
         control::PlannedMove move;
         control::Geometry path;
         Shape shape = Shape::line;
@@ -68,7 +68,7 @@ class Segmenter {
         double units_in = 0;   ///< V units for 1 mm/s (deg/s) at its start
         double units_out = 0;  ///< and at its end; the same unless it is made of chords
         std::int32_t block = 0;
-        std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
+        std::int32_t auxiliary = -1;  ///< channel of a fourth axis that moves beside the interpolation
         std::uint8_t channels = 0;    ///< that it moves, a bit each
         Pulses4 to = {};
         std::int32_t most_at_end = rules::most_units;  ///< V with which the piece after it may begin
@@ -83,37 +83,37 @@ class Segmenter {
     };
 
     /// In V and A units.
-    struct Most {
+    struct UnitLimits {
         std::int32_t speed = rules::most_units;
         std::int32_t acceleration = rules::most_units;
     };
 
-    Work classify(const control::PlannedMove& move);
-    void emit(const Work& work, std::optional<double> next_units);
-    static Pulses4 way_between(const Work& work, const Pulses4& from, const Pulses4& to);
+    PendingMove classify(const control::PlannedMove& move);
+    void emit(const PendingMove& work, std::optional<double> next_units);
+    static Pulses4 way_between(const PendingMove& work, const Pulses4& from, const Pulses4& to);
     static std::int64_t basic_pulses(const Pulses4& way);
-    void look_at_next(Work& work, const Work& next) const;
-    void make_even(const Work& work, Speeds& speeds);
-    void emit_pause(const Work& work);
-    bool emit_s_curve(const Work& planned);
-    void emit_straight(const Work& work, const Speeds& speeds);
-    void emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
-    bool emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
-    void emit_chords(const Work& work, const Speeds& speeds);
-    void add_rest(const Work& work, const Speeds& speeds);
-    void emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
-    std::size_t waits_for_room(const Work& work, const Pulses4& to) const;
-    void append(Segment segment, const Work& work, const Pulses4& to);
+    void look_at_next(PendingMove& work, const PendingMove& next) const;
+    void make_even(const PendingMove& work, Speeds& speeds);
+    void emit_pause(const PendingMove& work);
+    bool emit_s_curve(const PendingMove& planned);
+    void emit_straight(const PendingMove& work, const Speeds& speeds);
+    void emit_arcs(const PendingMove& work, double from, double to, std::int32_t v, std::int32_t acceleration);
+    bool emit_fitted_arc(const PendingMove& work, double from, double to, std::int32_t v, std::int32_t acceleration);
+    void emit_chords(const PendingMove& work, const Speeds& speeds);
+    void add_rest(const PendingMove& work, const Speeds& speeds);
+    void emit_line(const PendingMove& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
+    std::size_t waits_for_room(const PendingMove& work, const Pulses4& to) const;
+    void append(Segment segment, const PendingMove& work, const Pulses4& to);
     void close_chain();
-    void note_split(const Work& work, const char* why, double deviation_mm);
-    Pulses4 pulses_at(const Work& work, double s) const;
-    double units_along(const Work& work, const control::Point& tangent) const;
+    void note_split(const PendingMove& work, const char* why, double deviation_mm);
+    Pulses4 pulses_at(const PendingMove& work, double s) const;
+    double units_along(const PendingMove& work, const control::Point& tangent) const;
     double fall_length(double units, const Speeds& speeds) const;
-    double fall_from(const Work& work, double units, const Speeds& speeds) const;
-    bool leaves_time(const Work& work, double from, double to, std::int32_t v) const;
+    double fall_from(const PendingMove& work, double units, const Speeds& speeds) const;
+    bool leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
-    Most most_on(const Pulses4& way, bool constant_vector) const;
+    UnitLimits most_on(const Pulses4& way, bool constant_vector) const;
     double start_speed(const control::Point& tangent) const;
 
     AxisMap map_;
@@ -123,7 +123,7 @@ class Segmenter {
     double latency_seconds_;  ///< until a speed is written
     double least_seconds_;
     Pulses4 at_;
-    std::optional<Work> waiting_;
+    std::optional<PendingMove> waiting_;
     std::deque<Segment> ready_;
     std::vector<control::PathWarning> notes_;
     bool chain_open_ = false;

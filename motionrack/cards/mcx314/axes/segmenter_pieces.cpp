@@ -11,7 +11,7 @@
 
 namespace motionrack::mcx314 {
 
-void Segmenter::emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
+void Segmenter::emit_arcs(const PendingMove& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
     if (to <= from) return;
     // At most a third of a turn at once: no doubt which way round an end is.
     const double sweep = std::fabs(work.path.sweep) * (to - from) / work.path.length;
@@ -23,7 +23,8 @@ void Segmenter::emit_arcs(const Work& work, double from, double to, std::int32_t
     }
 }
 
-bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
+bool Segmenter::emit_fitted_arc(const PendingMove& work, double from, double to, std::int32_t v,
+                                std::int32_t acceleration) {
     int a = map_.channel[work.path.first], b = map_.channel[work.path.second];
     double centre_a = work.path.centre_first, centre_b = work.path.centre_second;
     bool clockwise = work.path.sweep < 0;
@@ -64,29 +65,29 @@ bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::i
 
 /// Of the channels with pulses before `to` the one that is left out: none that the move itself moves, if there is
 /// another one; of these the one with the fewest.
-std::size_t Segmenter::waits_for_room(const Work& work, const Pulses4& to) const {
+std::size_t Segmenter::waits_for_room(const PendingMove& work, const Pulses4& to) const {
     std::size_t out = 0;
     std::pair<bool, std::int64_t> least = {true, std::numeric_limits<std::int64_t>::max()};
     for (std::size_t c = 0; c < to.size(); ++c) {
         const std::int64_t pulses = std::llabs(to[c] - at_[c]);
-        if (pulses == 0 || static_cast<int>(c) == work.companion) continue;
+        if (pulses == 0 || static_cast<int>(c) == work.auxiliary) continue;
         const std::pair<bool, std::int64_t> one = {(work.channels >> c & 1) != 0, pulses};
         if (one < least) least = one, out = c;
     }
     return out;
 }
 
-void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration) {
+void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration) {
     std::array<int, 4> moving{};
     int count = 0;
     std::int64_t longest = 0;
     for (int c = 0; c < channel_count; ++c) {
         const std::int64_t delta = to[static_cast<std::size_t>(c)] - at_[static_cast<std::size_t>(c)];
-        if (delta == 0 || c == work.companion) continue;
+        if (delta == 0 || c == work.auxiliary) continue;
         moving[static_cast<std::size_t>(count++)] = c;
         longest = std::max(longest, delta < 0 ? -delta : delta);
     }
-    if (count == 0) return;  // less than half a pulse; a companion's pulses stay for the next piece
+    if (count == 0) return;  // less than half a pulse; a auxiliary's pulses stay for the next piece
     // A pulse or two that an arc left beside its end wait for a piece with room, at the latest for the standstill.
     // Beside two axes with constant vector speed is no room: with a third axis a basic pulse would be another length of
     // path.
@@ -125,7 +126,7 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     segment.acceleration = acceleration;
     Pulses4 way = {};
     for (std::size_t i = 0; i < segment.axis_count; ++i) way[segment.axes[i]] = segment.finish[i];
-    const Most most = most_on(way, segment.constant_vector);
+    const UnitLimits most = most_on(way, segment.constant_vector);
     segment.speed = std::min(segment.speed, most.speed);
     segment.acceleration = std::min(segment.acceleration, most.acceleration);
     segment.even = work.move.even;
@@ -135,7 +136,7 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
 
 /// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its
 /// share.
-Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) const {
+Segmenter::UnitLimits Segmenter::most_on(const Pulses4& way, bool constant_vector) const {
     double basic = 0, second = 0;
     for (const std::int64_t pulses : way) {
         const auto size = static_cast<double>(std::llabs(pulses));
@@ -143,7 +144,7 @@ Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) con
         basic = std::max(basic, size);
     }
     if (constant_vector) basic += both_axes_extra * second;
-    Most most;
+    UnitLimits most;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
         const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
@@ -157,7 +158,7 @@ Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) con
     return most;
 }
 
-void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
+void Segmenter::append(Segment segment, const PendingMove& work, const Pulses4& to) {
     if (!chain_open_) {
         chain_open_ = true;
         generator_ = segment.axes[0];
@@ -169,12 +170,12 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
     segment.braking = std::max(segment.braking, segment.acceleration);
     segment.block = work.block;
     segment.line = work.move.move.line;
-    if (work.companion >= 0) {
-        const auto c = static_cast<std::size_t>(work.companion);
-        segment.companion_channel = work.companion;
+    if (work.auxiliary >= 0) {
+        const auto c = static_cast<std::size_t>(work.auxiliary);
+        segment.companion_channel = work.auxiliary;
         segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
         for (std::size_t i = 0; i < map_.channel.size(); ++i)
-            if (map_.channel[i] == work.companion)
+            if (map_.channel[i] == work.auxiliary)
                 segment.companion_speed =
                     work.move.exit * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
     }
@@ -190,13 +191,13 @@ std::int64_t Segmenter::companion_pulses_ahead(int channel, int direction) const
         sum += segment.companion_pulses;
         if (segment.ends_chain) return sum;
     }
-    if (!chain_open_ || !waiting_ || waiting_->companion != channel) return sum;
+    if (!chain_open_ || !waiting_ || waiting_->auxiliary != channel) return sum;
     const auto c = static_cast<std::size_t>(channel);
     const std::int64_t last = waiting_->to[c] - at_[c];
     return last * direction < 0 ? sum : sum + last;
 }
 
-void Segmenter::note_split(const Work& work, const char* why, double deviation_mm) {
+void Segmenter::note_split(const PendingMove& work, const char* why, double deviation_mm) {
     notes_.push_back({work.move.move.line, why, deviation_mm});
 }
 

@@ -110,7 +110,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
     };
     /// Hears when an encoder passes a comparison value.
-    class EncoderEar final : public sim::PositionListener {
+    class EncoderListener final : public sim::PositionListener {
       public:
         void crossed(Instant now) override { chip->encoder_crossed(axis, now); }
         void rate_changed(double, double, Instant) override {}
@@ -345,7 +345,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     State state_{};
     std::array<Output, axes_of_chip> outputs_;
-    std::array<EncoderEar, axes_of_chip> ears_;
+    std::array<EncoderListener, axes_of_chip> ears_;
     std::array<std::array<sim::WireId, 10>, axes_of_chip> inputs_{};
     std::array<std::array<sim::WireId, 8>, axes_of_chip> general_outputs_{};
     std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};

@@ -21,7 +21,7 @@ sim::Edges edges_of(const Axis& axis) {
 }  // namespace
 
 void Chip::connect_encoder(int a, sim::Motion& counts) {
-    EncoderEar& ear = ears_[a];
+    EncoderListener& ear = ears_[a];
     MOTIONRACK_ASSERT(ear.motion == nullptr);
     ear.motion = &counts;
     ear.slot = counts.listen(ear);
@@ -49,7 +49,7 @@ void Chip::set_encoder_position(int a, std::int32_t value) {
 /// Where EP is compared, the encoder tells when a comparison may change.
 void Chip::watch_encoder(int a) {
     const Axis& axis = state_.axis[a];
-    const EncoderEar& ear = ears_[a];
+    const EncoderListener& ear = ears_[a];
     if (!ear.motion) return;
     if (!encoder_connected(a) || !wr2::CMPSL.test(axis.wr2) || !compares(axis)) {
         ear.motion->watch(ear.slot, sim::unwatched_below, sim::unwatched_above);
@@ -70,7 +70,7 @@ void Chip::encoder_crossed(int a, Instant now) {
 }
 
 void Chip::take_encoder(int a, bool taken) {
-    EncoderEar& ear = ears_[a];
+    EncoderListener& ear = ears_[a];
     if (!ear.motion) return;
     const Instant now = kernel_.now();
     catch_up(now);

@@ -33,8 +33,8 @@ Home::Look Home::look() {
     return out;
 }
 
-bool Home::limit_in_way(const Look& look, HomeWay way) const {
-    return (settings_.negative == (way == HomeWay::towards) ? minus_limit : plus_limit).test(look.status.rr2);
+bool Home::limit_in_way(const Look& look, SearchDirection way) const {
+    return (settings_.negative == (way == SearchDirection::towards) ? minus_limit : plus_limit).test(look.status.rr2);
 }
 
 /// The change of the home input that a drive waits for is its edge, once; every other change is a bounce.
@@ -42,9 +42,9 @@ void Home::note_switch(const Look& look, Instant now) {
     if (look.switch_on == switch_on_) return;
     switch_on_ = look.switch_on;
     steady_since_ = now;
-    const bool waited_for = state_->does == HomeDoes::wait_end &&
-                            (state_->until == HomeUntil::on || state_->until == HomeUntil::off) &&
-                            switch_on_ == (state_->until == HomeUntil::on);
+    const bool waited_for = state_->does == HomingAction::wait_end &&
+                            (state_->until == HomingStopInput::on || state_->until == HomingStopInput::off) &&
+                            switch_on_ == (state_->until == HomingStopInput::on);
     if (waited_for && !edge_in_state_)
         edge_in_state_ = true;
     else
@@ -54,18 +54,18 @@ void Home::note_switch(const Look& look, Instant now) {
 /// The chip slows down at the first contact, whatever the contacts do at the instant of a look: that tells where the
 /// edge was.
 void Home::note_braking(const Look& look, Instant now) {
-    if (braking_ || state_->until != HomeUntil::on || !(look.switch_on || look.status.decelerating())) return;
+    if (braking_ || state_->until != HomingStopInput::on || !(look.switch_on || look.status.decelerating())) return;
     braking_ = edge_here(look, now);
 }
 
 HomeEdge Home::edge_here(const Look& look, Instant now) {
     // At constant speed the chip stops at the edge itself; else it was after the last look, or within that look's own
     // accesses.
-    const bool exact = state_->pace != HomePace::fast;
-    const bool index = state_->until == HomeUntil::index;
+    const bool exact = state_->pace != HomingSpeed::fast;
+    const bool index = state_->until == HomingStopInput::index;
     return {state_->name,
             index ? settings_.index_input : settings_.input,
-            index || state_->until == HomeUntil::on,
+            index || state_->until == HomingStopInput::on,
             look.lp,
             driver_.ReadEPS(axis_),
             exact ? 0 : rules::magnitude(way_between(last_lp_, look.lp)) + 1,
@@ -119,8 +119,8 @@ void Home::step(Instant now) {
     const Look seen = look();
     note_switch(seen, now);
     // RR1 tells of the last drive: only of ours once there is one.
-    const unsigned ended_by = state_->does == HomeDoes::wait_end ? seen.status.rr1 : 0u;
-    if (state_->does == HomeDoes::wait_stop) {
+    const unsigned ended_by = state_->does == HomingAction::wait_end ? seen.status.rr1 : 0u;
+    if (state_->does == HomingAction::wait_stop) {
         run(seen, now);
     } else if (emergency.test(seen.status.rr2) || emergency_stopped.test(ended_by)) {
         fail(HomeFault::emergency, seen, now);
@@ -131,8 +131,8 @@ void Home::step(Instant now) {
     } else {
         run(seen, now);
         // START states lead on at once, to a wait at the latest.
-        while (running_ && state_->does != HomeDoes::wait_end && state_->does != HomeDoes::wait_steady &&
-               state_->does != HomeDoes::wait_stop)
+        while (running_ && state_->does != HomingAction::wait_end && state_->does != HomingAction::wait_steady &&
+               state_->does != HomingAction::wait_stop)
             run(seen, now);
     }
     last_lp_ = seen.lp;
@@ -147,10 +147,10 @@ void Home::enter(std::string_view name, const Look& look, Instant now) {
     state_ = &table_->state(name);
     report_.stays.push_back({state_->name, now, {}, look.lp, look.lp});
     edge_in_state_ = false;
-    if (state_->does == HomeDoes::end) finish(look, now);
+    if (state_->does == HomingAction::end) finish(look, now);
 }
 
-bool Home::leave_by(HomeCause cause, const Look& look, Instant now) {
+bool Home::leave_by(HomingTransition cause, const Look& look, Instant now) {
     for (const HomeExit& exit : state_->exits) {
         if (exit.to.empty() || exit.cause != cause) continue;
         enter(exit.to, look, now);
@@ -161,41 +161,41 @@ bool Home::leave_by(HomeCause cause, const Look& look, Instant now) {
 
 void Home::run(const Look& look, Instant now) {
     switch (state_->does) {
-        case HomeDoes::look:
+        case HomingAction::look:
             if (look.switch_on)
-                leave_by(HomeCause::on, look, now);
-            else if (limit_in_way(look, HomeWay::towards) && !settings_.turn_at_limit)
+                leave_by(HomingTransition::on, look, now);
+            else if (limit_in_way(look, SearchDirection::towards) && !settings_.turn_at_limit)
                 fail(HomeFault::not_found, look, now);
-            else if (limit_in_way(look, HomeWay::towards))
-                turned_ = true, leave_by(HomeCause::limit, look, now);
+            else if (limit_in_way(look, SearchDirection::towards))
+                turned_ = true, leave_by(HomingTransition::limit, look, now);
             else
-                leave_by(HomeCause::off, look, now);
+                leave_by(HomingTransition::off, look, now);
             return;
-        case HomeDoes::drive:
+        case HomingAction::drive:
             return drive(look, now);
-        case HomeDoes::wait_end:
+        case HomingAction::wait_end:
             return wait_end(look, now);
-        case HomeDoes::settle:
+        case HomingAction::settle:
             steady_since_ = now;
             deadline_ = now + settings_.timeout;
-            leave_by(HomeCause::done, look, now);
+            leave_by(HomingTransition::done, look, now);
             return;
-        case HomeDoes::wait_steady:
+        case HomingAction::wait_steady:
             if (now - steady_since_ < settings_.settle) {
                 if (now >= deadline_) fail(HomeFault::time, look, now);
             } else if (look.switch_on) {
-                leave_by(HomeCause::on, look, now);
-            } else if (report_.index_lp || !leave_by(HomeCause::unseen, look, now)) {
-                leave_by(HomeCause::off, look, now);
+                leave_by(HomingTransition::on, look, now);
+            } else if (report_.index_lp || !leave_by(HomingTransition::unseen, look, now)) {
+                leave_by(HomingTransition::off, look, now);
             }
             return;
-        case HomeDoes::zero:
+        case HomingAction::zero:
             return zero(look, now);
-        case HomeDoes::wait_stop:
+        case HomingAction::wait_stop:
             if (look.driving && now >= deadline_) driver_.QuickStop(mask());
-            if (!look.driving || now >= deadline_) leave_by(HomeCause::done, look, now);
+            if (!look.driving || now >= deadline_) leave_by(HomingTransition::done, look, now);
             return;
-        case HomeDoes::end:
+        case HomingAction::end:
             return;
     }
 }
@@ -203,28 +203,28 @@ void Home::run(const Look& look, Instant now) {
 /// WR1 for the present state: the stop input at the level that ends the drive, and an interrupt at its end.
 std::uint16_t Home::stop_inputs() const {
     const unsigned others = mode_before_[0] & ~0xFFu;
-    const bool index = state_->until == HomeUntil::index;
+    const bool index = state_->until == HomingStopInput::index;
     const int input = index ? settings_.index_input : settings_.input;
-    const bool high = index ? settings_.index_high : settings_.active_high == (state_->until == HomeUntil::on);
-    const unsigned stop = state_->until == HomeUntil::distance ? 0u : (high ? 3u : 2u) << 2 * input;
+    const bool high = index ? settings_.index_high : settings_.active_high == (state_->until == HomingStopInput::on);
+    const unsigned stop = state_->until == HomingStopInput::distance ? 0u : (high ? 3u : 2u) << 2 * input;
     return static_cast<std::uint16_t>(others | drive_end.mask | stop);
 }
 
 std::int64_t Home::speed() const {
-    return state_->pace == HomePace::fast   ? settings_.v
-           : state_->pace == HomePace::back ? settings_.back_v
-                                            : settings_.slow_v;
+    return state_->pace == HomingSpeed::fast   ? settings_.v
+           : state_->pace == HomingSpeed::back ? settings_.back_v
+                                               : settings_.slow_v;
 }
 
 void Home::drive(const Look& look, Instant now) {
-    if (state_->until == HomeUntil::index && look.index_on && settings_.type != 5)
+    if (state_->until == HomingStopInput::index && look.index_on && settings_.type != 5)
         return fail(HomeFault::index_at_switch, look, now);
-    if (state_->until == HomeUntil::distance) {
+    if (state_->until == HomingStopInput::distance) {
         planned_ = settings_.clearance;
         if (settings_.type == 1 || settings_.type == 3) planned_ = std::max(planned_, run_up());
         planned_ = std::min(planned_, settings_.travel);
     } else {
-        planned_ = state_->until == HomeUntil::index && settings_.turn > 0 ? settings_.turn : settings_.travel;
+        planned_ = state_->until == HomingStopInput::index && settings_.turn > 0 ? settings_.turn : settings_.travel;
     }
     driver_.WriteMode1(mask(), stop_inputs());
     const Result<void> written = [&]() -> Result<void> {
@@ -234,11 +234,11 @@ void Home::drive(const Look& look, Instant now) {
         return driver_.Pulse(mask(), planned_);
     }();
     MOTIONRACK_ASSERT(written.has_value());  // check_ready() has seen the ranges
-    driver_.Drive(mask(), settings_.negative == (state_->way == HomeWay::towards));
+    driver_.Drive(mask(), settings_.negative == (state_->way == SearchDirection::towards));
     at_speed_ = false;
     braking_.reset();
     deadline_ = now + std::min(settings_.timeout, drive_time(planned_, speed()));
-    leave_by(HomeCause::done, look, now);
+    leave_by(HomingTransition::done, look, now);
 }
 
 /// Ends a WAIT state when the drive has ended, by what ended it.
@@ -250,33 +250,33 @@ void Home::wait_end(const Look& look, Instant now) {
         return;
     }
     const bool limit = plus_limit_stopped.test(look.status.rr1) || minus_limit_stopped.test(look.status.rr1);
-    const int input = state_->until == HomeUntil::index ? settings_.index_input : settings_.input;
-    const bool reached = state_->until != HomeUntil::distance && look.status.stopped_by_input(input);
+    const int input = state_->until == HomingStopInput::index ? settings_.index_input : settings_.input;
+    const bool reached = state_->until != HomingStopInput::distance && look.status.stopped_by_input(input);
     // At constant speed the drive ends at the input's place, also where a limit switch acts at the same one.
-    if (reached && (!limit || state_->pace != HomePace::fast)) return drive_reached(look, now);
+    if (reached && (!limit || state_->pace != HomingSpeed::fast)) return drive_reached(look, now);
     if (limit) {
         const bool again = turned_;
-        if (state_->until == HomeUntil::on && state_->way == HomeWay::towards) turned_ = true;
-        if ((settings_.turn_at_limit && !again) || state_->until == HomeUntil::distance)
-            if (leave_by(HomeCause::limit, look, now)) return;
-    } else if (state_->until == HomeUntil::distance) {
-        if (distance(look) == planned_) return static_cast<void>(leave_by(HomeCause::done, look, now));
+        if (state_->until == HomingStopInput::on && state_->way == SearchDirection::towards) turned_ = true;
+        if ((settings_.turn_at_limit && !again) || state_->until == HomingStopInput::distance)
+            if (leave_by(HomingTransition::limit, look, now)) return;
+    } else if (state_->until == HomingStopInput::distance) {
+        if (distance(look) == planned_) return static_cast<void>(leave_by(HomingTransition::done, look, now));
         return fail(HomeFault::foreign_stop, look, now);
     } else {
         if (distance(look) != planned_) return fail(HomeFault::foreign_stop, look, now);
     }
-    if (state_->until == HomeUntil::index) return fail(HomeFault::no_index, look, now);
-    fail(reached                           ? HomeFault::near_limit
-         : state_->until == HomeUntil::off ? HomeFault::not_released
-                                           : HomeFault::not_found,
+    if (state_->until == HomingStopInput::index) return fail(HomeFault::no_index, look, now);
+    fail(reached                                 ? HomeFault::near_limit
+         : state_->until == HomingStopInput::off ? HomeFault::not_released
+                                                 : HomeFault::not_found,
          look, now);
 }
 
 /// The input that was waited for ended the drive. Its level now may be a bounce; the chip's own word counts.
 void Home::drive_reached(const Look& look, Instant now) {
-    const HomeEdge edge = braking_ && state_->pace == HomePace::fast ? *braking_ : edge_here(look, now);
+    const HomeEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(look, now);
     report_.edges.push_back(edge);
-    if (state_->until == HomeUntil::index) {
+    if (state_->until == HomingStopInput::index) {
         report_.index_lp = edge.lp;
         const std::int64_t off = report_.switch_to_index().value_or(0) - settings_.index_after;
         if (settings_.index_after >= 0 && rules::magnitude(off) > std::max<std::int64_t>(1, settings_.turn / 4))
@@ -286,35 +286,36 @@ void Home::drive_reached(const Look& look, Instant now) {
         edge_in_state_ = true;
     }
     if (!is_edge_of_switch(edge)) return fail(HomeFault::edges_differ, look, now);
-    if (state_->until == HomeUntil::on) {
+    if (state_->until == HomingStopInput::on) {
         report_.switch_lp = edge.lp;
         report_.switch_within = edge.within;
         report_.switch_speed_hz = edge.speed_hz;
     }
-    if (stopped_early() && leave_by(HomeCause::early, look, now)) {
+    if (stopped_early() && leave_by(HomingTransition::early, look, now)) {
         again_ = true;
         return;
     }
-    if (state_->pace == HomePace::fast && !at_speed_ && settings_.v > settings_.sv &&
+    if (state_->pace == HomingSpeed::fast && !at_speed_ && settings_.v > settings_.sv &&
         (settings_.type == 1 || settings_.type == 3))
         report_.notes.push_back(
             "the switch came before V was reached, with no way for a longer run-up: a start from farther away may end "
             "elsewhere");
-    leave_by(HomeCause::done, look, now);
+    leave_by(HomingTransition::done, look, now);
 }
 
 /// Edges on the way towards the switch are compared with those before them.
 bool Home::is_edge_of_switch(const HomeEdge& edge) {
     const auto up = static_cast<double>(way_between(report_.stays.front().from_lp, edge.lp));
     const double way = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
-    if (state_->until == HomeUntil::off) edges_.released(way, within);
-    if (state_->until == HomeUntil::on && state_->way == HomeWay::towards) conflict_ = edges_.acted(way, within);
+    if (state_->until == HomingStopInput::off) edges_.released(way, within);
+    if (state_->until == HomingStopInput::on && state_->way == SearchDirection::towards)
+        conflict_ = edges_.acted(way, within);
     return !conflict_;
 }
 
 /// Where types 1 and 3 end depends on the speed at the switch: they want it to be V.
 bool Home::stopped_early() const {
-    return state_->pace == HomePace::fast && !at_speed_ && !again_ && settings_.v > settings_.sv;
+    return state_->pace == HomingSpeed::fast && !at_speed_ && !again_ && settings_.v > settings_.sv;
 }
 
 void Home::zero(const Look& look, Instant now) {
@@ -322,7 +323,7 @@ void Home::zero(const Look& look, Instant now) {
     report_.zero_ep = driver_.ReadEPS(axis_);
     static_cast<void>(driver_.LPS(mask(), settings_.home_position));  // check_ready() has seen the ranges
     static_cast<void>(driver_.EPS(mask(), settings_.home_counts));
-    leave_by(HomeCause::done, look, now);
+    leave_by(HomingTransition::done, look, now);
 }
 
 // ---- ending
@@ -340,7 +341,7 @@ void Home::fail(HomeFault fault, const Look& look, Instant now) {
     if (look.driving) driver_.SlowStop(mask());
     deadline_ = now + std::min(settings_.timeout, drive_time(run_up(), settings_.v));
     enter("STOPPING_WAIT", look, now);
-    if (!look.driving) leave_by(HomeCause::done, look, now);
+    if (!look.driving) leave_by(HomingTransition::done, look, now);
 }
 
 void Home::finish(const Look& look, Instant now) {

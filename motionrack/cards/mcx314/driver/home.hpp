@@ -91,9 +91,9 @@ class Home {
     void note_switch(const Look& look, Instant now);
     void note_braking(const Look& look, Instant now);
     HomeEdge edge_here(const Look& look, Instant now);
-    bool limit_in_way(const Look& look, HomeWay way) const;
+    bool limit_in_way(const Look& look, SearchDirection way) const;
     void enter(std::string_view name, const Look& look, Instant now);
-    bool leave_by(HomeCause cause, const Look& look, Instant now);
+    bool leave_by(HomingTransition cause, const Look& look, Instant now);
     void run(const Look& look, Instant now);
     void drive(const Look& look, Instant now);
     void wait_end(const Look& look, Instant now);

@@ -6,72 +6,72 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-using enum HomeCause;
+using enum HomingTransition;
 using Exits = std::array<HomeExit, 3>;
 
 // ---- states that the types share
 
-constexpr HomeState drive(std::string_view name, std::string_view meaning, std::string_view next, HomeWay way,
-                          HomePace pace, HomeUntil until) {
-    return {name, meaning, HomeDoes::drive, {{{done, next}}}, way, pace, until};
+constexpr HomeState drive(std::string_view name, std::string_view meaning, std::string_view next, SearchDirection way,
+                          HomingSpeed pace, HomingStopInput until) {
+    return {name, meaning, HomingAction::drive, {{{done, next}}}, way, pace, until};
 }
 constexpr HomeState wait(std::string_view name, std::string_view meaning, const HomeState& of, Exits exits) {
-    return {name, meaning, HomeDoes::wait_end, exits, of.way, of.pace, of.until};
+    return {name, meaning, HomingAction::wait_end, exits, of.way, of.pace, of.until};
 }
 constexpr HomeState wait_steady(std::string_view name, std::string_view meaning, Exits exits) {
-    return {name, meaning, HomeDoes::wait_steady, exits};
+    return {name, meaning, HomingAction::wait_steady, exits};
 }
 
 constexpr HomeState check_start = {"CHECK_START",
                                    "looks where the axis stands",
-                                   HomeDoes::look,
+                                   HomingAction::look,
                                    {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
-constexpr HomeState search_start =
-    drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT", HomeWay::towards, HomePace::fast, HomeUntil::on);
+constexpr HomeState search_start = drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT",
+                                         SearchDirection::towards, HomingSpeed::fast, HomingStopInput::on);
 constexpr HomeState search_wait(Exits exits) {
     return wait("SEARCH_WAIT", "the input slows the drive to SV and ends it", search_start, exits);
 }
 constexpr HomeState rest_start = {
-    "REST_START", "stands, past the switch's edge or at a limit", HomeDoes::settle, {{{done, "REST_WAIT"}}}};
+    "REST_START", "stands, past the switch's edge or at a limit", HomingAction::settle, {{{done, "REST_WAIT"}}}};
 constexpr HomeState rest_wait =
     wait_steady("REST_WAIT", "contacts come to rest", {{{on, "BACK_START"}, {off, "RETURN_START"}}});
 constexpr HomeState return_start =
     drive("RETURN_START", "away from the limit, or back over a short switch, to the switch", "RETURN_WAIT",
-          HomeWay::away, HomePace::back, HomeUntil::on);
+          SearchDirection::away, HomingSpeed::back, HomingStopInput::on);
 constexpr HomeState return_wait =
     wait("RETURN_WAIT", "the input ends the drive", return_start, {{{done, "BACK_START"}}});
 constexpr HomeState back_start = drive("BACK_START", "away, off the switch, at constant speed", "BACK_WAIT",
-                                       HomeWay::away, HomePace::back, HomeUntil::off);
+                                       SearchDirection::away, HomingSpeed::back, HomingStopInput::off);
 constexpr HomeState back_wait =
     wait("BACK_WAIT", "the input's release ends the drive", back_start, {{{done, "CLEAR_START"}}});
 constexpr HomeState clear_start = drive("CLEAR_START", "on, by the clearance, so that contacts stay open", "CLEAR_WAIT",
-                                        HomeWay::away, HomePace::fast, HomeUntil::distance);
+                                        SearchDirection::away, HomingSpeed::fast, HomingStopInput::distance);
 constexpr HomeState clear_wait =
     wait("CLEAR_WAIT", "the pulses end the drive", clear_start, {{{done, "SETTLE_START"}, {limit, "SETTLE_START"}}});
 constexpr HomeState settle_start = {
-    "SETTLE_START", "stands, beside the switch", HomeDoes::settle, {{{done, "SETTLE_WAIT"}}}};
+    "SETTLE_START", "stands, beside the switch", HomingAction::settle, {{{done, "SETTLE_WAIT"}}}};
 constexpr HomeState settle_wait(std::string_view next) {
     return wait_steady("SETTLE_WAIT", "contacts come to rest", {{{off, next}, {on, "BACK_START"}}});
 }
 /// Where the search did not begin before the switch, it begins anew, for the index behind it.
 constexpr HomeState settle_wait_indexed = wait_steady(
     "SETTLE_WAIT", "contacts come to rest", {{{unseen, "SEARCH_START"}, {off, "SLOW_START"}, {on, "BACK_START"}}});
-constexpr HomeState slow_start =
-    drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT", HomeWay::towards, HomePace::slow, HomeUntil::on);
+constexpr HomeState slow_start = drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT",
+                                       SearchDirection::towards, HomingSpeed::slow, HomingStopInput::on);
 constexpr HomeState slow_wait(std::string_view next) {
     return wait("SLOW_WAIT", "the input ends the drive at once", slow_start, {{{done, next}}});
 }
 constexpr HomeState index_start = drive("INDEX_START", "on towards the encoder's index, slowly", "INDEX_WAIT",
-                                        HomeWay::towards, HomePace::slow, HomeUntil::index);
+                                        SearchDirection::towards, HomingSpeed::slow, HomingStopInput::index);
 constexpr HomeState index_wait(std::string_view next) {
     return wait("INDEX_WAIT", "the index ends the drive at once", index_start, {{{done, next}}});
 }
 constexpr HomeState zero_start = {
-    "ZERO_START", "LP and EP are given the home position", HomeDoes::zero, {{{done, "HOMED"}}}};
+    "ZERO_START", "LP and EP are given the home position", HomingAction::zero, {{{done, "HOMED"}}}};
 constexpr HomeState stopping_wait = {
-    "STOPPING_WAIT", "decelerates after a failure or stop()", HomeDoes::wait_stop, {{{done, "FAILED"}}}};
-constexpr HomeState homed = {"HOMED", "stands at home, the position is trusted", HomeDoes::end};
-constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", HomeDoes::end};
+    "STOPPING_WAIT", "decelerates after a failure or stop()", HomingAction::wait_stop, {{{done, "FAILED"}}}};
+constexpr HomeState homed = {"HOMED", "stands at home, the position is trusted", HomingAction::end};
+constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", HomingAction::end};
 
 // ---- the types
 
@@ -104,7 +104,7 @@ constexpr std::array type5 = {
 
 // ---- the same as declared state machines
 
-constexpr std::string_view when(const HomeState& state, HomeCause cause) {
+constexpr std::string_view when(const HomeState& state, HomingTransition cause) {
     switch (cause) {
         case done:
             break;
@@ -120,9 +120,9 @@ constexpr std::string_view when(const HomeState& state, HomeCause cause) {
             return "the home input is not active, the index not seen yet";
     }
     switch (state.does) {
-        case HomeDoes::wait_end:
-            return state.until == HomeUntil::distance ? "the pulses are out" : "the input ended the drive";
-        case HomeDoes::wait_stop:
+        case HomingAction::wait_end:
+            return state.until == HomingStopInput::distance ? "the pulses are out" : "the input ended the drive";
+        case HomingAction::wait_stop:
             return "the axis stands";
         default:
             return "at once";
@@ -136,14 +136,14 @@ struct Declared {
         std::size_t n = 0;
         for (const HomeState& state : table) {
             for (const HomeExit& exit : state.exits) n += exit.to.empty() ? 0 : 1;
-            if (state.does != HomeDoes::end && state.does != HomeDoes::wait_stop) ++n;
+            if (state.does != HomingAction::end && state.does != HomingAction::wait_stop) ++n;
         }
         return n;
     }
     static constexpr auto states = [] {
         std::array<StateInfo, count> out{};
         for (std::size_t i = 0; i < count; ++i)
-            out[i] = {table[i].name, table[i].meaning, table[i].does == HomeDoes::end};
+            out[i] = {table[i].name, table[i].meaning, table[i].does == HomingAction::end};
         return out;
     }();
     static constexpr auto transitions = [] {
@@ -152,7 +152,7 @@ struct Declared {
         for (const HomeState& state : table) {
             for (const HomeExit& exit : state.exits)
                 if (!exit.to.empty()) out[n++] = {state.name, exit.to, when(state, exit.cause)};
-            if (state.does != HomeDoes::end && state.does != HomeDoes::wait_stop)
+            if (state.does != HomingAction::end && state.does != HomingAction::wait_stop)
                 out[n++] = {state.name, "STOPPING_WAIT", "a failure, or stop()"};
         }
         return out;

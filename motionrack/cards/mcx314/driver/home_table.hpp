@@ -13,7 +13,7 @@
 namespace motionrack::mcx314 {
 
 /// What a state of a homing does. All but the three waits and the ends lead on at once.
-enum class HomeDoes : std::uint8_t {
+enum class HomingAction : std::uint8_t {
     look,         ///< looks where the axis stands
     drive,        ///< writes stop input, speed and pulses, and starts
     wait_end,     ///< until the drive has ended (RR0), then looks why (RR1)
@@ -23,12 +23,12 @@ enum class HomeDoes : std::uint8_t {
     wait_stop,    ///< until the axis stands after a failure
     end
 };
-enum class HomeWay : std::uint8_t { towards, away };      ///< the switch, as the direction of the search has it
-enum class HomePace : std::uint8_t { fast, back, slow };  ///< fast has ramps; back and slow are constant speeds
-enum class HomeUntil : std::uint8_t { distance, on, off, index };  ///< distance: the clearance, no stop input
+enum class SearchDirection : std::uint8_t { towards, away };  ///< the switch, as the direction of the search has it
+enum class HomingSpeed : std::uint8_t { fast, back, slow };   ///< fast has ramps; back and slow are constant speeds
+enum class HomingStopInput : std::uint8_t { distance, on, off, index };  ///< distance: the clearance, no stop input
 
 /// What leads from a state to the next one.
-enum class HomeCause : std::uint8_t {
+enum class HomingTransition : std::uint8_t {
     done,   ///< it did what it should
     on,     ///< the home input is active
     off,    ///< it is not
@@ -38,18 +38,18 @@ enum class HomeCause : std::uint8_t {
 };
 
 struct HomeExit {
-    HomeCause cause = HomeCause::done;
+    HomingTransition cause = HomingTransition::done;
     std::string_view to = {};  ///< "": no exit
 };
 
 struct HomeState {
     std::string_view name;
     std::string_view meaning;
-    HomeDoes does = HomeDoes::end;
+    HomingAction does = HomingAction::end;
     std::array<HomeExit, 3> exits = {};
-    HomeWay way = HomeWay::towards;
-    HomePace pace = HomePace::fast;
-    HomeUntil until = HomeUntil::distance;
+    SearchDirection way = SearchDirection::towards;
+    HomingSpeed pace = HomingSpeed::fast;
+    HomingStopInput until = HomingStopInput::distance;
 };
 
 /// A way of homing: what runs, and the same as a declared state machine for people, traces and checks.

@@ -143,10 +143,11 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
     const bool found = report_.switch_lp.has_value();
     switch (report_.fault) {
         case HomeFault::not_found:
-            return {fmt::format("{} was not {} within {} in {} direction{}", switch_text(),
-                                found ? "found again" : "found", how_far,
-                                settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+",
-                                turned_ && !found ? ", nor in the other direction up to the limit switch" : ""),
+            return {fmt::format(
+                        "{} was not {} within {} in {} direction{}", switch_text(), found ? "found again" : "found",
+                        how_far,
+                        settings_.negative == (table_->state(failed_in_).way == SearchDirection::towards) ? "-" : "+",
+                        turned_ && !found ? ", nor in the other direction up to the limit switch" : ""),
                     "Look at its wire and level (RR4, RR5), or search in the other direction or farther"};
         case HomeFault::near_limit:
             return {
@@ -185,7 +186,7 @@ std::string Home::why_failed(const Look& look) const {
                                  report_.zero_lp / settings_.pulses_per_unit,
                                  static_cast<double>(settings_.home_position) / settings_.pulses_per_unit,
                                  settings_.unit);
-    const bool at_limit = limit_in_way(look, HomeWay::towards) || limit_in_way(look, HomeWay::away);
+    const bool at_limit = limit_in_way(look, SearchDirection::towards) || limit_in_way(look, SearchDirection::away);
     const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
     std::string what, next;
     switch (report_.fault) {

@@ -26,7 +26,7 @@ void run_out(HomeRig& rig, Home& one) {
 TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotTrusted) {
     for (int type = 1; type <= 5; ++type) {
         for (const HomeState& state : home_table(type).states) {
-            const bool waits = state.does == HomeDoes::wait_end || state.does == HomeDoes::wait_steady;
+            const bool waits = state.does == HomingAction::wait_end || state.does == HomingAction::wait_steady;
             if (!waits || state.name == "RETURN_WAIT") continue;
             HomeRig rig({RigAxis{.start_mm = 0.5 + type}});
             rig.start();
