@@ -51,7 +51,7 @@ Instant stamp_of(const Frame& frame) {
     const Duration period = pace == Duration{0} ? microseconds(200) : pace;
     const auto publisher = dds::Publisher::open({bus, 0, period, period});
     if (!publisher) ::_exit(1);
-    dds::Pacer pacer(1, period);
+    dds::FramePacer pacer(1, period);
     Frame frame;
     for (std::uint32_t number = 0;; ++number) {
         if (pace != Duration{0})
@@ -90,8 +90,8 @@ double percentile(const std::vector<double>& sorted, double part) {
 bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& ages) {
     while (ages.size() < frames) {
         if (!subscriber.wait(whole_seconds(10))) return false;
-        subscriber.poll([&](const dds::Sample& sample, dds::Verdict verdict, Instant received) {
-            if (verdict == dds::Verdict::used && ages.size() < frames)
+        subscriber.poll([&](const dds::Sample& sample, dds::Validation verdict, Instant received) {
+            if (verdict == dds::Validation::used && ages.size() < frames)
                 ages.push_back(to_seconds(received - stamp_of(sample.frame)) * 1e6);
         });
     }
@@ -142,7 +142,7 @@ BENCHMARK(network)
 
 /// The CRC included.
 void judging(benchmark::State& state) {
-    dds::FrameJudge judge;
+    dds::FrameValidator judge;
     dds::Sample sample;
     sample.source = dds::new_source();
     sample.period = sample.pace = microseconds(200).count();
@@ -157,7 +157,7 @@ void judging(benchmark::State& state) {
     for (auto _ : state) {
         if (i == samples.size()) {
             i = 0;
-            judge = dds::FrameJudge{};
+            judge = dds::FrameValidator{};
         }
         benchmark::DoNotOptimize(judge.take(samples[i++], now += microseconds(200)));
     }

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     }
     const auto spec = live::read_port_spec(argv[1]);
     if (!spec) return tell(spec.error());
-    const auto port = live::Port::open(*spec, mcx314::card_map());
+    const auto port = live::CardPort::open(*spec, mcx314::card_map());
     if (!port) return tell(port.error());
     mcx314::Driver card(**port, **port);
 

@@ -10,23 +10,23 @@ namespace {
 constexpr std::uint32_t half = 0x8000'0000U;
 
 /// The verdict's event, for those that are reported by themselves.
-EventKind kind_of(Verdict verdict) {
+EventKind kind_of(Validation verdict) {
     switch (verdict) {
-        case Verdict::duplicate:
+        case Validation::duplicate:
             return EventKind::duplicate;
-        case Verdict::late:
+        case Validation::late:
             return EventKind::late;
-        case Verdict::jump:
+        case Validation::jump:
             return EventKind::jump;
-        case Verdict::wrong_crc:
+        case Validation::wrong_crc:
             return EventKind::wrong_crc;
-        case Verdict::foreign:
+        case Validation::foreign:
             return EventKind::foreign;
-        case Verdict::wrong_words:
+        case Validation::wrong_words:
             return EventKind::wrong_words;
-        case Verdict::used:
-        case Verdict::other_source:
-        case Verdict::malformed:
+        case Validation::used:
+        case Validation::other_source:
+        case Validation::malformed:
             break;
     }
     return EventKind::malformed;
@@ -44,57 +44,57 @@ bool in_range(std::int64_t ticks) {
 
 }  // namespace
 
-const char* name_of(Verdict verdict) {
+const char* name_of(Validation verdict) {
     static constexpr const char* names[] = {"used",    "duplicate", "late",        "jump",        "wrong crc",
                                             "foreign", "malformed", "wrong words", "other source"};
     return names[static_cast<std::size_t>(verdict)];
 }
 
-std::uint64_t& FrameJudge::count_of(Verdict verdict) {
+std::uint64_t& FrameValidator::count_of(Validation verdict) {
     switch (verdict) {
-        case Verdict::used:
+        case Validation::used:
             return counts_.used;
-        case Verdict::duplicate:
+        case Validation::duplicate:
             return counts_.duplicates;
-        case Verdict::late:
+        case Validation::late:
             return counts_.late;
-        case Verdict::jump:
+        case Validation::jump:
             return counts_.jumps;
-        case Verdict::wrong_crc:
+        case Validation::wrong_crc:
             return counts_.wrong_crc;
-        case Verdict::foreign:
+        case Validation::foreign:
             return counts_.foreign;
-        case Verdict::malformed:
+        case Validation::malformed:
             return counts_.malformed;
-        case Verdict::wrong_words:
+        case Validation::wrong_words:
             return counts_.wrong_words;
-        case Verdict::other_source:
+        case Validation::other_source:
             return counts_.other_source;
     }
     return counts_.malformed;
 }
 
-Duration FrameJudge::release() const {
+Duration FrameValidator::release() const {
     return std::max(settings_.release, Duration{2 * pace_});
 }
 
-bool FrameJudge::in_conflict() const {
+bool FrameValidator::in_conflict() const {
     return std::any_of(others_.begin(), others_.begin() + static_cast<std::ptrdiff_t>(other_count_),
-                       [](const Other& other) { return other.in_conflict; });
+                       [](const OtherSource& other) { return other.in_conflict; });
 }
 
 /// What can be said of a sample by itself.
-Verdict FrameJudge::check(const Sample& sample) const {
-    if (sample.format != wire_format) return Verdict::foreign;
-    if (sample.frame.words < 1 || sample.frame.words > grating_bus::most_scales) return Verdict::malformed;
-    if (sample.check != check_of(sample) || !sound(sample.frame)) return Verdict::wrong_crc;
+Validation FrameValidator::check(const Sample& sample) const {
+    if (sample.format != wire_format) return Validation::foreign;
+    if (sample.frame.words < 1 || sample.frame.words > grating_bus::most_scales) return Validation::malformed;
+    if (sample.check != check_of(sample) || !sound(sample.frame)) return Validation::wrong_crc;
     if (!in_range(sample.period) || !in_range(sample.pace) || sample.frame.time < 0 || !good_name(sample.source))
-        return Verdict::malformed;
-    return Verdict::used;
+        return Validation::malformed;
+    return Validation::used;
 }
 
 /// Whether `after` goes on from `before`: later, and by as many periods as its sequence says, give or take one.
-bool FrameJudge::fits(const Frame& before, const Frame& after) const {
+bool FrameValidator::fits(const Frame& before, const Frame& after) const {
     __extension__ using Wide = __int128;
     const std::uint32_t ahead = after.sequence - before.sequence;
     if (ahead == 0 || ahead >= half || after.time <= before.time) return false;
@@ -102,23 +102,23 @@ bool FrameJudge::fits(const Frame& before, const Frame& after) const {
     return off <= period_ && off >= -period_;
 }
 
-Verdict FrameJudge::take(const Sample& sample, Instant now) {
+Validation FrameValidator::take(const Sample& sample, Instant now) {
     ++counts_.received;
     if (joined_ && !stale_ && now - used_at_ > Duration{2 * pace_}) {
         stale_ = true;
         ++counts_.stale;
     }
     forget_silent(now);
-    if (const Verdict verdict = check(sample); verdict != Verdict::used) return bad(verdict, sample, now);
+    if (const Validation verdict = check(sample); verdict != Validation::used) return bad(verdict, sample, now);
     const bool own = joined_ && sample.source == source_;
     const bool silent = !joined_ || now - heard_at_ > release();
     if (!own && !silent) {
         note_other(sample.source, now);
         ++counts_.other_source;
-        return Verdict::other_source;
+        return Validation::other_source;
     }
     if (settings_.words != 0 && sample.frame.words != static_cast<std::uint32_t>(settings_.words))
-        return bad(Verdict::wrong_words, sample, now);
+        return bad(Validation::wrong_words, sample, now);
     if (!own) {
         hand_bus_to(sample, now);
         return use(sample.frame, now);
@@ -129,10 +129,10 @@ Verdict FrameJudge::take(const Sample& sample, Instant now) {
 }
 
 /// A frame of the source that has the bus.
-Verdict FrameJudge::follow(const Sample& sample, Instant now) {
+Validation FrameValidator::follow(const Sample& sample, Instant now) {
     const Frame& frame = sample.frame;
-    if (frame.words != frame_.words) return bad(Verdict::wrong_words, sample, now);
-    if (sample.period != period_ || sample.pace != pace_) return bad(Verdict::malformed, sample, now);
+    if (frame.words != frame_.words) return bad(Validation::wrong_words, sample, now);
+    if (sample.period != period_ || sample.pace != pace_) return bad(Validation::malformed, sample, now);
     if (fits(frame_, frame)) {
         const std::uint32_t ahead = frame.sequence - frame_.sequence;
         if (ahead > 1) {
@@ -147,7 +147,7 @@ Verdict FrameJudge::follow(const Sample& sample, Instant now) {
         const std::uint32_t behind = frame_.sequence - frame.sequence;
         const bool missing = window_.fill(behind);
         if (missing) --counts_.lost;
-        return bad(missing || !window_.knows(behind) ? Verdict::late : Verdict::duplicate, sample, now);
+        return bad(missing || !window_.knows(behind) ? Validation::late : Validation::duplicate, sample, now);
     }
     if (doubtful_ && fits(doubt_, frame)) {
         ++counts_.anew;
@@ -158,10 +158,10 @@ Verdict FrameJudge::follow(const Sample& sample, Instant now) {
     }
     doubt_ = frame;
     doubtful_ = true;
-    return bad(Verdict::jump, sample, now);
+    return bad(Validation::jump, sample, now);
 }
 
-Verdict FrameJudge::use(const Frame& frame, Instant now) {
+Validation FrameValidator::use(const Frame& frame, Instant now) {
     frame_ = frame;
     used_at_ = now;
     doubtful_ = false;
@@ -169,14 +169,14 @@ Verdict FrameJudge::use(const Frame& frame, Instant now) {
     if (stale_told_) events_.put({EventKind::fresh, now, source_, {}, frame.sequence, 0, counts_.stale});
     stale_told_ = false;
     ++counts_.used;
-    return Verdict::used;
+    return Validation::used;
 }
 
-Verdict FrameJudge::bad(Verdict verdict, const Sample& sample, Instant now) {
+Validation FrameValidator::bad(Validation verdict, const Sample& sample, Instant now) {
     const std::uint64_t total = ++count_of(verdict);
     const EventKind kind = kind_of(verdict);
     if (!events_.open(kind, now)) return verdict;
-    const bool words = verdict == Verdict::wrong_words;
+    const bool words = verdict == Validation::wrong_words;
     const std::uint64_t expected = settings_.words != 0 ? static_cast<std::uint64_t>(settings_.words) : frame_.words;
     events_.put({kind,
                  now,
@@ -188,7 +188,7 @@ Verdict FrameJudge::bad(Verdict verdict, const Sample& sample, Instant now) {
     return verdict;
 }
 
-void FrameJudge::hand_bus_to(const Sample& sample, Instant now) {
+void FrameValidator::hand_bus_to(const Sample& sample, Instant now) {
     Event event{
         EventKind::joined, now, sample.source, source_, sample.frame.words, static_cast<std::uint64_t>(sample.pace), 1};
     if (joined_) {
@@ -210,13 +210,13 @@ void FrameJudge::hand_bus_to(const Sample& sample, Instant now) {
         }
 }
 
-void FrameJudge::note_other(const Source& source, Instant now) {
+void FrameValidator::note_other(const Source& source, Instant now) {
     const auto end = others_.begin() + static_cast<std::ptrdiff_t>(other_count_);
-    auto at = std::find_if(others_.begin(), end, [&](const Other& other) { return other.source == source; });
+    auto at = std::find_if(others_.begin(), end, [&](const OtherSource& other) { return other.source == source; });
     if (at == end) {
         if (other_count_ == most_others) return;
         ++other_count_;
-        *at = Other{source, 0, now, false};
+        *at = OtherSource{source, 0, now, false};
     }
     ++at->frames;
     at->heard = now;
@@ -224,9 +224,9 @@ void FrameJudge::note_other(const Source& source, Instant now) {
 
 /// The source that has the bus was heard after another one: both publish. A source that follows one that is gone is no
 /// conflict.
-void FrameJudge::find_conflicts(Instant now) {
+void FrameValidator::find_conflicts(Instant now) {
     for (std::size_t i = 0; i < other_count_; ++i) {
-        Other& other = others_[i];
+        OtherSource& other = others_[i];
         if (other.in_conflict) continue;
         other.in_conflict = true;
         ++counts_.conflicts;
@@ -234,7 +234,7 @@ void FrameJudge::find_conflicts(Instant now) {
     }
 }
 
-void FrameJudge::forget_silent(Instant now) {
+void FrameValidator::forget_silent(Instant now) {
     for (std::size_t i = 0; i < other_count_;) {
         if (now - others_[i].heard <= release()) {
             ++i;
@@ -247,7 +247,7 @@ void FrameJudge::forget_silent(Instant now) {
     }
 }
 
-void FrameJudge::look(Instant now) {
+void FrameValidator::look(Instant now) {
     forget_silent(now);
     if (!joined_ || now - used_at_ <= Duration{2 * pace_}) return;
     if (!stale_) {

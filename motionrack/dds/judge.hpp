@@ -16,7 +16,7 @@
 
 namespace motionrack::dds {
 
-enum class Verdict : std::uint8_t {
+enum class Validation : std::uint8_t {
     used,
     duplicate,     ///< this sequence number was there already
     late,          ///< older than the frame that is held
@@ -27,7 +27,7 @@ enum class Verdict : std::uint8_t {
     wrong_words,   ///< another N than expected
     other_source,  ///< another source has the bus
 };
-const char* name_of(Verdict verdict);
+const char* name_of(Validation verdict);
 
 struct Counts {
     std::uint64_t received = 0;  ///< all samples
@@ -42,28 +42,28 @@ struct Counts {
     std::uint64_t stale = 0;      ///< how often the data went stale
 };
 
-struct JudgeSettings {
+struct ValidatorSettings {
     int words = 0;                         ///< the N that is expected; 0: that of the source's first frame
     Duration release = milliseconds(500);  ///< a source keeps the bus until it is silent for so long, and for two paces
 };
 
 /// Another source than the one that has the bus.
-struct Other {
+struct OtherSource {
     Source source;
     std::uint64_t frames = 0;
     Instant heard{};
     bool in_conflict = false;
 };
 
-class FrameJudge {
+class FrameValidator {
   public:
     static constexpr std::size_t most_others = 8;
 
-    explicit FrameJudge(const JudgeSettings& settings = {}) : settings_(settings) {}
+    explicit FrameValidator(const ValidatorSettings& settings = {}) : settings_(settings) {}
 
     /// Judges a sample that was received at `now` (never before the `now` of an earlier call). If it is used, frame()
     /// is its frame.
-    Verdict take(const Sample& sample, Instant now);
+    Validation take(const Sample& sample, Instant now);
     /// Nothing was received until `now`: what is stale, who is gone.
     void look(Instant now);
 
@@ -78,7 +78,7 @@ class FrameJudge {
     /// Since the frame that is held was received.
     Duration age(Instant now) const { return now - used_at_; }
     const Counts& counts() const { return counts_; }
-    std::span<const Other> others() const { return {others_.data(), other_count_}; }
+    std::span<const OtherSource> others() const { return {others_.data(), other_count_}; }
     bool in_conflict() const;
 
     /// The next event that was not taken yet; false if there is none. Of more than the queue holds the newest are
@@ -86,19 +86,19 @@ class FrameJudge {
     bool next_event(Event& event) { return events_.take(event); }
 
   private:
-    Verdict check(const Sample& sample) const;
-    Verdict follow(const Sample& sample, Instant now);
-    Verdict use(const Frame& frame, Instant now);
-    Verdict bad(Verdict verdict, const Sample& sample, Instant now);
+    Validation check(const Sample& sample) const;
+    Validation follow(const Sample& sample, Instant now);
+    Validation use(const Frame& frame, Instant now);
+    Validation bad(Validation verdict, const Sample& sample, Instant now);
     void hand_bus_to(const Sample& sample, Instant now);
     void note_other(const Source& source, Instant now);
     void find_conflicts(Instant now);
     void forget_silent(Instant now);
     bool fits(const Frame& before, const Frame& after) const;
     Duration release() const;
-    std::uint64_t& count_of(Verdict verdict);
+    std::uint64_t& count_of(Validation verdict);
 
-    JudgeSettings settings_;
+    ValidatorSettings settings_;
     Counts counts_;
     bool joined_ = false, stale_ = true, stale_told_ = false;
     Source source_;
@@ -108,7 +108,7 @@ class FrameJudge {
     SequenceWindow window_;
     bool doubtful_ = false;  ///< `doubt_` jumped; a frame that goes on from it begins the sequence anew
     Frame doubt_;
-    std::array<Other, most_others> others_;
+    std::array<OtherSource, most_others> others_;
     std::size_t other_count_ = 0;
     EventQueue events_;
 };

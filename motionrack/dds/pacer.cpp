@@ -4,7 +4,7 @@
 
 namespace motionrack::dds {
 
-Instant Pacer::due(Instant frame, Instant now) {
+Instant FramePacer::due(Instant frame, Instant now) {
     const bool begin = !begun_ || frame < first_frame_;
     if (begin) {
         begun_ = true;

@@ -7,12 +7,12 @@
 
 namespace motionrack::dds {
 
-class Pacer {
+class FramePacer {
   public:
     static constexpr Duration most_behind = whole_seconds(1);
 
     /// `speed`: bus time that passes in a unit of real time, above 0; `pace`: real time between two frames.
-    Pacer(double speed, Duration pace) : speed_(speed), pace_(pace) {}
+    FramePacer(double speed, Duration pace) : speed_(speed), pace_(pace) {}
 
     /// When the frame of bus time `frame` is due, asked at `now`. The first frame is due at once. What is due in the
     /// past is published at once and counted as late if it is by more than a pace; who is behind by more than

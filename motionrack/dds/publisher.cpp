@@ -56,8 +56,9 @@ class NetworkPublisher final : public Publisher {
     }
 
     void look() override {
-        const Instant now = others_->poll([this](const Sample& other, Verdict verdict, Instant received) {
-            if (verdict == Verdict::wrong_crc || verdict == Verdict::foreign || verdict == Verdict::malformed) return;
+        const Instant now = others_->poll([this](const Sample& other, Validation verdict, Instant received) {
+            if (verdict == Validation::wrong_crc || verdict == Validation::foreign || verdict == Validation::malformed)
+                return;
             ++foreign_frames_;
             heard_ = received;
             if (in_conflict_ && other.source == other_) return;
@@ -65,7 +66,7 @@ class NetworkPublisher final : public Publisher {
             other_ = other.source;
             events_.put({EventKind::conflict, received, source_, other_, foreign_frames_, 0, ++conflicts_});
         });
-        if (in_conflict_ && now - heard_ > std::max(JudgeSettings{}.release, Duration{2 * sample_.pace})) {
+        if (in_conflict_ && now - heard_ > std::max(ValidatorSettings{}.release, Duration{2 * sample_.pace})) {
             in_conflict_ = false;
             events_.put({EventKind::conflict_over, now, source_, other_, foreign_frames_, 0, conflicts_});
         }

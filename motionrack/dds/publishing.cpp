@@ -17,13 +17,13 @@ void wait_until(Instant due, const std::atomic<bool>* stop) {
 
 }  // namespace
 
-Publishing::Publishing(Publisher& publisher, const PublishingSettings& settings)
+FramePublisher::FramePublisher(Publisher& publisher, const PublishingSettings& settings)
     : publisher_(publisher), settings_(settings), pacer_(settings.speed, settings.pace) {
     // Linux may add 50 us to a thread's sleeps, a quarter of the usual period.
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 
-bool Publishing::put(const Frame& frame) {
+bool FramePublisher::put(const Frame& frame) {
     const Instant due = pacer_.due(frame.instant(), monotonic_now());
     wait_until(due, settings_.stop);
     outcome_.stopped = settings_.stop && settings_.stop->load();
@@ -43,7 +43,7 @@ bool Publishing::put(const Frame& frame) {
 }
 
 Result<Published> publish_frames(Publisher& publisher, FrameSource& source, const PublishingSettings& settings) {
-    Publishing publishing(publisher, settings);
+    FramePublisher publishing(publisher, settings);
     for (Frame frame;;) {
         MOTIONRACK_TRY(const bool more, source.next(frame));
         if (!more || !publishing.put(frame)) return publishing.outcome();

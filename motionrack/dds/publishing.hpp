@@ -1,4 +1,4 @@
-// Publishing frames, each at its time: those that are given, or those of a source in a loop.
+// FramePublisher frames, each at its time: those that are given, or those of a source in a loop.
 #pragma once
 
 #include <atomic>
@@ -34,9 +34,9 @@ struct Published {
 };
 
 /// Frames in real time, one by one.
-class Publishing {
+class FramePublisher {
   public:
-    Publishing(Publisher& publisher, const PublishingSettings& settings);
+    FramePublisher(Publisher& publisher, const PublishingSettings& settings);
     /// Waits until the frame's time and publishes it. False: that was all, or it was told to stop.
     bool put(const Frame& frame);
     const Published& outcome() const { return outcome_; }
@@ -44,7 +44,7 @@ class Publishing {
   private:
     Publisher& publisher_;
     PublishingSettings settings_;
-    Pacer pacer_;
+    FramePacer pacer_;
     Published outcome_;
     std::uint64_t frames_ = 0;
 };

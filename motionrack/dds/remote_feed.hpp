@@ -25,8 +25,8 @@ class RemoteFeed {
             Instant now;
             int given;
         } call{take, now, 0};
-        subscriber_->poll([&call](const Sample& sample, Verdict verdict, Instant) {
-            if (verdict != Verdict::used) return;
+        subscriber_->poll([&call](const Sample& sample, Validation verdict, Instant) {
+            if (verdict != Validation::used) return;
             call.take(sample.frame, call.now);
             ++call.given;
         });

@@ -40,7 +40,7 @@ class NetworkSubscriber final : public Subscriber {
         for (Slot slot; next(slot);) {
             // The engine has more than one thread: a stamp may be a little before the one before it.
             last_ = std::max(last_, slot.received);
-            const Verdict verdict = judge_.take(slot.sample, last_);
+            const Validation verdict = judge_.take(slot.sample, last_);
             if (use) use(slot.sample, verdict, last_);
         }
         last_ = std::max(last_, now);

@@ -12,7 +12,7 @@ namespace motionrack::dds {
 struct SubscriberSettings {
     std::string bus = "stage";
     int domain = 0;
-    JudgeSettings judge;
+    ValidatorSettings judge;
     std::size_t queue =
         1024;  ///< samples that may wait between two polls; more are dropped, the oldest first, and counted
     bool other_participants_only = false;  ///< for a publisher that listens whether it is alone
@@ -26,7 +26,7 @@ class Subscriber {
     virtual ~Subscriber() = default;
 
     /// Is called for every sample that waited, with its verdict, in the order in which they were received.
-    using Use = std::function<void(const Sample&, Verdict, Instant received)>;
+    using Use = std::function<void(const Sample&, Validation, Instant received)>;
     /// Judges what waits, and then what is stale. Gives the time at which it looked.
     virtual Instant poll(const Use& use) = 0;
     /// Returns when something waits, at most after `timeout`; true if something does.
@@ -34,12 +34,12 @@ class Subscriber {
     /// Samples dropped because nobody polled.
     virtual std::uint64_t overruns() const = 0;
 
-    FrameJudge& judge() { return judge_; }
-    const FrameJudge& judge() const { return judge_; }
+    FrameValidator& judge() { return judge_; }
+    const FrameValidator& judge() const { return judge_; }
 
   protected:
-    explicit Subscriber(const JudgeSettings& settings) : judge_(settings) {}
-    FrameJudge judge_;
+    explicit Subscriber(const ValidatorSettings& settings) : judge_(settings) {}
+    FrameValidator judge_;
 };
 
 }  // namespace motionrack::dds

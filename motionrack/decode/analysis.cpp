@@ -86,7 +86,7 @@ class ChannelRun {
 
 class Run {
   public:
-    Run(Capture& capture, const std::vector<ChannelChoice>& choices, const AnalysisSettings& settings)
+    Run(Capture& capture, const std::vector<ChannelSelection>& choices, const AnalysisSettings& settings)
         : capture_(capture), choices_(choices), settings_(settings) {}
     Result<Analysis> all();
 
@@ -98,10 +98,10 @@ class Run {
         return block.times ? block.times[sample - number_] : static_cast<std::int64_t>(sample);
     }
     double seconds_of(std::int64_t ticks) const { return static_cast<double>(ticks) * capture_.tick_s(); }
-    ChannelResult result_of(const ChannelChoice& choice, const ChannelRun& run) const;
+    ChannelResult result_of(const ChannelSelection& choice, const ChannelRun& run) const;
 
     Capture& capture_;
-    const std::vector<ChannelChoice>& choices_;
+    const std::vector<ChannelSelection>& choices_;
     const AnalysisSettings& settings_;
     std::vector<ChannelRun> runs_;
     std::vector<ChannelLines> lines_;
@@ -114,7 +114,7 @@ class Run {
 
 void Run::choose() {
     std::vector<std::size_t> chosen;
-    for (const ChannelChoice& choice : choices_) {
+    for (const ChannelSelection& choice : choices_) {
         ChannelLines lines;
         const auto take = [&](std::size_t i, std::size_t signal) {
             const auto at = std::find(chosen.begin(), chosen.end(), signal);
@@ -175,7 +175,7 @@ void Run::tell_times(const Block& block) {
             line_from_s_[line] = seconds_of(ticks_of(block, from));
 }
 
-ChannelResult Run::result_of(const ChannelChoice& choice, const ChannelRun& run) const {
+ChannelResult Run::result_of(const ChannelSelection& choice, const ChannelRun& run) const {
     ChannelResult out;
     const auto& signals = capture_.signals();
     out.name = choice.name;
@@ -239,7 +239,7 @@ Result<Analysis> Run::all() {
 
 }  // namespace
 
-Result<Analysis> analyse(Capture& capture, const std::vector<ChannelChoice>& choices,
+Result<Analysis> analyse(Capture& capture, const std::vector<ChannelSelection>& choices,
                          const AnalysisSettings& settings) {
     return Run(capture, choices, settings).all();
 }

@@ -64,6 +64,7 @@ struct Analysis {
 };
 
 /// Reads the capture to its end. Errors: refused (window), bad_input with its place, io.
-Result<Analysis> analyse(Capture& capture, const std::vector<ChannelChoice>& choices, const AnalysisSettings& settings);
+Result<Analysis> analyse(Capture& capture, const std::vector<ChannelSelection>& choices,
+                         const AnalysisSettings& settings);
 
 }  // namespace motionrack::decode

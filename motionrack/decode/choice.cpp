@@ -56,7 +56,7 @@ Result<std::size_t> find_signal(const std::vector<std::string>& signals, std::st
         fmt::format("The capture has no line '{}'. Nothing was decoded; its lines are: {}.", text, listed(signals)));
 }
 
-Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const std::string& text) {
+Result<ChannelSelection> read_choice(const std::vector<std::string>& signals, const std::string& text) {
     const std::size_t equal = text.find('=');
     std::vector<std::string> lines;
     for (std::size_t at = equal + 1; equal != std::string::npos && at <= text.size();) {
@@ -70,7 +70,7 @@ Result<ChannelChoice> read_choice(const std::vector<std::string>& signals, const
             fmt::format(
                 "'{}' names no channel: write X=A,B or X=A,B,Z with the lines' names or numbers. Nothing was decoded.",
                 text));
-    ChannelChoice choice;
+    ChannelSelection choice;
     choice.name = text.substr(0, equal);
     MOTIONRACK_TRY(choice.a, find_signal(signals, lines[0]));
     MOTIONRACK_TRY(choice.b, find_signal(signals, lines[1]));
@@ -88,7 +88,7 @@ struct Found {
 };
 
 /// The channels whose lines end in a, b, z after `before` ("enc_" or nothing).
-std::vector<ChannelChoice> named_like(const std::vector<std::string>& signals, const std::string& before) {
+std::vector<ChannelSelection> named_like(const std::vector<std::string>& signals, const std::string& before) {
     std::map<std::string, Found> found;
     std::vector<std::string> order;
     for (std::size_t i = 0; i < signals.size(); ++i) {
@@ -109,7 +109,7 @@ std::vector<ChannelChoice> named_like(const std::vector<std::string>& signals, c
             if (!slot) slot = i;
         }
     }
-    std::vector<ChannelChoice> out;
+    std::vector<ChannelSelection> out;
     for (const std::string& key : order)
         if (const Found& channel = found[key]; channel.a && channel.b)
             out.push_back({channel.name, *channel.a, *channel.b, channel.z});
@@ -118,12 +118,12 @@ std::vector<ChannelChoice> named_like(const std::vector<std::string>& signals, c
 
 }  // namespace
 
-Result<std::vector<ChannelChoice>> choose_channels(const std::vector<std::string>& signals,
-                                                   const std::vector<std::string>& texts) {
-    std::vector<ChannelChoice> out;
+Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::string>& signals,
+                                                      const std::vector<std::string>& texts) {
+    std::vector<ChannelSelection> out;
     for (const std::string& text : texts) {
-        MOTIONRACK_TRY(ChannelChoice choice, read_choice(signals, text));
-        for (const ChannelChoice& other : out)
+        MOTIONRACK_TRY(ChannelSelection choice, read_choice(signals, text));
+        for (const ChannelSelection& other : out)
             if (other.name == choice.name)
                 return fail(ErrorKind::bad_input,
                             fmt::format("There are two channels '{}'. Nothing was decoded; give each another name.",

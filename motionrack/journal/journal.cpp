@@ -316,7 +316,7 @@ Result<ChainCheck> Journal::check() const {
     return check_chain(*reader_);
 }
 
-Result<std::vector<Entry>> Journal::read(const Question& question) const {
+Result<std::vector<Entry>> Journal::read(const JournalQuery& question) const {
     if (question.limit < 1 || question.limit > 10000)
         return fail(ErrorKind::bad_input,
                     fmt::format("The journal gives 1 to 10000 entries at once, not {}.", question.limit));

@@ -61,7 +61,7 @@ struct ChainCheck {
     std::string problem;  ///< "entry 17 was changed after it was written": the first one; empty: none
 };
 
-struct Question {
+struct JournalQuery {
     std::int64_t after = 0;  ///< entries with greater numbers
     std::string kind = {};   ///< empty: all
     int limit = 100;         ///< 1 .. 10000; the newest ones
@@ -92,7 +92,7 @@ class Journal {
     Result<void> close();
 
     /// Any thread: the newest entries that fit, oldest first. Errors: io, bad_input (limit).
-    Result<std::vector<Entry>> read(const Question& question) const;
+    Result<std::vector<Entry>> read(const JournalQuery& question) const;
     /// Any thread: reads all entries and their chain. Errors: io.
     Result<ChainCheck> check() const;
     /// Any thread, never waits long: why something is not in the file, as a sentence; empty: all is. It stays: later

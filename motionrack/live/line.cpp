@@ -7,17 +7,17 @@
 
 namespace motionrack::live {
 
-Result<Line> Line::open(const std::string& path) {
+Result<InterruptLine> InterruptLine::open(const std::string& path) {
     MOTIONRACK_TRY(File file, File::open(path, O_NONBLOCK));
-    return Line(std::move(file));
+    return InterruptLine(std::move(file));
 }
 
-bool Line::take() {
+bool InterruptLine::take() {
     std::uint32_t count = 0;
     return ::read(file_.descriptor(), &count, sizeof count) == sizeof count;
 }
 
-bool Line::wait(Duration timeout, Clock& clock) {
+bool InterruptLine::wait(Duration timeout, Clock& clock) {
     if (opens_) {
         // What was counted before may have been dealt with since. If it was not, the line is still active, and counts
         // again when it is opened.

@@ -9,15 +9,15 @@
 
 namespace motionrack::live {
 
-class Line {
+class InterruptLine {
   public:
-    static Result<Line> open(const std::string& path);
+    static Result<InterruptLine> open(const std::string& path);
     /// True if the line is or becomes active within `timeout`. Where the driver cannot open the line again (no write),
     /// an interrupt from before the call counts too.
     bool wait(Duration timeout, Clock& clock);
 
   private:
-    explicit Line(File file) : file_(std::move(file)) {}
+    explicit InterruptLine(File file) : file_(std::move(file)) {}
     bool take();
 
     File file_;

@@ -7,7 +7,8 @@
 
 namespace motionrack::live {
 
-Result<std::unique_ptr<Port>> Port::open(const PortSpec& spec, const CardMap& map, std::unique_ptr<Clock> clock) {
+Result<std::unique_ptr<CardPort>> CardPort::open(const PortSpec& spec, const CardMap& map,
+                                                 std::unique_ptr<Clock> clock) {
     std::uint32_t last = 0;
     for (const RegisterInfo& reg : map.registers) {
         if (reg.width != 16 || reg.offset % 2 != 0)
@@ -19,16 +20,16 @@ Result<std::unique_ptr<Port>> Port::open(const PortSpec& spec, const CardMap& ma
         last = std::max(last, reg.offset);
     }
     MOTIONRACK_TRY(auto words, open_words(spec, std::uint64_t{last} / 2 * spec.stride + 2));
-    std::optional<Line> line;
+    std::optional<InterruptLine> line;
     if (!spec.interrupt.empty()) {
-        MOTIONRACK_TRY(line, Line::open(spec.interrupt));
+        MOTIONRACK_TRY(line, InterruptLine::open(spec.interrupt));
     }
     if (!clock) clock = std::make_unique<MonotonicClock>();
-    return std::unique_ptr<Port>(new Port(std::move(words), std::move(line), std::move(clock), spec, last));
+    return std::unique_ptr<CardPort>(new CardPort(std::move(words), std::move(line), std::move(clock), spec, last));
 }
 
-Port::Port(std::unique_ptr<Words> words, std::optional<Line> line, std::unique_ptr<Clock> clock, const PortSpec& spec,
-           std::uint32_t last)
+CardPort::CardPort(std::unique_ptr<WordAccess> words, std::optional<InterruptLine> line, std::unique_ptr<Clock> clock,
+                   const PortSpec& spec, std::uint32_t last)
     : words_(std::move(words)),
       line_(std::move(line)),
       clock_(std::move(clock)),
@@ -37,7 +38,7 @@ Port::Port(std::unique_ptr<Words> words, std::optional<Line> line, std::unique_p
       stride_(spec.stride),
       last_(last) {}
 
-bool Port::begin_access(std::uint32_t offset) {
+bool CardPort::begin_access(std::uint32_t offset) {
     MOTIONRACK_ASSERT(offset % 2 == 0 && offset <= last_);
     if (trouble_) return false;
     if (accessed_)
@@ -45,7 +46,7 @@ bool Port::begin_access(std::uint32_t offset) {
     return true;
 }
 
-void Port::end_access(int error, std::uint32_t offset, const char* what) {
+void CardPort::end_access(int error, std::uint32_t offset, const char* what) {
     accessed_ = clock_->now();
     if (error != 0)
         trouble_ =
@@ -55,19 +56,19 @@ void Port::end_access(int error, std::uint32_t offset, const char* what) {
                               offset, what, path_, std::strerror(error))};
 }
 
-void Port::write(std::uint32_t offset, std::uint16_t value) {
+void CardPort::write(std::uint32_t offset, std::uint16_t value) {
     if (!begin_access(offset)) return;
     end_access(words_->write(std::uint64_t{offset} / 2 * stride_, value), offset, "written");
 }
 
-std::uint16_t Port::read(std::uint32_t offset) {
+std::uint16_t CardPort::read(std::uint32_t offset) {
     std::uint16_t value = 0xFFFF;
     if (!begin_access(offset)) return value;
     end_access(words_->read(std::uint64_t{offset} / 2 * stride_, value), offset, "read");
     return value;
 }
 
-bool Port::wait(Duration timeout) {
+bool CardPort::wait(Duration timeout) {
     if (line_) return line_->wait(timeout, *clock_);
     clock_->sleep(timeout);
     return false;

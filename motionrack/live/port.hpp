@@ -1,7 +1,7 @@
 // A real card behind the port that drivers know: its registers in mapped memory or in I/O ports, its interrupt line by
 // UIO, and the computer's clock. A driver on it is the same as on a virtual card.
 //
-//   driver ──► Port ──► words:  volatile 16-bit loads and stores in a mapping, or pread and pwrite of two bytes
+//   driver ──► CardPort ──► words:  volatile 16-bit loads and stores in a mapping, or pread and pwrite of two bytes
 //                  ──► line:   a UIO node, or looking again and again
 //                  ──► clock:  the computer's monotonic one
 //
@@ -22,13 +22,13 @@
 
 namespace motionrack::live {
 
-class Port final : public RegisterPort, public Interrupt {
+class CardPort final : public RegisterPort, public Interrupt {
   public:
     /// Opens the files and makes the mapping; no register is touched. `map` tells how far the card's registers go; each
     /// is 16 bits wide. Errors: io (not there, no permission, too short, cannot be mapped), refused (open already;
     /// accesses that would not reach the card as they must), with the remedy.
-    static Result<std::unique_ptr<Port>> open(const PortSpec& spec, const CardMap& map,
-                                              std::unique_ptr<Clock> clock = nullptr);
+    static Result<std::unique_ptr<CardPort>> open(const PortSpec& spec, const CardMap& map,
+                                                  std::unique_ptr<Clock> clock = nullptr);
 
     /// One access; at least PortSpec::gap after the one before. `offset`: of a register of the card's map.
     void write(std::uint32_t offset, std::uint16_t value) override;
@@ -49,14 +49,14 @@ class Port final : public RegisterPort, public Interrupt {
     const std::optional<Error>& trouble() const { return trouble_; }
 
   private:
-    Port(std::unique_ptr<Words> words, std::optional<Line> line, std::unique_ptr<Clock> clock, const PortSpec& spec,
-         std::uint32_t last);
+    CardPort(std::unique_ptr<WordAccess> words, std::optional<InterruptLine> line, std::unique_ptr<Clock> clock,
+             const PortSpec& spec, std::uint32_t last);
     /// Lets the gap pass; false if there is trouble.
     bool begin_access(std::uint32_t offset);
     void end_access(int error, std::uint32_t offset, const char* what);
 
-    std::unique_ptr<Words> words_;
-    std::optional<Line> line_;
+    std::unique_ptr<WordAccess> words_;
+    std::optional<InterruptLine> line_;
     std::unique_ptr<Clock> clock_;
     std::string path_;
     Duration gap_;

@@ -65,7 +65,7 @@ std::string contradiction(const PortSpec& spec) {
         return fmt::format("stride is {}, but registers of 16 bits are an even number of bytes apart", spec.stride);
     if (spec.width == 16 && spec.offset % 2 != 0)
         return fmt::format("offset is {}, but registers of 16 bits are at even addresses", spec.offset);
-    if (spec.map != 0 && spec.reach != Reach::uio) return "only uio: has maps";
+    if (spec.map != 0 && spec.reach != AddressSpace::uio) return "only uio: has maps";
     return "";
 }
 
@@ -82,18 +82,18 @@ Result<PortSpec> read_port_spec(std::string_view text) {
     const std::string_view kind = text.substr(0, colon);
     if (colon == std::string_view::npos) return wrong(text, "it has no ':'");
     if (kind == "uio")
-        spec.reach = Reach::uio;
+        spec.reach = AddressSpace::uio;
     else if (kind == "memory")
-        spec.reach = Reach::memory;
+        spec.reach = AddressSpace::memory;
     else if (kind == "port")
-        spec.reach = Reach::port;
+        spec.reach = AddressSpace::port;
     else
         return wrong(text, fmt::format("there is no '{}:'", kind));
 
     std::string_view rest = text.substr(colon + 1);
     const std::size_t path_end = rest.find(',');
     spec.path = rest.substr(0, path_end);
-    if (spec.reach == Reach::uio) spec.interrupt = spec.path;
+    if (spec.reach == AddressSpace::uio) spec.interrupt = spec.path;
     rest = path_end == std::string_view::npos ? std::string_view{} : rest.substr(path_end);
     while (!rest.empty()) {
         rest.remove_prefix(1);

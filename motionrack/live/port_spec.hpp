@@ -14,14 +14,14 @@
 
 namespace motionrack::live {
 
-enum class Reach : std::uint8_t {
+enum class AddressSpace : std::uint8_t {
     uio,     ///< mapped; a map of a UIO node
     memory,  ///< mapped; any file
     port     ///< read and written with pread and pwrite
 };
 
 struct PortSpec {
-    Reach reach = Reach::memory;
+    AddressSpace reach = AddressSpace::memory;
     std::string path;
     std::uint64_t offset = 0;    ///< bytes from the start of the file (uio: of the map) to the card's first register
     std::uint32_t stride = 2;    ///< bytes from one register to the next, 2 .. 4096, even

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t map_apart = 1ull << 41;  ///< between the locks of two maps: more than any offset
 
-class MappedWords final : public Words {
+class MappedWords final : public WordAccess {
   public:
     MappedWords(File file, void* mapping, std::size_t length, std::size_t first, int width)
         : file_(std::move(file)),
@@ -62,7 +62,7 @@ class MappedWords final : public Words {
     int width_;
 };
 
-class FileWords final : public Words {
+class FileWords final : public WordAccess {
   public:
     FileWords(File file, std::uint64_t first, int width) : file_(std::move(file)), first_(first), width_(width) {}
 
@@ -117,11 +117,11 @@ Result<std::uint64_t> number_in(const std::filesystem::path& path) {
     return value;
 }
 
-Result<std::unique_ptr<Words>> map_words(const PortSpec& spec, File file, std::uint64_t at, std::uint64_t start,
-                                         std::uint64_t length) {
+Result<std::unique_ptr<WordAccess>> map_words(const PortSpec& spec, File file, std::uint64_t at, std::uint64_t start,
+                                              std::uint64_t length) {
     // `start`: where in the file the mapping may begin; `at`: the first register, counted from there.
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    const std::uint64_t skipped = spec.reach == Reach::uio ? 0 : at / page * page;
+    const std::uint64_t skipped = spec.reach == AddressSpace::uio ? 0 : at / page * page;
     const std::uint64_t mapped = at - skipped + length;
     void* const mapping = ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(),
                                  static_cast<off_t>(start + skipped));
@@ -153,8 +153,8 @@ Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map) {
     return out;
 }
 
-Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t length) {
-    MOTIONRACK_TRY(File file, File::open(spec.path, spec.reach == Reach::port ? 0 : O_SYNC));
+Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64_t length) {
+    MOTIONRACK_TRY(File file, File::open(spec.path, spec.reach == AddressSpace::port ? 0 : O_SYNC));
     struct stat facts {};
     if (::fstat(file.descriptor(), &facts) != 0)
         return fail(ErrorKind::io, fmt::format("{} tells nothing of itself: {}. Nothing was opened.", spec.path,
@@ -166,7 +166,7 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
     // Cards at other places of the same file (/dev/port, maps of a node) are others'.
     MOTIONRACK_CHECK(file.keep(static_cast<std::uint64_t>(spec.map) * map_apart + spec.offset, length, spec.path));
 
-    if (spec.reach == Reach::port) {
+    if (spec.reach == AddressSpace::port) {
         // Linux cuts every access to its /dev/port into bytes, the low one first.
         if (spec.width == 16 && S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 4))
             return fail(
@@ -177,7 +177,7 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
                             spec.path));
         return std::make_unique<FileWords>(std::move(file), spec.offset, spec.width);
     }
-    if (spec.reach == Reach::memory) return map_words(spec, std::move(file), spec.offset, 0, length);
+    if (spec.reach == AddressSpace::memory) return map_words(spec, std::move(file), spec.offset, 0, length);
 
     const auto folder = std::filesystem::path("/sys/class/uio") / std::filesystem::path(spec.path).filename();
     MOTIONRACK_TRY(const UioMap map, read_uio_map(folder, spec.map));

@@ -11,16 +11,16 @@ namespace motionrack::live {
 
 /// One word is one access of 16 bits, or two of 8: the high byte first, because the low byte of a command register
 /// carries it out.
-class Words {
+class WordAccess {
   public:
-    virtual ~Words() = default;
+    virtual ~WordAccess() = default;
     /// `at`: bytes from the first register's place. 0, or the errno of what was refused.
     virtual int write(std::uint64_t at, std::uint16_t value) = 0;
     virtual int read(std::uint64_t at, std::uint16_t& value) = 0;
 };
 
 /// `length`: bytes from the first register's start to the last one's end. Errors: io, refused.
-Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t length);
+Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64_t length);
 
 /// A map of a UIO node, as its folder in /sys tells it (maps/map0/size and offset).
 struct UioMap {

@@ -66,7 +66,7 @@ bool is_quiet(natsStatus status) {
            status == NATS_CONNECTION_DISCONNECTED || status == NATS_NOT_FOUND;
 }
 
-class TakenPoint final : public Taken {
+class TakenPoint final : public LeasedPoint {
   public:
     explicit TakenPoint(Message message) : message_(std::move(message)) {
         jsMsgMetaData* meta = nullptr;
@@ -183,7 +183,7 @@ class JetStreamQueue final : public Queue {
         return true;
     }
 
-    Result<std::unique_ptr<Taken>> take(std::int64_t wait_ms) override {
+    Result<std::unique_ptr<LeasedPoint>> take(std::int64_t wait_ms) override {
         (void)came_back();
         if (!points_) MOTIONRACK_CHECK(join_workers());
         natsMsgList list{};
@@ -195,7 +195,7 @@ class JetStreamQueue final : public Queue {
         }
         natsMsgList_Destroy(&list);
         if (status != NATS_OK && !is_quiet(status)) return trouble(status, "Points cannot be fetched");
-        return std::unique_ptr<Taken>();
+        return std::unique_ptr<LeasedPoint>();
     }
 
     Result<void> answer(const std::string& sweep, const std::string& key, std::string_view text) override {

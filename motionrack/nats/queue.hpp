@@ -34,9 +34,9 @@ struct Answer {
 };
 
 /// A point that a worker has, until it is done or given back. Any thread may renew it.
-class Taken {
+class LeasedPoint {
   public:
-    virtual ~Taken() = default;
+    virtual ~LeasedPoint() = default;
     virtual std::string_view text() const = 0;
     virtual std::string sweep() const = 0;
     /// How often it was given to a worker, this time included.
@@ -71,7 +71,7 @@ class Queue {
 
     // ---- worker; one thread
     /// The next point of any sweep; waits at most `wait_ms` for one. Errors: io.
-    virtual Result<std::unique_ptr<Taken>> take(std::int64_t wait_ms) = 0;
+    virtual Result<std::unique_ptr<LeasedPoint>> take(std::int64_t wait_ms) = 0;
     /// The answer for a point; another one with this key is left out. Errors: io.
     virtual Result<void> answer(const std::string& sweep, const std::string& key, std::string_view text) = 0;
 };

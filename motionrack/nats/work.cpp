@@ -27,11 +27,11 @@ class Signs {
         wake_.notify_all();
         thread_.join();
     }
-    void add(Taken& point) {
+    void add(LeasedPoint& point) {
         const std::lock_guard lock(mutex_);
         points_.push_back(&point);
     }
-    void remove(Taken& point) {
+    void remove(LeasedPoint& point) {
         const std::lock_guard lock(mutex_);
         points_.erase(std::find(points_.begin(), points_.end(), &point));
     }
@@ -40,11 +40,11 @@ class Signs {
     void run() {
         std::unique_lock lock(mutex_);
         while (!wake_.wait_for(lock, std::chrono::milliseconds(silence_ms / 3), [this] { return over_; }))
-            for (Taken* point : points_) point->renew();
+            for (LeasedPoint* point : points_) point->renew();
     }
     std::mutex mutex_;
     std::condition_variable wake_;
-    std::vector<Taken*> points_;
+    std::vector<LeasedPoint*> points_;
     bool over_ = false;
     std::thread thread_;
 };
@@ -87,7 +87,7 @@ class Worker {
     }
 
     Result<bool> one(Queue& queue) {
-        MOTIONRACK_TRY(const std::unique_ptr<Taken> point, queue.take(500));
+        MOTIONRACK_TRY(const std::unique_ptr<LeasedPoint> point, queue.take(500));
         if (!point) return false;
         const std::string key = sweep::key_of(point->text());
         signs_.add(*point);
@@ -103,7 +103,7 @@ class Worker {
         return answered.has_value();
     }
 
-    Result<sweep::Row> run_point(const Taken& point) {
+    Result<sweep::Row> run_point(const LeasedPoint& point) {
         if (point.times() > most_times)
             return fail(ErrorKind::refused,
                         fmt::format("{} workers had it and died, or were killed, before it was done. It was taken out "

@@ -35,7 +35,7 @@ Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::R
 
 Result<void> LiveCard::open_port() {
     port_.reset();  // its lock, too
-    MOTIONRACK_TRY(port_, live::Port::open(place_.spec, kind_.map()));
+    MOTIONRACK_TRY(port_, live::CardPort::open(place_.spec, kind_.map()));
     lost_.reset();
     return {};
 }

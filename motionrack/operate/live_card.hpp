@@ -1,6 +1,6 @@
 // A real card in the place of a virtual one of the rack, for as long as a service lasts.
 //
-//   Service ──► library ──► LiveCard ──► live::Port ──► card      the card's time is the computer's
+//   Service ──► library ──► LiveCard ──► live::CardPort ──► card      the card's time is the computer's
 //                              │ waits: 1 ms of the rack's time between two looks, so that orders, leases and the
 //                              │ status go on
 //                              └ after each call and twice a second: all registers, for the card's page
@@ -52,7 +52,7 @@ struct LiveStop {
 /// Only the motion thread uses it.
 class LiveCard final : public RegisterPort, public Interrupt {
   public:
-    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::Port::open; io, an access
+    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::CardPort::open; io, an access
     /// that the computer refuses, and no card answers.
     static Result<std::unique_ptr<LiveCard>> open(const LivePlace& place, rack::Rack& rack);
 
@@ -92,7 +92,7 @@ class LiveCard final : public RegisterPort, public Interrupt {
     const rack::CardKind& kind_;
     Interrupt& host_;  ///< the rack's time
     live::MonotonicClock clock_;
-    std::unique_ptr<live::Port> port_;  ///< nullptr: it could not be opened again
+    std::unique_ptr<live::CardPort> port_;  ///< nullptr: it could not be opened again
     std::optional<Error> lost_;
     LiveRegisters registers_;
     Instant looked_{};                ///< of this clock

@@ -88,8 +88,8 @@ Result<json> events_of(PanelContext& desk, const json& fields) {
 
 void journal_of(PanelContext& desk, const json& fields, Ready ready) {
     if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "No journal is kept."));
-    journal::Question question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""),
-                               static_cast<int>(number_of(fields, "limit", 100))};
+    journal::JournalQuery question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""),
+                                   static_cast<int>(number_of(fields, "limit", 100))};
     desk.run_async(
         [book = desk.settings.journal, question]() -> Result<json> {
             MOTIONRACK_TRY(const std::vector<journal::Entry> entries, book->read(question));

@@ -28,8 +28,8 @@ const CardMap& map_of(const std::string& type) {
                              type, known)});
 }
 
-std::unique_ptr<live::Port> port_at(const std::string& place, const CardMap& map) {
-    return value_of(live::Port::open(value_of(live::read_port_spec(place)), map));
+std::unique_ptr<live::CardPort> port_at(const std::string& place, const CardMap& map) {
+    return value_of(live::CardPort::open(value_of(live::read_port_spec(place)), map));
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ LiveCard::~LiveCard() {
     if (!closed()) stops_.stop();
 }
 
-live::Port& LiveCard::open_port() const {
+live::CardPort& LiveCard::open_port() const {
     if (closed()) refuse(fmt::format("The card at {} was closed. Nothing was done. Open it again.", place_));
     return *port_;
 }
@@ -136,7 +136,7 @@ void LiveCard::check_offset(std::uint32_t offset, bool written) const {
 
 std::uint16_t LiveCard::read(std::uint32_t offset) {
     const Turn turn(*this, Turn::For::moving);
-    live::Port& port = open_port();
+    live::CardPort& port = open_port();
     check_offset(offset, false);
     const std::uint16_t word = port.read(offset);
     check_trouble();

@@ -1,6 +1,6 @@
 // A real card as Python has it: a live port with a stop that holds, and Ctrl-C heard while a call waits.
 //
-//   Python ──► Turn ──► LiveCard ──► Driver, Library ──► GuardedPort ──► live::Port ──► card
+//   Python ──► Turn ──► LiveCard ──► Driver, Library ──► GuardedPort ──► live::CardPort ──► card
 //   Ctrl-C, quick_stop() ──► stop flag ──► Ears, QuickStops ── all axes, at once ──► ┘
 //
 // A stop is taken in every state and from every thread. It ends the call that runs, and nothing is written to the card
@@ -83,13 +83,13 @@ class LiveCard final : public Host {
         LiveCard& card_;
     };
 
-    live::Port& open_port() const;
+    live::CardPort& open_port() const;
     void check_trouble() const;
     void check_offset(std::uint32_t offset, bool written) const;
 
     std::string place_;
     const CardMap& map_;
-    std::unique_ptr<live::Port> port_;
+    std::unique_ptr<live::CardPort> port_;
     Registers port_now_{*this};
     Ears ears_{*this};
     mcx314::QuickStops stops_{port_now_, ears_};

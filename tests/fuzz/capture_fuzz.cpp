@@ -35,8 +35,8 @@ void decode(std::uint8_t choice, std::string_view text) {
     const auto& signals = (*capture)->signals();
     auto channels = choose_channels(signals, {});
     if (!channels && signals.size() >= 2)
-        channels =
-            std::vector<ChannelChoice>{{"X", 0, 1, signals.size() > 2 ? std::optional<std::size_t>(2) : std::nullopt}};
+        channels = std::vector<ChannelSelection>{
+            {"X", 0, 1, signals.size() > 2 ? std::optional<std::size_t>(2) : std::nullopt}};
     if (!channels) return;
     AnalysisSettings how;
     how.window_s = (choice & 8) != 0 ? 1e-3 : 1e-6;

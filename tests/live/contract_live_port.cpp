@@ -40,14 +40,14 @@ class LiveContractPort final : public ContractPort {
   public:
     LiveContractPort(const live::PortSpec& spec, const std::string& bell) {
         if (!bell.empty()) bell_.emplace(bell, page, false);
-        auto opened =
-            live::Port::open(spec, card_map(), bell_ ? std::make_unique<ServedClock>(bell_->as<Doorbell>()) : nullptr);
+        auto opened = live::CardPort::open(spec, card_map(),
+                                           bell_ ? std::make_unique<ServedClock>(bell_->as<Doorbell>()) : nullptr);
         if (!opened) {
             ADD_FAILURE() << opened.error().message;
             return;
         }
         port_ = std::move(*opened);
-        if (!bell_ || spec.reach != live::Reach::memory) return;
+        if (!bell_ || spec.reach != live::AddressSpace::memory) return;
         served_bell = &bell_->as<Doorbell>();
         trap_.emplace(Trap::mapping_of(spec.path), page, ask_before, tell_after);
     }
@@ -62,7 +62,7 @@ class LiveContractPort final : public ContractPort {
 
   private:
     std::optional<MappedFile> bell_;
-    std::unique_ptr<live::Port> port_;
+    std::unique_ptr<live::CardPort> port_;
     std::optional<Trap> trap_;  // ends before the mapping does
 };
 
@@ -86,7 +86,7 @@ std::unique_ptr<ContractPort> make_contract_port() {
         ADD_FAILURE() << spec.error().message;
         return nullptr;
     }
-    if (spec->reach == live::Reach::memory && !bell.empty() && !Trap::possible()) {
+    if (spec->reach == live::AddressSpace::memory && !bell.empty() && !Trap::possible()) {
         std::puts("Accesses to memory are noticed one by one on x86-64 only.");
         return nullptr;
     }

@@ -42,8 +42,8 @@ class LivePortInMemory : public testing::Test {
         file_.reset();
         std::filesystem::remove_all(folder_);
     }
-    std::unique_ptr<live::Port> open(const std::string& options) {
-        auto port = live::Port::open(*live::read_port_spec("memory:" + path_ + options), mcx314::card_map());
+    std::unique_ptr<live::CardPort> open(const std::string& options) {
+        auto port = live::CardPort::open(*live::read_port_spec("memory:" + path_ + options), mcx314::card_map());
         EXPECT_TRUE(port) << port.error().message;
         return port ? std::move(*port) : nullptr;
     }

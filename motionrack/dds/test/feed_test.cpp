@@ -12,10 +12,10 @@ namespace {
 /// A subscriber that hears what the test says.
 class ScriptedSubscriber final : public Subscriber {
   public:
-    ScriptedSubscriber() : Subscriber(JudgeSettings{}) {}
+    ScriptedSubscriber() : Subscriber(ValidatorSettings{}) {}
     Instant poll(const Use& use) override {
         for (const Sample& sample : waiting) {
-            const Verdict verdict = judge_.take(sample, now += period);
+            const Validation verdict = judge_.take(sample, now += period);
             if (use) use(sample, verdict, now);
         }
         waiting.clear();
@@ -75,7 +75,7 @@ class CountingSource final : public FrameSource {
     }
 };
 
-TEST(Publishing, EndsWithTheSourceOrTheCountOrTheStop) {
+TEST(FramePublisher, EndsWithTheSourceOrTheCountOrTheStop) {
     PublishingSettings settings;
     settings.speed = 1e6;
     {
@@ -106,7 +106,7 @@ TEST(Publishing, EndsWithTheSourceOrTheCountOrTheStop) {
     }
 }
 
-TEST(Publishing, TellsWhatStoppedTheSource) {
+TEST(FramePublisher, TellsWhatStoppedTheSource) {
     CountingPublisher publisher;
     CountingSource source;
     source.broken = 5;

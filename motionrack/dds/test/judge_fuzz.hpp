@@ -26,7 +26,7 @@ class Run {
         for (int i = 0; i < samples && problem_.empty() && !feed_.empty(); ++i) step();
         return problem_;
     }
-    const FrameJudge& judge() const { return judge_; }
+    const FrameValidator& judge() const { return judge_; }
 
   private:
     void must(bool holds, const char* what) {
@@ -96,7 +96,7 @@ class Run {
         must(c.received == c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed +
                                c.wrong_words + c.other_source,
              "every sample is counted once");
-        must(judge_.others().size() <= FrameJudge::most_others, "a few others are kept");
+        must(judge_.others().size() <= FrameValidator::most_others, "a few others are kept");
     }
 
     void take(const Sample& sample) {
@@ -104,9 +104,9 @@ class Run {
         const Source before = judge_.source();
         const Frame held = judge_.frame();
         const Counts then = judge_.counts();
-        const Verdict verdict = judge_.take(sample, now_);
+        const Validation verdict = judge_.take(sample, now_);
         const Counts& c = judge_.counts();
-        if (verdict != Verdict::used) {
+        if (verdict != Validation::used) {
             must(same(judge_.frame(), held), "what is not used is not held");
             must(!had || judge_.source() == before, "who is not used does not get the bus");
             return;
@@ -122,7 +122,7 @@ class Run {
     }
 
     Feed& feed_;
-    FrameJudge judge_;
+    FrameValidator judge_;
     Instant now_{}, used_at_{};
     std::uint32_t number_ = 0;
     std::string problem_;

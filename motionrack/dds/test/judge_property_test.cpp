@@ -25,7 +25,7 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
     RC_PRE(!arrivals.empty());
     std::stable_sort(arrivals.begin(), arrivals.end(),
                      [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
-    FrameJudge judge;
+    FrameValidator judge;
     const Source source = source_named(1);
     Instant now{};
     std::set<int> seen;
@@ -36,13 +36,13 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
         Sample sample = sample_of(source, start + static_cast<std::uint32_t>(arrival.number));
         sample.frame.time = (arrival.number + 1) * period.count();
         seal(sample);
-        const Verdict verdict = judge.take(sample, now += period);
+        const Validation verdict = judge.take(sample, now += period);
         // What was there before the judge listened is late each time it comes.
         const bool known = arrival.number >= oldest, again = known && !seen.insert(arrival.number).second;
         duplicates += again ? 1 : 0;
-        const Verdict expected = again                                                     ? Verdict::duplicate
-                                 : arrival.number > newest || judge.counts().received == 1 ? Verdict::used
-                                                                                           : Verdict::late;
+        const Validation expected = again                                                     ? Validation::duplicate
+                                    : arrival.number > newest || judge.counts().received == 1 ? Validation::used
+                                                                                              : Validation::late;
         RC_ASSERT(verdict == expected);
         newest = std::max(newest, arrival.number);
         RC_ASSERT(judge.frame().sequence == start + static_cast<std::uint32_t>(newest));
@@ -54,7 +54,7 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
 }
 
 RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ()) {
-    FrameJudge judge;
+    FrameValidator judge;
     Instant now{};
     std::uint32_t number = 0;
     const int steps = *rc::gen::inRange(1, 300);
@@ -68,9 +68,9 @@ RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ())
         const Source before = judge.source();
         const bool had = judge.joined();
         const std::uint64_t followed = judge.counts().restarts + judge.counts().takeovers;
-        const Verdict verdict = judge.take(sample, now);
-        if (damaged) RC_ASSERT(verdict == Verdict::wrong_crc);
-        if (verdict == Verdict::used) {
+        const Validation verdict = judge.take(sample, now);
+        if (damaged) RC_ASSERT(verdict == Validation::wrong_crc);
+        if (verdict == Validation::used) {
             RC_ASSERT(same(judge.frame(), sample.frame));
             RC_ASSERT(judge.source() == sample.source);
             RC_ASSERT(!judge.stale());
@@ -84,8 +84,8 @@ RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ())
               c.received);
 }
 
-TEST(Pacer, AddsNothingUp) {
-    Pacer pacer(1, period);
+TEST(FramePacer, AddsNothingUp) {
+    FramePacer pacer(1, period);
     const Instant begin = whole_seconds(77);
     for (int i = 0; i < 100'000; ++i)
         ASSERT_EQ(pacer.due(milliseconds(1) + i * period, begin + (i == 0 ? Duration{0} : i * period + Duration{3})),
@@ -94,17 +94,17 @@ TEST(Pacer, AddsNothingUp) {
     EXPECT_EQ(pacer.worst(), Duration{3});
 }
 
-TEST(Pacer, SlowsDownAndHurries) {
-    Pacer slow(0.1, 10 * period);
+TEST(FramePacer, SlowsDownAndHurries) {
+    FramePacer slow(0.1, 10 * period);
     slow.due(Instant{0}, whole_seconds(1));
     EXPECT_EQ(slow.due(milliseconds(1), whole_seconds(1)), whole_seconds(1) + milliseconds(10));
-    Pacer quick(4, period / 4);
+    FramePacer quick(4, period / 4);
     quick.due(Instant{0}, whole_seconds(1));
     EXPECT_EQ(quick.due(milliseconds(4), whole_seconds(1)), whole_seconds(1) + milliseconds(1));
 }
 
-TEST(Pacer, CountsLateFramesAndDoesNotCatchUpAfterASecond) {
-    Pacer pacer(1, period);
+TEST(FramePacer, CountsLateFramesAndDoesNotCatchUpAfterASecond) {
+    FramePacer pacer(1, period);
     pacer.due(Instant{0}, Instant{0});
     EXPECT_EQ(pacer.due(period, 3 * period), period) << "at once, and the schedule stands";
     EXPECT_EQ(pacer.late(), 1u);

@@ -13,12 +13,12 @@ using testing::HasSubstr;
 /// A judge that hears a frame each period.
 class Judging : public testing::Test {
   protected:
-    FrameJudge judge;
+    FrameValidator judge;
     Source first = source_named(1), second = source_named(2, "wafer2");
     Instant now = whole_seconds(5);
 
-    Verdict hear(const Sample& sample) { return judge.take(sample, now += period); }
-    Verdict hear(std::uint32_t number) { return hear(sample_of(first, number)); }
+    Validation hear(const Sample& sample) { return judge.take(sample, now += period); }
+    Validation hear(std::uint32_t number) { return hear(sample_of(first, number)); }
     std::vector<Event> events() {
         std::vector<Event> out;
         for (Event event; judge.next_event(event);) out.push_back(event);
@@ -39,7 +39,7 @@ class Judging : public testing::Test {
 TEST_F(Judging, UsesFramesThatFollowEachOther) {
     EXPECT_TRUE(judge.stale());
     for (std::uint32_t i = 10; i < 20; ++i) {
-        EXPECT_EQ(hear(i), Verdict::used);
+        EXPECT_EQ(hear(i), Validation::used);
         EXPECT_EQ(judge.frame().counts[3], i * 1000 + 3);
     }
     EXPECT_EQ(judge.counts().used, 10u);
@@ -50,7 +50,7 @@ TEST_F(Judging, UsesFramesThatFollowEachOther) {
 
 TEST_F(Judging, CountsTheFramesThatAreMissing) {
     hear(10);
-    EXPECT_EQ(hear(14), Verdict::used);
+    EXPECT_EQ(hear(14), Validation::used);
     EXPECT_EQ(judge.counts().lost, 3u);
     EXPECT_EQ(
         told(EventKind::lost),
@@ -60,12 +60,12 @@ TEST_F(Judging, CountsTheFramesThatAreMissing) {
 TEST_F(Judging, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
     hear(10);
     hear(12);
-    EXPECT_EQ(hear(11), Verdict::late);
+    EXPECT_EQ(hear(11), Validation::late);
     EXPECT_EQ(judge.counts().lost, 0u);
     EXPECT_EQ(judge.frame().sequence, 12u);
-    EXPECT_EQ(hear(11), Verdict::duplicate);
-    EXPECT_EQ(hear(12), Verdict::duplicate);
-    EXPECT_EQ(hear(9), Verdict::late) << "from before it listened";
+    EXPECT_EQ(hear(11), Validation::duplicate);
+    EXPECT_EQ(hear(12), Validation::duplicate);
+    EXPECT_EQ(hear(9), Validation::late) << "from before it listened";
     EXPECT_EQ(judge.counts().lost, 0u);
 }
 
@@ -76,10 +76,10 @@ TEST_F(Judging, GoesOnWhereTheSequenceWraps) {
         seal(out);
         return out;
     };
-    EXPECT_EQ(hear(wrapped(0xFFFF'FFFE, 10)), Verdict::used);
-    EXPECT_EQ(hear(wrapped(1, 13)), Verdict::used);
+    EXPECT_EQ(hear(wrapped(0xFFFF'FFFE, 10)), Validation::used);
+    EXPECT_EQ(hear(wrapped(1, 13)), Validation::used);
     EXPECT_EQ(judge.counts().lost, 2u);
-    EXPECT_EQ(hear(wrapped(0xFFFF'FFFF, 11)), Verdict::late);
+    EXPECT_EQ(hear(wrapped(0xFFFF'FFFF, 11)), Validation::late);
     EXPECT_EQ(judge.counts().lost, 1u);
 }
 
@@ -88,10 +88,10 @@ TEST_F(Judging, RefusesASequenceThatJumpsAgainstItsTime) {
     Sample jumped = sample_of(first, 5000);
     jumped.frame.time = sample_of(first, 11).frame.time;
     seal(jumped);
-    EXPECT_EQ(hear(jumped), Verdict::jump);
+    EXPECT_EQ(hear(jumped), Validation::jump);
     EXPECT_EQ(judge.frame().sequence, 10u);
     EXPECT_THAT(told(EventKind::jump), HasSubstr("Frame 5000 does not go on from frame 10"));
-    EXPECT_EQ(hear(12), Verdict::used);
+    EXPECT_EQ(hear(12), Validation::used);
     EXPECT_EQ(judge.counts().lost, 1u);
 }
 
@@ -104,12 +104,12 @@ TEST_F(Judging, FollowsACardThatWasReset) {
         seal(out);
         return out;
     };
-    EXPECT_EQ(hear(after_reset(0)), Verdict::jump) << "one frame alone is not believed";
-    EXPECT_EQ(hear(after_reset(1)), Verdict::used);
+    EXPECT_EQ(hear(after_reset(0)), Validation::jump) << "one frame alone is not believed";
+    EXPECT_EQ(hear(after_reset(1)), Validation::used);
     EXPECT_EQ(judge.counts().anew, 1u);
     EXPECT_EQ(judge.counts().lost, 0u);
     EXPECT_THAT(told(EventKind::anew), HasSubstr("began anew: frame 1 follows frame 101"));
-    EXPECT_EQ(hear(after_reset(2)), Verdict::used);
+    EXPECT_EQ(hear(after_reset(2)), Validation::used);
 }
 
 TEST_F(Judging, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
@@ -121,7 +121,7 @@ TEST_F(Judging, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
     judge.look(now + 3 * period);
     EXPECT_THAT(told(EventKind::stale), HasSubstr("positions of frame 10 are stale"));
     now += whole_seconds(3);
-    EXPECT_EQ(hear(10 + 15'001), Verdict::used);
+    EXPECT_EQ(hear(10 + 15'001), Validation::used);
     EXPECT_FALSE(judge.stale());
     EXPECT_EQ(judge.counts().stale, 1u);
     EXPECT_EQ(judge.counts().lost, 15'000u);
@@ -138,7 +138,7 @@ TEST_F(Judging, CountsASilenceThatEndedBeforeAnyoneLooked) {
 
 TEST_F(Judging, NeverUsesASecondPublisherWhileTheFirstIsThere) {
     hear(10);
-    EXPECT_EQ(hear(sample_of(second, 700)), Verdict::other_source);
+    EXPECT_EQ(hear(sample_of(second, 700)), Validation::other_source);
     EXPECT_FALSE(judge.in_conflict()) << "the first may be gone";
     hear(11);
     EXPECT_TRUE(judge.in_conflict());
@@ -157,7 +157,7 @@ TEST_F(Judging, NeverUsesASecondPublisherWhileTheFirstIsThere) {
 TEST_F(Judging, EndsAConflictWhenTheSecondIsSilent) {
     hear(10);
     hear(sample_of(second, 700));
-    for (std::uint32_t i = 11; judge.in_conflict() || i < 13; ++i) ASSERT_EQ(hear(i), Verdict::used);
+    for (std::uint32_t i = 11; judge.in_conflict() || i < 13; ++i) ASSERT_EQ(hear(i), Validation::used);
     EXPECT_THAT(told(EventKind::conflict_over), HasSubstr("wafer2, process 102"));
     EXPECT_TRUE(judge.others().empty());
 }
@@ -165,21 +165,21 @@ TEST_F(Judging, EndsAConflictWhenTheSecondIsSilent) {
 TEST_F(Judging, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
     hear(10);
     hear(sample_of(second, 700));
-    now += JudgeSettings{}.release;
-    EXPECT_EQ(hear(sample_of(second, 701)), Verdict::used);
+    now += ValidatorSettings{}.release;
+    EXPECT_EQ(hear(sample_of(second, 701)), Validation::used);
     EXPECT_EQ(judge.source(), second);
     EXPECT_EQ(judge.counts().takeovers, 1u);
     EXPECT_EQ(judge.counts().lost, 0u);
     EXPECT_EQ(judge.counts().conflicts, 0u);
     EXPECT_THAT(told(EventKind::takeover), HasSubstr("[wafer2, process 102"));
-    EXPECT_EQ(hear(11), Verdict::other_source) << "the first comes back too late";
+    EXPECT_EQ(hear(11), Validation::other_source) << "the first comes back too late";
 }
 
 TEST_F(Judging, KnowsAPublisherThatWasStartedAnew) {
     hear(10);
     const Source again = source_named(3);
-    now += JudgeSettings{}.release;
-    EXPECT_EQ(hear(sample_of(again, 0)), Verdict::used);
+    now += ValidatorSettings{}.release;
+    EXPECT_EQ(hear(sample_of(again, 0)), Validation::used);
     EXPECT_EQ(judge.counts().restarts, 1u);
     EXPECT_EQ(judge.counts().takeovers, 0u);
     EXPECT_THAT(told(EventKind::restart), HasSubstr("started anew"));
@@ -190,26 +190,28 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
     const auto damaged = [&](auto change) {
         Sample sample = sample_of(first, 11);
         change(sample);
-        const Verdict verdict = hear(sample);
+        const Validation verdict = hear(sample);
         EXPECT_EQ(judge.frame().sequence, 10u);
         return verdict;
     };
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.counts[2] ^= 1; }), Verdict::wrong_crc);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.addresses[2] ^= 1; }), Verdict::wrong_crc);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.sequence ^= 1; }), Verdict::wrong_crc);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.crc ^= 1; }), Verdict::wrong_crc);
-    EXPECT_EQ(damaged([](Sample& s) { s.source.id[0] ^= 1; }), Verdict::wrong_crc);
-    EXPECT_EQ(damaged([](Sample& s) { s.pace += 1; }), Verdict::wrong_crc);
-    EXPECT_EQ(damaged([](Sample& s) { s.format += 1; }), Verdict::foreign);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 0; }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 129; }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.time = -1, seal(s); }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.period = 0, seal(s); }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.pace = -5, seal(s); }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.source.host.fill('x'), seal(s); }), Verdict::malformed) << "a name without end";
-    EXPECT_EQ(damaged([](Sample& s) { s.source.host[0] = '\033', seal(s); }), Verdict::malformed);
-    EXPECT_EQ(damaged([](Sample& s) { s.period += 1, seal(s); }), Verdict::malformed) << "another period than before";
-    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 5, seal(s); }), Verdict::wrong_words);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.counts[2] ^= 1; }), Validation::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.addresses[2] ^= 1; }), Validation::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.sequence ^= 1; }), Validation::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.crc ^= 1; }), Validation::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.source.id[0] ^= 1; }), Validation::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.pace += 1; }), Validation::wrong_crc);
+    EXPECT_EQ(damaged([](Sample& s) { s.format += 1; }), Validation::foreign);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 0; }), Validation::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 129; }), Validation::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.time = -1, seal(s); }), Validation::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.period = 0, seal(s); }), Validation::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.pace = -5, seal(s); }), Validation::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.source.host.fill('x'), seal(s); }), Validation::malformed)
+        << "a name without end";
+    EXPECT_EQ(damaged([](Sample& s) { s.source.host[0] = '\033', seal(s); }), Validation::malformed);
+    EXPECT_EQ(damaged([](Sample& s) { s.period += 1, seal(s); }), Validation::malformed)
+        << "another period than before";
+    EXPECT_EQ(damaged([](Sample& s) { s.frame.words = 5, seal(s); }), Validation::wrong_words);
     EXPECT_EQ(judge.counts().wrong_crc, 6u);
     EXPECT_EQ(judge.counts().foreign, 1u);
     EXPECT_EQ(judge.counts().malformed, 8u);
@@ -224,11 +226,11 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
 }
 
 TEST_F(Judging, LetsNobodyInWhoseNIsNotTheExpectedOne) {
-    judge = FrameJudge({.words = 8});
-    EXPECT_EQ(hear(10), Verdict::wrong_words);
+    judge = FrameValidator({.words = 8});
+    EXPECT_EQ(hear(10), Validation::wrong_words);
     EXPECT_FALSE(judge.joined());
     EXPECT_THAT(told(EventKind::wrong_words), HasSubstr("has 6 positions, but 8 are expected"));
-    EXPECT_EQ(hear(sample_of(second, 3, 8)), Verdict::used);
+    EXPECT_EQ(hear(sample_of(second, 3, 8)), Validation::used);
 }
 
 TEST_F(Judging, TellsPeopleOnlyPrintableText) {
@@ -241,10 +243,10 @@ TEST_F(Judging, TellsPeopleOnlyPrintableText) {
 TEST_F(Judging, KeepsAFewOthersInMindAndCountsTheRest) {
     hear(10);
     for (std::uint8_t id = 50; id < 80; ++id) hear(sample_of(source_named(id, "crowd"), 1));
-    EXPECT_EQ(judge.others().size(), FrameJudge::most_others);
+    EXPECT_EQ(judge.others().size(), FrameValidator::most_others);
     EXPECT_EQ(judge.counts().other_source, 30u);
     hear(42);
-    EXPECT_EQ(judge.counts().conflicts, FrameJudge::most_others);
+    EXPECT_EQ(judge.counts().conflicts, FrameValidator::most_others);
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ Result<dds::Published> publish_standing(Run& run) {
 
 /// The frames while a part program moves the rack's axes.
 Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
-    dds::Publishing publishing(run.publisher, run.settings);
+    dds::FramePublisher publishing(run.publisher, run.settings);
     const Instant end = run.options.seconds > 0 ? from_seconds(run.options.seconds) : never;
     bool enough = false;
     rack::JobSettings job_settings;

@@ -75,7 +75,7 @@ class Display {
     Display(const SubscribeOptions& options, Instant start)
         : options_(options), start_(start), live_(!options.json && !options.quiet && is_terminal(1)) {}
 
-    void events(dds::FrameJudge& judge) {
+    void events(dds::FrameValidator& judge) {
         for (dds::Event event; judge.next_event(event);) {
             if (options_.json) {
                 fmt::print("{}\n", event_json(event, start_));
@@ -119,7 +119,7 @@ class Display {
 };
 
 /// How the reading ended, in words and as a code.
-int ending(const SubscribeOptions& options, const dds::FrameJudge& judge, bool enough) {
+int ending(const SubscribeOptions& options, const dds::FrameValidator& judge, bool enough) {
     if (stop_asked.load()) return exit_stopped;
     if (judge.counts().used == 0) {
         print_error(
@@ -143,7 +143,7 @@ int ending(const SubscribeOptions& options, const dds::FrameJudge& judge, bool e
 }
 
 /// How long it may take until something has to be looked at, be it that nothing comes.
-Duration until_stale(const dds::FrameJudge& judge, Instant now) {
+Duration until_stale(const dds::FrameValidator& judge, Instant now) {
     static constexpr Duration at_most = milliseconds(50);
     if (!judge.joined() || judge.stale()) return at_most;
     return std::clamp(2 * judge.pace() - judge.age(now) + Duration{1}, Duration{0}, at_most);
@@ -159,8 +159,8 @@ int listen(const SubscribeOptions& options, dds::Subscriber& subscriber, CsvFile
     const auto enough = [&] { return options.count != 0 && used >= options.count; };
     while (!stop_asked.load() && now < end && !enough()) {
         subscriber.wait(std::min({next - now, end - now, until_stale(subscriber.judge(), now)}));
-        now = subscriber.poll([&](const dds::Sample& sample, dds::Verdict verdict, Instant received) {
-            if (verdict != dds::Verdict::used || enough()) return;
+        now = subscriber.poll([&](const dds::Sample& sample, dds::Validation verdict, Instant received) {
+            if (verdict != dds::Validation::used || enough()) return;
             ++used;
             csv.add(sample.frame, received - start);
         });

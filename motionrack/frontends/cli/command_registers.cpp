@@ -33,7 +33,7 @@ int live_registers(const RegistersOptions& options) {
     }
     const auto spec = live::read_port_spec(options.live);
     if (!spec) return report(spec.error());
-    const auto port = live::Port::open(*spec, kind->map());
+    const auto port = live::CardPort::open(*spec, kind->map());
     if (!port) return report(port.error());
     const rack::RegisterView view = kind->view(**port, options.clear);
     if ((*port)->trouble()) return report(*(*port)->trouble());

@@ -69,7 +69,7 @@ Result<void> use_config(const BusOptions& options) {
 }
 
 std::string status_json(const dds::Subscriber& subscriber, const std::string& bus, Instant now) {
-    const dds::FrameJudge& judge = subscriber.judge();
+    const dds::FrameValidator& judge = subscriber.judge();
     ordered_json out = {
         {"bus", bus}, {"joined", judge.joined()}, {"stale", judge.stale()}, {"in_conflict", judge.in_conflict()}};
     if (judge.joined()) {
@@ -85,7 +85,7 @@ std::string status_json(const dds::Subscriber& subscriber, const std::string& bu
     ordered_json counts, others = ordered_json::array();
     for (const CountName& each : count_names) counts[each.key] = judge.counts().*each.count;
     counts["overruns"] = subscriber.overruns();
-    for (const dds::Other& other : judge.others()) {
+    for (const dds::OtherSource& other : judge.others()) {
         others.push_back(source_json(other.source));
         others.back()["frames"] = other.frames;
         others.back()["in_conflict"] = other.in_conflict;
@@ -104,7 +104,7 @@ std::string event_json(const dds::Event& event, Instant start) {
 }
 
 std::string status_table(const dds::Subscriber& subscriber, const std::string& bus, Instant now) {
-    const dds::FrameJudge& judge = subscriber.judge();
+    const dds::FrameValidator& judge = subscriber.judge();
     if (!judge.joined())
         return fmt::format("bus {}: no frame yet; {} samples received\n", bus, judge.counts().received);
     const dds::Frame& frame = judge.frame();
@@ -124,14 +124,14 @@ std::string status_table(const dds::Subscriber& subscriber, const std::string& b
             fmt::format_to(end, "{:>12} {}\n", count, each.words);
     if (subscriber.overruns() != 0)
         fmt::format_to(end, "{:>12} dropped here, this program was too slow\n", subscriber.overruns());
-    for (const dds::Other& other : judge.others())
+    for (const dds::OtherSource& other : judge.others())
         fmt::format_to(end, "{} {}: {} frames, not used\n", other.in_conflict ? "CONFLICT" : "also",
                        other.source.text(), other.frames);
     return out;
 }
 
 std::string status_line(const dds::Subscriber& subscriber, Instant now) {
-    const dds::FrameJudge& judge = subscriber.judge();
+    const dds::FrameValidator& judge = subscriber.judge();
     const dds::Counts& c = judge.counts();
     if (!judge.joined()) return fmt::format("no frame yet; {} samples received", c.received);
     const dds::Frame& frame = judge.frame();

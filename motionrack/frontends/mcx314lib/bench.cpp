@@ -56,7 +56,7 @@ Result<int> Bench::open_live(const char* text, const char* card) {
             ErrorKind::bad_input,
             fmt::format("A real card has no name, but {} was given. Nothing was opened. Give NULL.", in_quotes(card)));
     MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
-    MOTIONRACK_TRY(auto port, live::Port::open(spec, mcx314::card_map()));
+    MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
     return keep(std::make_unique<Chip>(std::move(port)));
 }
 

@@ -3,7 +3,7 @@
 //   MOTIONRACK_RACK ─┐
 //   mcx314_open ─────┴─► Chip 1 ─ Driver ─ Manual x4 ─┐
 //                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one World (a rack and its time), or one each
-//                        Chip 3 ─ Driver ─ Manual x4 ───► live::Port: a real card and the computer's time
+//                        Chip 3 ─ Driver ─ Manual x4 ───► live::CardPort: a real card and the computer's time
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class Chip {
   public:
     Chip(std::shared_ptr<World> in, VirtualCard& on)
         : world(std::move(in)), card(&on), driver(on.registers(), on.interrupt()) {}
-    explicit Chip(std::unique_ptr<live::Port> port) : live(std::move(port)), driver(*live, *live) {}
+    explicit Chip(std::unique_ptr<live::CardPort> port) : live(std::move(port)), driver(*live, *live) {}
 
     Instant now() { return driver.interrupt().now(); }
     /// Errors: io, the first access that the computer refused.
@@ -32,8 +32,8 @@ class Chip {
     /// Lets manual operations look; true if one goes on.
     bool step();
 
-    std::unique_ptr<live::Port> live;  ///< of a real card
-    std::shared_ptr<World> world;      ///< of a virtual one, with `card`
+    std::unique_ptr<live::CardPort> live;  ///< of a real card
+    std::shared_ptr<World> world;          ///< of a virtual one, with `card`
     VirtualCard* card = nullptr;
     mcx314::Driver driver;
     std::array<mcx314::Manual, 4> manuals{{{driver, 0}, {driver, 1}, {driver, 2}, {driver, 3}}};

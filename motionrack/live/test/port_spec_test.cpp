@@ -13,7 +13,7 @@ using testing::HasSubstr;
 TEST(LivePortSpec, TakesTheThreeWaysToReachACard) {
     const auto uio = read_port_spec("uio:/dev/uio3,map=1,offset=0x100");
     ASSERT_TRUE(uio) << uio.error().message;
-    EXPECT_EQ(uio->reach, Reach::uio);
+    EXPECT_EQ(uio->reach, AddressSpace::uio);
     EXPECT_EQ(uio->path, "/dev/uio3");
     EXPECT_EQ(uio->interrupt, "/dev/uio3");
     EXPECT_EQ(uio->map, 1);
@@ -22,7 +22,7 @@ TEST(LivePortSpec, TakesTheThreeWaysToReachACard) {
     const auto memory =
         read_port_spec("memory:/sys/bus/pci/devices/0000:03:00.0/resource1,stride=4,interrupt=/dev/uio0,gap_ns=0");
     ASSERT_TRUE(memory) << memory.error().message;
-    EXPECT_EQ(memory->reach, Reach::memory);
+    EXPECT_EQ(memory->reach, AddressSpace::memory);
     EXPECT_EQ(memory->path, "/sys/bus/pci/devices/0000:03:00.0/resource1");
     EXPECT_EQ(memory->stride, 4u);
     EXPECT_EQ(memory->interrupt, "/dev/uio0");
@@ -30,7 +30,7 @@ TEST(LivePortSpec, TakesTheThreeWaysToReachACard) {
 
     const auto port = read_port_spec("port:/dev/port,offset=0x300,width=8");
     ASSERT_TRUE(port) << port.error().message;
-    EXPECT_EQ(port->reach, Reach::port);
+    EXPECT_EQ(port->reach, AddressSpace::port);
     EXPECT_EQ(port->offset, 0x300u);
     EXPECT_EQ(port->width, 8);
     EXPECT_EQ(port->interrupt, "");

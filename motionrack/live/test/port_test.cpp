@@ -50,9 +50,9 @@ std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Result<std::unique_ptr<Port>> open(const std::string& text, const CardMap& map = four) {
+Result<std::unique_ptr<CardPort>> open(const std::string& text, const CardMap& map = four) {
     MOTIONRACK_TRY(const PortSpec spec, read_port_spec(text));
-    return Port::open(spec, map);
+    return CardPort::open(spec, map);
 }
 
 std::string refusal(const std::string& text, const CardMap& map = four) {
@@ -224,7 +224,7 @@ TEST(LivePort, LeavesTheCardItsGapBetweenTwoAccesses) {
     auto owned = std::make_unique<Counted>();
     Counted& clock = *owned;
     const auto port =
-        Port::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four, std::move(owned));
+        CardPort::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four, std::move(owned));
     ASSERT_TRUE(port);
     (*port)->write(0, 1);
     EXPECT_EQ(clock.sleeps, 0);
@@ -239,8 +239,8 @@ TEST(LivePort, LeavesTheCardItsGapBetweenTwoAccesses) {
 
 TEST(LivePort, WithoutAnInterruptAWaitLetsItsTimePass) {
     const Folder folder;
-    const auto port = Port::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four,
-                                 std::make_unique<Counted>());
+    const auto port = CardPort::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four,
+                                     std::make_unique<Counted>());
     ASSERT_TRUE(port);
     EXPECT_FALSE((*port)->has_interrupt());
     EXPECT_FALSE((*port)->wait(milliseconds(3)));

@@ -56,7 +56,7 @@ void MonotonicClock::sleep(Duration duration) {
             ::Sleep(static_cast<DWORD>(std::min<std::int64_t>(left / milliseconds(1) + 1, 1'000'000)));
 }
 
-/// Nothing here can be read: see Line.
+/// Nothing here can be read: see InterruptLine.
 bool MonotonicClock::wait_readable(int, Duration timeout) {
     sleep(timeout);
     return false;

@@ -5,14 +5,14 @@
 
 namespace motionrack::live {
 
-Result<Line> Line::open(const std::string& path) {
+Result<InterruptLine> InterruptLine::open(const std::string& path) {
     return fail(ErrorKind::refused,
                 fmt::format("interrupt={} cannot be had on Windows, which brings no interrupt of a card "
                             "to a program. Nothing was opened. Leave interrupt= out.",
                             path));
 }
 
-bool Line::wait(Duration timeout, Clock& clock) {
+bool InterruptLine::wait(Duration timeout, Clock& clock) {
     clock.sleep(timeout);
     return false;
 }

@@ -1,7 +1,7 @@
 // The PC's I/O ports on Windows, which lets no program reach them by itself: through a library with the functions of
 // InpOut32 (inpoutx64.dll), which brings a driver of the kernel. port:PATH names that library.
 //
-//   Port ──► Words ──► DlPortWritePortUshort, DlPortReadPortUshort   one IN or OUT of 16 bits
+//   CardPort ──► WordAccess ──► DlPortWritePortUshort, DlPortReadPortUshort   one IN or OUT of 16 bits
 //                 └──► DlPortWritePortUchar, DlPortReadPortUchar     two of 8 bits, the high byte first
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ struct PortLibrary {
     }
 };
 
-class PortWords final : public Words {
+class PortWords final : public WordAccess {
   public:
     PortWords(const PortLibrary& library, std::uint64_t first, int width)
         : library_(library), first_(first), width_(width) {}
@@ -84,8 +84,8 @@ Result<void> check_ports(const PortSpec& spec, std::uint64_t length) {
 
 }  // namespace
 
-Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t length) {
-    if (spec.reach != Reach::port)
+Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64_t length) {
+    if (spec.reach != AddressSpace::port)
         return fail(ErrorKind::refused,
                     "uio: and memory: are files of Linux; Windows maps no card for a program. Nothing was opened. Use "
                     "port:inpoutx64.dll,offset=N for a card at I/O ports, or a computer with Linux.");

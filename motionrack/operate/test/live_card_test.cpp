@@ -89,7 +89,7 @@ TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
         EXPECT_THAT(m.status().why,
                     HasSubstr("card bench is in service by dora; it is a real one, at " + file.place()));
         EXPECT_TRUE(m.status().axes[0].trusted) << "it is another card's";
-        const auto second = live::Port::open(m.service().live()->place().spec, m.rack().card("bench")->map());
+        const auto second = live::CardPort::open(m.service().live()->place().spec, m.rack().card("bench")->map());
         ASSERT_FALSE(second);
         EXPECT_EQ(second.error().trouble, ErrorKind::refused) << "no other program drives it meanwhile";
     });
@@ -98,7 +98,7 @@ TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
         EXPECT_EQ(m.service().live(), nullptr);
         EXPECT_FALSE(m.status().real);
         EXPECT_EQ(m.state(), MachineState::standstill);
-        EXPECT_TRUE(live::Port::open(m.service().live_place("bench")->spec, m.rack().card("bench")->map()));
+        EXPECT_TRUE(live::CardPort::open(m.service().live_place("bench")->spec, m.rack().card("bench")->map()));
     });
     o.run(0.5);
     EXPECT_THAT(o.said, ElementsAre("Written.", "0 pulses", "The service of card bench has ended."));
