@@ -4,52 +4,52 @@
 
 namespace motionrack::python {
 
-Bell::Bell(sim::Kernel& kernel) : kernel_(kernel) {
+RunBreaker::RunBreaker(sim::Kernel& kernel) : kernel_(kernel) {
     id_ = kernel_.add(*this, sim::Phase::observers, "bell");
     for (std::size_t i = 0; i < kernel_.wire_count(); ++i)
         kernel_.listen(static_cast<sim::WireId>(i), id_, static_cast<int>(i));
 }
 
-void Bell::begin() {
+void RunBreaker::begin() {
     for (std::size_t i = 0; i < kernel_.wire_count(); ++i) kernel_.want(static_cast<sim::WireId>(i), id_, false);
 }
 
-void Bell::ring_every(Duration period) {
+void RunBreaker::break_every(Duration period) {
     period_ = period;
     rung_ = kernel_.now();
     kernel_.schedule(id_, later(kernel_.now(), period_));
 }
 
-void Bell::ring_no_more() {
+void RunBreaker::ring_no_more() {
     period_ = Duration{};
     rung_ = never;
     kernel_.schedule(id_, never);
 }
 
-Instant Bell::take_ring() {
+Instant RunBreaker::take_break() {
     return std::exchange(rung_, never);
 }
 
-void Bell::listen_for(sim::WireId wire, int level) {
+void RunBreaker::break_on_wire(sim::WireId wire, int level) {
     wire_ = wire;
     level_ = level;
     heard_ = kernel_.level(wire) == level;
     kernel_.want(wire, id_, true);
 }
 
-void Bell::listen_no_more() {
+void RunBreaker::listen_no_more() {
     if (wire_ != sim::WireId::none) kernel_.want(wire_, id_, false);
     wire_ = sim::WireId::none;
 }
 
-void Bell::act(Instant now) {
+void RunBreaker::act(Instant now) {
     if (period_ == Duration{}) return;  // of a world that was copied while it rang
     rung_ = now;
     kernel_.schedule(id_, later(now, period_));
     kernel_.break_run();
 }
 
-void Bell::on_wire(int pin, int level, Instant) {
+void RunBreaker::on_wire(int pin, int level, Instant) {
     if (static_cast<sim::WireId>(pin) != wire_ || level != level_) return;
     heard_ = true;
     kernel_.break_run();

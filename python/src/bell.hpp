@@ -1,27 +1,27 @@
 // Breaks a run where somebody outside wants to look: at even instants, and where a wire takes a level.
 //
-//   kernel ──act(t), on_wire──► Bell ──break_run──► between runs: samples, waits
+//   kernel ──act(t), on_wire──► RunBreaker ──break_run──► between runs: samples, waits
 #pragma once
 
 #include <motionrack/sim/kernel.hpp>
 
 namespace motionrack::python {
 
-class Bell final : public sim::Device {
+class RunBreaker final : public sim::Device {
   public:
     /// Before the rack is started, after all its wires were made. It hears none of them until it waits for one.
-    explicit Bell(sim::Kernel& kernel);
+    explicit RunBreaker(sim::Kernel& kernel);
     /// After the rack was started.
     void begin();
 
     /// Rings now and every `period` (> 0) from now on.
-    void ring_every(Duration period);
+    void break_every(Duration period);
     void ring_no_more();
     /// The instant of the last ring that was not taken yet, once; never: there was none.
-    Instant take_ring();
+    Instant take_break();
 
     /// Rings where `wire` takes that level. One wire at a time.
-    void listen_for(sim::WireId wire, int level);
+    void break_on_wire(sim::WireId wire, int level);
     void listen_no_more();
     bool heard() const { return heard_; }
 

@@ -84,7 +84,7 @@ py::dict map_dict(const CardMap& map) {
 
 namespace {
 
-const rack::RackCard& config_of_card(World& world, const std::string& name) {
+const rack::RackCard& config_of_card(RackHandle& world, const std::string& name) {
     for (const rack::RackCard& card : world.config().cards)
         if (card.name == name) return card;
     static_cast<void>(value_of(rack::card_named(world.rack(), name)));
@@ -92,7 +92,7 @@ const rack::RackCard& config_of_card(World& world, const std::string& name) {
 }
 
 /// What one card is: {type, map, channels, widths, base, values, quantities, faults}.
-py::dict describe(World& world, const std::string& name) {
+py::dict describe(RackHandle& world, const std::string& name) {
     const rack::Card& card = *value_of(rack::card_named(world.rack(), name));
     const rack::RackCard& config = config_of_card(world, name);
     const rack::CardType& type = *rack::find_card_type(config.type);
@@ -114,15 +114,15 @@ py::dict describe(World& world, const std::string& name) {
     return out;
 }
 
-std::uint32_t read(World& world, const std::string& card, int bits, std::uint32_t address) {
-    return alone(world, [&]() -> Result<std::uint32_t> {
+std::uint32_t read(RackHandle& world, const std::string& card, int bits, std::uint32_t address) {
+    return run_exclusive(world, [&]() -> Result<std::uint32_t> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_for_access(world.running(), card, bits, address, false));
         return on->bus_read(bits, address);
     });
 }
 
-void write_register(World& world, const std::string& card, int bits, std::uint32_t address, std::int64_t value) {
-    alone(world, [&]() -> Result<void> {
+void write_register(RackHandle& world, const std::string& card, int bits, std::uint32_t address, std::int64_t value) {
+    run_exclusive(world, [&]() -> Result<void> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_for_access(world.running(), card, bits, address, true));
         if (value < 0 || value >> bits != 0)
             return fail(ErrorKind::refused, fmt::format("{} does not fit into {} bits: 0 to {}; nothing was written.",
@@ -133,8 +133,8 @@ void write_register(World& world, const std::string& card, int bits, std::uint32
 }
 
 /// What the registers show through the port, in words.
-std::string view(World& world, const std::string& card, bool clearing) {
-    return alone(world, [&]() -> Result<std::string> {
+std::string view(RackHandle& world, const std::string& card, bool clearing) {
+    return run_exclusive(world, [&]() -> Result<std::string> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
         const rack::CardKind* kind = rack::find_card_kind(config_of_card(world, card).type);
         if (kind->view == nullptr || on->port() == nullptr)
@@ -152,13 +152,15 @@ std::string view(World& world, const std::string& card, bool clearing) {
 void bind_cards(py::module_& m) {
     m.def(
         "describe_card",
-        [](World& world, const std::string& card) { return looking(world, [&] { return describe(world, card); }); },
+        [](RackHandle& world, const std::string& card) {
+            return inspect_rack(world, [&] { return describe(world, card); });
+        },
         py::arg("world"), py::arg("card"));
     m.def(
         "peek",
-        [](World& world, const std::string& card, const std::string& name) {
-            return looking(world,
-                           [&] { return value_of(value_of(rack::card_named(world.running(), card))->inspect(name)); });
+        [](RackHandle& world, const std::string& card, const std::string& name) {
+            return inspect_rack(
+                world, [&] { return value_of(value_of(rack::card_named(world.running(), card))->inspect(name)); });
         },
         py::arg("world"), py::arg("card"), py::arg("name"));
     m.def("read", &read, py::arg("world"), py::arg("card"), py::arg("bits"), py::arg("address"));
@@ -166,8 +168,8 @@ void bind_cards(py::module_& m) {
           py::arg("value"));
     m.def(
         "wait_interrupt",
-        [](World& world, const std::string& card, std::int64_t timeout) {
-            return alone(world, [&]() -> Result<bool> {
+        [](RackHandle& world, const std::string& card, std::int64_t timeout) {
+            return run_exclusive(world, [&]() -> Result<bool> {
                 MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
                 return on->host().wait(ticks(timeout));
             });

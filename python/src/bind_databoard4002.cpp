@@ -13,7 +13,7 @@ namespace motionrack::python {
 namespace {
 
 namespace db = databoard4002;
-using Board = Driven<db::Driver>;
+using Board = BoundDriver<db::Driver>;
 using BoardClass = py::class_<Board>;
 using Wide = std::int64_t;
 
@@ -26,13 +26,14 @@ void bind_commands(BoardClass& c) {
           "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
     c.def("reset", call<db::Driver>(&db::Driver::reset), "C3: hardware reset; position, rate and table are gone.");
     c.def(
-        "status", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().word; }); },
+        "status", [](Board& self) { return run_exclusive(*self.world, [&] { return self.driver->status().word; }); },
         "STAT as a word; its bits: card.STAT.");
     c.def(
-        "stops", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().stops(); }); },
+        "stops", [](Board& self) { return run_exclusive(*self.world, [&] { return self.driver->status().stops(); }); },
         "\"the right end stop is active\"; \"\" if no stop is.");
     c.def(
-        "emergency", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().emergency(); }); },
+        "emergency",
+        [](Board& self) { return run_exclusive(*self.world, [&] { return self.driver->status().emergency(); }); },
         "Whether the emergency stop is active.");
     c.def("athome", call<db::Driver>(&db::Driver::athome), "A: the position becomes 0.");
     c.def("set_deviation", call<db::Driver>(&db::Driver::set_deviation), py::arg("counts"),
@@ -62,7 +63,7 @@ void bind_events(BoardClass& c) {
     c.def(
         "enable_events",
         [](Board& self, std::uint8_t enables) {
-            return alone(*self.world, [&]() -> Result<int> {
+            return run_exclusive(*self.world, [&]() -> Result<int> {
                 MOTIONRACK_TRY(const db::Events events, self.driver->enable_events(enables));
                 return events.word;
             });
@@ -72,7 +73,7 @@ void bind_events(BoardClass& c) {
         "wait_event",
         [](Board& self, std::uint8_t wanted, double timeout, bool interrupt) {
             const Duration time = duration(timeout);
-            return alone(
+            return run_exclusive(
                 *self.world,
                 [&]() -> Result<int> {
                     MOTIONRACK_TRY(const db::Events events, self.driver->wait_event(wanted, time, waiting(interrupt)));
@@ -89,7 +90,7 @@ void bind_events(BoardClass& c) {
             name,
             [function](Board& self, Wide counts, double timeout, bool interrupt) {
                 const Duration time = duration(timeout);
-                alone(
+                run_exclusive(
                     *self.world, [&] { return (self.driver.get()->*function)(counts, time, waiting(interrupt)); },
                     time);
             },
@@ -103,7 +104,7 @@ void bind_events(BoardClass& c) {
         "move_to_mm",
         [](Board& self, double mm, double timeout, bool interrupt) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->move_to_mm(mm, time, waiting(interrupt)); }, time);
         },
         py::arg("mm"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
@@ -113,7 +114,7 @@ void bind_events(BoardClass& c) {
         "find_zero",
         [](Board& self, std::uint8_t marks, Wide far, int rate, double timeout, bool interrupt) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->find_zero(marks, far, rate, time, waiting(interrupt)); }, time);
         },
         py::arg("marks"), py::arg("far"), py::arg("rate"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
@@ -216,8 +217,9 @@ void bind_databoard4002(py::module_& m) {
     BoardClass c(
         m, "Databoard4002",
         "The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault.");
-    c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card, double counts_per_mm, int select) {
-              const Turn turn(*world, Turn::For::moving);
+    c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card, double counts_per_mm,
+                      int select) {
+              const RackLock turn(*world, RackLock::For::moving);
               sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
               if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
                   refuse(fmt::format("There are {} counts a mm; it is more than 0. Nothing was made.", counts_per_mm));

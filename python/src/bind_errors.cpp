@@ -6,7 +6,7 @@ namespace motionrack::python {
 
 namespace {
 
-const char* class_of(const Raised& raised) {
+const char* class_of(const PythonError& raised) {
     if (raised.timeout) return "Timeout";
     switch (raised.error.trouble) {
         case ErrorKind::bad_input:
@@ -34,7 +34,7 @@ void bind_errors(py::module_&) {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);
-        } catch (const Raised& raised) {
+        } catch (const PythonError& raised) {
             const py::module_ errors = py::module_::import("motionrack.errors");
             const py::object one = exception_of(errors, class_of(raised), raised.error);
             py::list problems;

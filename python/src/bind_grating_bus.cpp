@@ -13,7 +13,7 @@ namespace motionrack::python {
 namespace {
 
 namespace gb = grating_bus;
-using Grating = Driven<gb::GratingCard>;
+using Grating = BoundDriver<gb::GratingCard>;
 
 /// (sequence, ticks of the rack, counts)
 std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> told(const gb::Reading& reading) {
@@ -45,7 +45,7 @@ py::dict told(const gb::CardErrors& errors) {
     return out;
 }
 
-gb::Card& model(World& world, const std::string& card) {
+gb::Card& model(RackHandle& world, const std::string& card) {
     gb::Card* found = rack::grating_card_of(world.running(), card);
     if (found == nullptr) refuse("The rack has no card " + card + " on a grating bus.");
     return *found;
@@ -54,17 +54,17 @@ gb::Card& model(World& world, const std::string& card) {
 void bind_card(py::module_& m) {
     py::class_<Grating>(m, "GratingCard",
                         "The function library of a motion card on a grating bus: the positions of one instant.")
-        .def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-                 const Turn turn(*world, Turn::For::moving);
+        .def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
+                 const RackLock turn(*world, RackLock::For::moving);
                  sim::VirtualPort& port = *card_of_type(*world, card, "grating_bus").port();
                  return Grating{world, std::make_unique<gb::GratingCard>(port, port)};
              }),
              py::arg("world"), py::arg("card"))
         .def(
-            "open", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->open(); })); },
+            "open", [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->open(); })); },
             "Looks whether such a card answers: how it is set, with the addresses of its own list; period in s.")
         .def(
-            "read", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->read(); })); },
+            "read", [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->read(); })); },
             "The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it "
             "is stale, or its CRC is wrong.")
         .def(
@@ -73,8 +73,8 @@ void bind_card(py::module_& m) {
                 const Duration time = duration(timeout);
                 const Instant began = self.world->now();
                 try {
-                    return told(alone(*self.world, [&] { return self.driver->wait(time); }));
-                } catch (Raised& raised) {
+                    return told(run_exclusive(*self.world, [&] { return self.driver->wait(time); }));
+                } catch (PythonError& raised) {
                     raised.timeout = raised.error.trouble == ErrorKind::refused && self.world->now() - began >= time;
                     throw;
                 }
@@ -91,7 +91,8 @@ void bind_card(py::module_& m) {
         .def("stale", call<gb::GratingCard>(&gb::GratingCard::stale),
              "Whether the frame published last is two periods old.")
         .def(
-            "errors", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->errors(); })); },
+            "errors",
+            [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->errors(); })); },
             "What went wrong on the bus since the last clear_errors, each at most 65,535.")
         .def("clear_errors", call<gb::GratingCard>(&gb::GratingCard::clear_errors), "Clears those counters.")
         .def(
@@ -110,8 +111,8 @@ void bind_card(py::module_& m) {
 void bind_bus(py::module_& m) {
     m.def(
         "bus_conflicts",
-        [](World& world) {
-            return looking(world, [&] {
+        [](RackHandle& world) {
+            return inspect_rack(world, [&] {
                 const gb::Bus* bus = rack::grating_bus_of(world.running());
                 if (bus == nullptr) refuse("The rack has no grating bus.");
                 return bus->lines().all_conflicts();
@@ -120,14 +121,14 @@ void bind_bus(py::module_& m) {
         py::arg("world"), "Conflicts on all lines of the grating bus so far.");
     m.def(
         "refused_frames",
-        [](World& world, const std::string& card) {
-            return looking(world, [&] { return model(world, card).counter(gb::Card::broken); });
+        [](RackHandle& world, const std::string& card) {
+            return inspect_rack(world, [&] { return model(world, card).counter(gb::Card::broken); });
         },
         py::arg("world"), py::arg("card"), "Frames that the card did not publish since the start.");
     m.def(
         "frame_picture",
-        [](World& world, int frame) {
-            return looking(world, [&] { return value_of(rack::frame_picture(world.config(), frame)); });
+        [](RackHandle& world, int frame) {
+            return inspect_rack(world, [&] { return value_of(rack::frame_picture(world.config(), frame)); });
         },
         py::arg("world"), py::arg("frame"), "One frame of the rack as waves (SVG); a rack of its own is run for it.");
 }

@@ -31,14 +31,14 @@ py::tuple told(const rack::HomingOutcome& outcome) {
 void bind_homing(py::module_& m) {
     m.def(
         "home",
-        [](World& world, const std::string& axes, std::optional<int> type, std::int64_t timeout) {
+        [](RackHandle& world, const std::string& axes, std::optional<int> type, std::int64_t timeout) {
             if (type && (*type < 1 || *type > 4))
                 refuse("The type of homing is " + std::to_string(*type) + "; it is 1 to 4. Nothing was moved.");
             rack::HomingSettings settings;
             settings.axes = axes;
             settings.type = type;
             settings.timeout = ticks(timeout);
-            return told(alone(world, [&] { return world.home(settings); }));
+            return told(run_exclusive(world, [&] { return world.home(settings); }));
         },
         py::arg("world"), py::arg("axes"), py::arg("type"), py::arg("ticks"));
 }

@@ -14,7 +14,7 @@ namespace {
 
 namespace io = ioflex02;
 using io::Flex2Pos;
-using Flex = Driven<Flex2Pos>;
+using Flex = BoundDriver<Flex2Pos>;
 using FlexClass = py::class_<Flex>;
 
 int axis_in_range(int axis) {
@@ -40,7 +40,7 @@ void bind_source(FlexClass& c) {
         [](Flex& self, int address) {
             if (address < 0 || address > 0xFFFF)
                 refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", address));
-            return alone(*self.world, [&] {
+            return run_exclusive(*self.world, [&] {
                 self.driver->use_image(
                     rack::ioflex02_image_at(self.world->config(), static_cast<std::uint32_t>(address)));
                 return self.driver->Init(static_cast<std::uint16_t>(address)), self.driver->Result;
@@ -70,7 +70,7 @@ void bind_source(FlexClass& c) {
         [](Flex& self) {
             std::int32_t time = 0;
             std::array<std::int32_t, 4> at{};
-            alone(*self.world, [&] { self.driver->ReadTimeClrPosition(time, at[0], at[1], at[2], at[3]); });
+            run_exclusive(*self.world, [&] { self.driver->ReadTimeClrPosition(time, at[0], at[1], at[2], at[3]); });
             return std::tuple(time, at[0], at[1], at[2], at[3]);
         },
         "Time (1.2 us, cleared) and the four positions (counts) of one instant.");
@@ -81,7 +81,7 @@ void bind_calibration(FlexClass& c) {
         "WriteCmd",
         [](Flex& self, int a, int b, int d, int e) {
             const std::array<io::tIOFlexCmd, 4> all = {command_of(a), command_of(b), command_of(d), command_of(e)};
-            alone(*self.world, [&] { self.driver->WriteCmd(all[0], all[1], all[2], all[3]); });
+            run_exclusive(*self.world, [&] { self.driver->WriteCmd(all[0], all[1], all[2], all[3]); });
         },
         py::arg("Cmd0"), py::arg("Cmd1"), py::arg("Cmd2"), py::arg("Cmd3"),
         "A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig.");
@@ -89,14 +89,14 @@ void bind_calibration(FlexClass& c) {
         "WriteCmdAxis",
         [](Flex& self, int axis, int command) {
             const io::tIOFlexCmd cmd = command_of(command);
-            alone(*self.world, [&] { self.driver->WriteCmdAxis(axis_in_range(axis), cmd); });
+            run_exclusive(*self.world, [&] { self.driver->WriteCmdAxis(axis_in_range(axis), cmd); });
         },
         py::arg("axis"), py::arg("Cmd"),
         "A command for one axis 0 to 3; the others keep what they wait for, which WriteCmd would end or begin anew.");
     c.def(
         "ReadSts",
         [](Flex& self) {
-            const auto all = alone(*self.world, [&] { return self.driver->statuses(); });
+            const auto all = run_exclusive(*self.world, [&] { return self.driver->statuses(); });
             const auto calibrated = [&](std::size_t axis) { return all[axis] == io::sCal; };
             return std::tuple(calibrated(0), calibrated(1), calibrated(2), calibrated(3));
         },
@@ -115,7 +115,7 @@ void bind_layer(FlexClass& c) {
     c.def(
         "read",
         [](Flex& self) {
-            const io::Reading reading = alone(*self.world, [&] { return self.driver->read(); });
+            const io::Reading reading = run_exclusive(*self.world, [&] { return self.driver->read(); });
             std::vector<py::dict> axes;
             for (const io::AxisReading& axis : reading.axes) {
                 py::dict one;
@@ -132,7 +132,7 @@ void bind_layer(FlexClass& c) {
     c.def(
         "set_mode",
         [](Flex& self, int axis, bool reversed, int edges, bool index_low, int filter) {
-            alone(*self.world, [&] {
+            run_exclusive(*self.world, [&] {
                 return self.driver->set_mode(axis_in_range(axis), {reversed, edges, index_low, filter});
             });
         },
@@ -144,7 +144,7 @@ void bind_layer(FlexClass& c) {
         "wait_calibrated",
         [](Flex& self, int axis, double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->wait_calibrated(axis_in_range(axis), time); }, time);
         },
         py::arg("axis"), py::arg("timeout") = 60.0, "Waits until the axis is calibrated; Timeout after timeout s.");
@@ -189,7 +189,7 @@ void bind_images(FlexClass& c) {
             const int base = address.value_or(self.driver->base_address());
             if (base < 0 || base > 0xFFFF)
                 refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", base));
-            return alone(*self.world, [&] {
+            return run_exclusive(*self.world, [&] {
                 if (address) self.driver->Flex02::Init(static_cast<std::uint16_t>(base));
                 self.driver->Configure(file);
                 return self.driver->Result;
@@ -239,8 +239,8 @@ void bind_ioflex02(py::module_& m) {
     FlexClass c(m, "Ioflex02",
                 "The IOFLEX02's unit uFlex2Pos under its source's names, and one layer up. Before Init has succeeded "
                 "every read gives 0.");
-    c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-              const Turn turn(*world, Turn::For::moving);
+    c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
+              const RackLock turn(*world, RackLock::For::moving);
               sim::VirtualPort& port = *card_of_type(*world, card, "ioflex02").port();
               return Flex{world, std::make_unique<Flex2Pos>(port, port)};
           }),

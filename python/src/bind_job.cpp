@@ -17,7 +17,7 @@ namespace {
 
 /// A program that was run, with its rack, which has the samples until it runs the next one.
 struct Ran {
-    std::shared_ptr<World> world;
+    std::shared_ptr<RackHandle> world;
     rack::JobOutcome outcome;
     std::optional<trace::ReportData> kept = {};
 
@@ -152,33 +152,33 @@ py::dict dict_of(const Ran& ran) {
 
 void write_file(const Ran& ran, const std::string& path,
                 Result<void> (*writer)(const trace::ReportData&, const std::string&)) {
-    looking(*ran.world, [&] { value_of(writer(ran.report(), path)); });
+    inspect_rack(*ran.world, [&] { value_of(writer(ran.report(), path)); });
 }
 
-void attend_progress(World& world, const py::object& progress) {
+void attend_progress(RackHandle& world, const py::object& progress) {
     if (progress.is_none()) return world.on_progress({});
     world.on_progress([&world, progress](const rack::JobProgress& p) {
         const py::gil_scoped_acquire lock;
         try {
             progress(p.seconds, p.line, p.lines);
         } catch (py::error_already_set& error) {
-            stop_because(world, error);
+            abort_run(world, error);
         }
     });
 }
 
 /// Without Python's lock: the loops of a program may take a second or two.
-control::gcode::Settings check_program(const World& world, const GivenProgram& program) {
+control::gcode::Settings check_program(const RackHandle& world, const ProgramInput& program) {
     const py::gil_scoped_release free;
     return world.check(program);
 }
 
-std::shared_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks,
-                         const std::optional<std::string>& profile, const std::vector<std::string>& faults,
-                         const py::object& progress) {
+std::shared_ptr<Ran> run(const std::shared_ptr<RackHandle>& world, const ProgramInput& program,
+                         std::int64_t sample_ticks, const std::optional<std::string>& profile,
+                         const std::vector<std::string>& faults, const py::object& progress) {
     control::gcode::Settings reading;
     {
-        const Turn turn(*world, Turn::For::moving);
+        const RackLock turn(*world, RackLock::For::moving);
         reading = check_program(*world, program);
         value_of(world->plan_faults(faults));
         value_of(world->set_sample_period(ticks(sample_ticks)));
@@ -186,7 +186,7 @@ std::shared_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram
         attend_progress(*world, progress);
     }
     struct Unheard {
-        World& world;
+        RackHandle& world;
         ~Unheard() { world.on_progress({}); }
     } unheard{*world};
     // What Python raised stops the run and goes on; a stop of the machine is part of the outcome.
@@ -194,7 +194,7 @@ std::shared_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram
     const auto superseded = [last = std::weak_ptr<Ran>(out)] {
         if (const std::shared_ptr<Ran> ran = last.lock()) ran->kept = ran->report();
     };
-    out->outcome = alone(*world, [&] { return world->run(program, std::move(reading), superseded); });
+    out->outcome = run_exclusive(*world, [&] { return world->run(program, std::move(reading), superseded); });
     return out;
 }
 
@@ -212,14 +212,14 @@ void bind_job(py::module_& m) {
                      .attr(names[static_cast<std::size_t>(error.trouble)])(error.message, error.file, error.place.line,
                                                                            error.place.column);
              })
-        .def("data", [](const Ran& ran) { return looking(*ran.world, [&] { return dict_of(ran); }); })
-        .def("samples", [](const Ran& ran) { return looking(*ran.world, [&] { return samples_of(ran); }); })
+        .def("data", [](const Ran& ran) { return inspect_rack(*ran.world, [&] { return dict_of(ran); }); })
+        .def("samples", [](const Ran& ran) { return inspect_rack(*ran.world, [&] { return samples_of(ran); }); })
         .def("summary", [](const Ran& ran) { return rack::summary_of(ran.world->config(), ran.outcome); })
         .def("json", [](const Ran& ran) { return rack::summary_json(ran.world->config(), ran.outcome); })
         .def(
             "svg",
             [](const Ran& ran, bool perspective) {
-                return looking(*ran.world, [&] {
+                return inspect_rack(*ran.world, [&] {
                     return trace::svg_path(ran.report(),
                                            perspective ? trace::PathView::perspective : trace::PathView::plan,
                                            {.standalone = true});
@@ -236,15 +236,15 @@ void bind_job(py::module_& m) {
             "write_events",
             [](const Ran& ran, const std::string& path) { write_file(ran, path, trace::write_events_csv); },
             py::arg("path"));
-    py::class_<GivenProgram>(m, "Program", "A part program's text and what goes with it.")
+    py::class_<ProgramInput>(m, "Program", "A part program's text and what goes with it.")
         .def(py::init<std::string, std::string, std::string, std::string, std::string, bool>(), py::arg("text"),
              py::arg("name"), py::arg("folder"), py::arg("tools"), py::arg("tools_name"), py::arg("block_delete"));
     m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("sample_ticks"), py::arg("profile"),
           py::arg("faults"), py::arg("progress"));
     m.def(
         "check",
-        [](World& world, const GivenProgram& program) {
-            looking(world, [&] { static_cast<void>(check_program(world, program)); });
+        [](RackHandle& world, const ProgramInput& program) {
+            inspect_rack(world, [&] { static_cast<void>(check_program(world, program)); });
         },
         py::arg("world"), py::arg("program"));
 }

@@ -18,7 +18,7 @@ struct HostOf<mcx314::Library> {
 namespace {
 
 using mcx314::Library;
-using Called = Driven<Library>;
+using Called = BoundDriver<Library>;
 using Arguments = std::map<std::string, std::int64_t, std::less<>>;
 
 // ---- arguments
@@ -74,7 +74,7 @@ py::object called(Called& self, std::size_t number, const py::args& places, cons
     const std::span<const FunctionInfo> functions = mcx314::library_functions();
     const FunctionInfo& function = functions[number];
     const CheckedCall call = value_of(check_call(functions, function.name, arguments_of(function, places, names)));
-    const CallAnswer answer = alone(
+    const CallAnswer answer = run_exclusive(
         *self.world, [&] { return self.driver->call(call.function, call.values); }, timeout_of(function, call));
     if (answer.value) return py::int_(*answer.value);
     return py::str(answer.text);
@@ -111,8 +111,8 @@ void bind_library(py::module_& m) {
         "an axis drives, or another thread uses the card. Stopped: a stop came, or holds. MachineFault: a limit, an "
         "alarm or the emergency input stopped an axis. FileTrouble: the computer refuses an access to a real card. "
         "The first two are raised before anything is written.");
-    c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-              const Turn turn(*world, Turn::For::moving);
+    c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
+              const RackLock turn(*world, RackLock::For::moving);
               sim::VirtualPort& port = *card_of_type(*world, card, "mcx314").port();
               return Called{world, std::make_unique<Library>(port, port)};
           }),

@@ -14,12 +14,12 @@ namespace motionrack::python {
 namespace {
 
 using operate::Machine;
-using Class = py::class_<Operated>;
+using Class = py::class_<SteppedMachine>;
 using Done = Result<void>;
 
 /// An order without Python's lock.
 template <class Work>
-auto ordered(Operated& self, Work work) {
+auto ordered(SteppedMachine& self, Work work) {
     auto result = [&] {
         const py::gil_scoped_release free;
         return self.order(work);
@@ -33,7 +33,7 @@ char only_letter(const std::string& axis) {
     return axis[0];
 }
 
-void advance(Operated& self, std::int64_t time) {
+void advance(SteppedMachine& self, std::int64_t time) {
     if (time < 0) refuse("Time does not run backwards; nothing was run.");
     std::optional<py::error_already_set> raised;
     {
@@ -86,8 +86,9 @@ py::dict dict_of(const operate::Status& status) {
 
 void bind_orders(Class& c) {
     const auto plain = [&](const char* name, auto order) {
-        c.def(name,
-              [order](Operated& self) { ordered(self, [order](Machine& machine) -> Done { return order(machine); }); });
+        c.def(name, [order](SteppedMachine& self) {
+            ordered(self, [order](Machine& machine) -> Done { return order(machine); });
+        });
     };
     plain("hold", [](Machine& machine) { return machine.hold(); });
     plain("resume", [](Machine& machine) { return machine.resume(); });
@@ -95,31 +96,31 @@ void bind_orders(Class& c) {
     plain("reset", [](Machine& machine) { return machine.reset(), Done(); });
     c.def(
         "enable",
-        [](Operated& self, bool on, const std::string& axes) {
+        [](SteppedMachine& self, bool on, const std::string& axes) {
             ordered(self, [&](Machine& machine) { return machine.enable(on, axes); });
         },
         py::arg("on"), py::arg("axes"));
     c.def(
         "begin",
-        [](Operated& self, const std::string& program, const std::string& name) {
+        [](SteppedMachine& self, const std::string& program, const std::string& name) {
             ordered(self, [&](Machine& machine) { return machine.begin_program(program, name); });
         },
         py::arg("program"), py::arg("name"));
     c.def(
         "home",
-        [](Operated& self, const std::string& axes) {
+        [](SteppedMachine& self, const std::string& axes) {
             ordered(self, [&](Machine& machine) { return machine.home(axes); });
         },
         py::arg("axes"));
     c.def(
         "jog",
-        [](Operated& self, const std::string& axis, double speed) {
+        [](SteppedMachine& self, const std::string& axis, double speed) {
             ordered(self, [&, which = only_letter(axis)](Machine& machine) { return machine.jog(which, speed); });
         },
         py::arg("axis"), py::arg("speed"));
     c.def(
         "jog_by",
-        [](Operated& self, const std::string& axis, double distance, double speed) {
+        [](SteppedMachine& self, const std::string& axis, double distance, double speed) {
             ordered(self, [&, which = only_letter(axis)](Machine& machine) {
                 return machine.jog_by(which, distance, speed);
             });
@@ -127,7 +128,7 @@ void bind_orders(Class& c) {
         py::arg("axis"), py::arg("distance"), py::arg("speed"));
     c.def(
         "declare_position",
-        [](Operated& self, const std::string& axis, double position) {
+        [](SteppedMachine& self, const std::string& axis, double position) {
             ordered(self, [&, which = only_letter(axis)](Machine& machine) {
                 return machine.declare_position(which, position);
             });
@@ -135,7 +136,7 @@ void bind_orders(Class& c) {
         py::arg("axis"), py::arg("position"));
     c.def(
         "set_overrides",
-        [](Operated& self, double feed, double rapid) {
+        [](SteppedMachine& self, double feed, double rapid) {
             if (!(feed > 0 && feed <= 2 && rapid > 0 && rapid <= 1))
                 refuse(fmt::format(
                     "The overrides are {} and {}; feed is more than 0 up to 2, rapid up to 1. Nothing was changed.",
@@ -145,7 +146,7 @@ void bind_orders(Class& c) {
         py::arg("feed"), py::arg("rapid"));
     c.def(
         "acknowledge",
-        [](Operated& self, std::int64_t alarm) {
+        [](SteppedMachine& self, std::int64_t alarm) {
             return ordered(self, [&](Machine& machine) { return Result<bool>(machine.acknowledge(alarm)); });
         },
         py::arg("alarm"));
@@ -153,24 +154,24 @@ void bind_orders(Class& c) {
 
 void bind_rest(Class& c) {
     c.def("advance", &advance, py::arg("ticks"));
-    c.def("status", [](Operated& self) {
+    c.def("status", [](SteppedMachine& self) {
         ordered(self, [](Machine&) { return Done(); });  // the loop takes a picture after it has heard
         return dict_of(ordered(self, [](Machine& machine) { return Result<operate::Status>(machine.status()); }));
     });
-    c.def("trace_hash", [](Operated& self) {
+    c.def("trace_hash", [](SteppedMachine& self) {
         return ordered(self, [](Machine& machine) {
             return Result<std::string>(fmt::format("{:016x}", machine.rack().kernel().trace_hash()));
         });
     });
     c.def(
         "wire",
-        [](Operated& self, const std::string& name) {
+        [](SteppedMachine& self, const std::string& name) {
             return ordered(self, [&](Machine& machine) { return machine.wires().get(name); });
         },
         py::arg("name"));
     c.def(
         "set_wire",
-        [](Operated& self, const std::string& name, std::optional<double> value) {
+        [](SteppedMachine& self, const std::string& name, std::optional<double> value) {
             ordered(self, [&](Machine& machine) {
                 return machine.wires().set(name, value.value_or(std::numeric_limits<double>::quiet_NaN()));
             });
@@ -178,13 +179,13 @@ void bind_rest(Class& c) {
         py::arg("name"), py::arg("value"));
     c.def(
         "quantity",
-        [](Operated& self, const std::string& name) {
+        [](SteppedMachine& self, const std::string& name) {
             return ordered(self, [&](Machine& machine) { return rack::get_quantity(machine.rack(), name); });
         },
         py::arg("name"));
     c.def(
         "fault",
-        [](Operated& self, const std::string& fault, const std::string& target) {
+        [](SteppedMachine& self, const std::string& fault, const std::string& target) {
             ordered(self, [&](Machine& machine) { return rack::inject_fault(machine.rack(), fault, target); });
         },
         py::arg("fault"), py::arg("target"));
@@ -193,10 +194,10 @@ void bind_rest(Class& c) {
 }  // namespace
 
 void bind_machine(py::module_& m) {
-    Class c(m, "Operated", "A machine; motionrack.Machine is what people use.");
-    c.def(py::init([](World& world) {
-              const Turn turn(world, Turn::For::moving);
-              return value_of(Operated::make(world.config()));
+    Class c(m, "SteppedMachine", "A machine; motionrack.Machine is what people use.");
+    c.def(py::init([](RackHandle& world) {
+              const RackLock turn(world, RackLock::For::moving);
+              return value_of(SteppedMachine::make(world.config()));
           }),
           py::arg("world"));
     bind_orders(c);

@@ -81,8 +81,9 @@ void bind_drives(Mcx314Class& c) {
     c.def(
         "stop",
         [](Mcx314& self, unsigned axes, bool quick) {
-            alone(*self.world,
-                  [&] { return self.driver->stop(axes, quick ? mcx314::StopKind::quick : mcx314::StopKind::slow); });
+            run_exclusive(*self.world, [&] {
+                return self.driver->stop(axes, quick ? mcx314::StopKind::quick : mcx314::StopKind::slow);
+            });
         },
         py::arg("axes"), py::arg("quick") = false,
         "Stops the axes, with everything that is interpolated with them: decelerating to SV, or at once.");
@@ -92,8 +93,8 @@ void bind_drives(Mcx314Class& c) {
         "change_pulses",
         [](Mcx314& self, int axis, Wide pulses, double margin) {
             const Duration time = duration(margin);
-            alone(*self.world,
-                  [&] { return self.driver->change_pulses(channel(axis, "change_pulses"), pulses, time); });
+            run_exclusive(*self.world,
+                          [&] { return self.driver->change_pulses(channel(axis, "change_pulses"), pulses, time); });
         },
         py::arg("axis"), py::arg("pulses"), py::arg("margin") = 1e-3,
         "Another number of pulses for the fixed drive of an axis (0 X to 3 U), counted from its start; margin in s.");
@@ -101,7 +102,7 @@ void bind_drives(Mcx314Class& c) {
         "wait",
         [](Mcx314& self, unsigned axes, double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->wait_until_done(mask(axes), time); }, time);
         },
         py::arg("axes") = mcx314::xyzu, py::arg("timeout") = 60.0,
@@ -116,7 +117,7 @@ void bind_drives(Mcx314Class& c) {
             [home](Mcx314& self, unsigned axes, unsigned wr1, Wide sv, Wide v, Wide a) {
                 std::vector<std::string> out;
                 for (const mcx314::HomeReport& report :
-                     alone(*self.world, [&] { return home(*self.driver, axes, wr1, sv, v, a); }))
+                     run_exclusive(*self.world, [&] { return home(*self.driver, axes, wr1, sv, v, a); }))
                     out.push_back(report.sentence);
                 return out;
             },
@@ -157,7 +158,7 @@ void bind_mcx314_status(Mcx314Class& c) {
         c.def(
             name,
             [name, function](Mcx314& self, int axis) {
-                return alone(*self.world, [&] { return (self.driver.get()->*function)(channel(axis, name)); });
+                return run_exclusive(*self.world, [&] { return (self.driver.get()->*function)(channel(axis, name)); });
             },
             py::arg("axis"), doc);
     };
@@ -168,12 +169,14 @@ void bind_mcx314_status(Mcx314Class& c) {
             "Present acceleration of a channel, units of 125 * M; at constant speed the last one.");
     c.def(
         "moving",
-        [](Mcx314& self, unsigned axes) { return alone(*self.world, [&] { return self.driver->moving(mask(axes)); }); },
+        [](Mcx314& self, unsigned axes) {
+            return run_exclusive(*self.world, [&] { return self.driver->moving(mask(axes)); });
+        },
         py::arg("axes") = mcx314::xyzu, "Whether one of the axes drives.");
     c.def(
         "report",
         [](Mcx314& self, int axis) {
-            return alone(*self.world, [&] { return self.driver->report(channel(axis, "report")).text(); });
+            return run_exclusive(*self.world, [&] { return self.driver->report(channel(axis, "report")).text(); });
         },
         py::arg("axis"), "Where a channel stands and why, as a sentence.");
     c.def("error_text", call<Driver>(&Driver::error_text), py::arg("axes") = mcx314::xyzu,
@@ -210,8 +213,8 @@ void bind_mcx314(py::module_& m) {
     Mcx314Class c(m, "Mcx314",
                   "The MCX314's function library, under its source's names and in its register units. `axes` is a "
                   "mask: X 1, Y 2, Z 4, U 8 and their sums; `axis` is a channel: 0 X, 1 Y, 2 Z, 3 U.");
-    c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-              const Turn turn(*world, Turn::For::moving);
+    c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
+              const RackLock turn(*world, RackLock::For::moving);
               sim::VirtualPort& port = *card_of_type(*world, card, "mcx314").port();
               return Mcx314{world, std::make_unique<Driver>(port, port)};
           }),

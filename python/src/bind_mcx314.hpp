@@ -11,7 +11,7 @@ struct HostOf<mcx314::Driver> {
     using type = Host;
 };
 
-using Mcx314 = Driven<mcx314::Driver>;
+using Mcx314 = BoundDriver<mcx314::Driver>;
 using Mcx314Class = py::class_<Mcx314>;
 
 /// Refuses what is no mask of axes.

@@ -18,7 +18,7 @@ void bind_interpolation(Mcx314Class& c) {
             name,
             [function](Mcx314& self, unsigned axes, const FourAxes& p, Wide v, Wide sv, Wide a, Wide d, Wide k) {
                 const mcx314::LINEDATA data{sv, v, a, d, k, p};
-                alone(*self.world, [&] { return (self.driver.get()->*function)(data, axes); });
+                run_exclusive(*self.world, [&] { return (self.driver.get()->*function)(data, axes); });
             },
             py::arg("axes"), py::arg("P"), py::arg("V"), py::arg("SV") = 0, py::arg("A") = 0, py::arg("D") = 0,
             py::arg("K") = 0, doc);
@@ -38,7 +38,7 @@ void bind_interpolation(Mcx314Class& c) {
             [function](Mcx314& self, unsigned axes, const FourAxes& p, const FourAxes& centre, Wide v, Wide sv, Wide a,
                        Wide d) {
                 const mcx314::CIRCLEDATA data{sv, v, a, d, p, centre};
-                alone(*self.world, [&] { return (self.driver.get()->*function)(data, axes); });
+                run_exclusive(*self.world, [&] { return (self.driver.get()->*function)(data, axes); });
             },
             py::arg("axes"), py::arg("P"), py::arg("C"), py::arg("V"), py::arg("SV") = 0, py::arg("A") = 0,
             py::arg("D") = 0, doc);
@@ -56,7 +56,7 @@ void bind_chain(Mcx314Class& c) {
     c.def(
         "ContStart",
         [](Mcx314& self, Wide v, Wide sv, Wide a, Wide d) {
-            alone(*self.world, [&] { return self.driver->ContStart({sv, v, a, d}); });
+            run_exclusive(*self.world, [&] { return self.driver->ContStart({sv, v, a, d}); });
         },
         py::arg("V"), py::arg("SV") = 0, py::arg("A") = 0, py::arg("D") = 0,
         "Begins a chain: V 1 to 8,000; A 0: constant speed.");
@@ -64,7 +64,7 @@ void bind_chain(Mcx314Class& c) {
         "ContLine",
         [](Mcx314& self, unsigned axes, const FourAxes& p, Wide v, double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->ContLine(axes, p, v, time); }, time);
         },
         py::arg("axes"), py::arg("P"), py::arg("v") = 0, py::arg("timeout") = 60.0,
@@ -74,7 +74,7 @@ void bind_chain(Mcx314Class& c) {
         [](Mcx314& self, unsigned axes, const FourAxes& p, const FourAxes& centre, bool clockwise, Wide v,
            double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->ContArc(axes, p, centre, clockwise, v, time); }, time);
         },
         py::arg("axes"), py::arg("P"), py::arg("C"), py::arg("clockwise"), py::arg("v") = 0, py::arg("timeout") = 60.0,
@@ -83,7 +83,7 @@ void bind_chain(Mcx314Class& c) {
         "ContEnd",
         [](Mcx314& self, double timeout) {
             const Duration time = duration(timeout);
-            const mcx314::ContOutcome out = alone(
+            const mcx314::ContOutcome out = run_exclusive(
                 *self.world, [&] { return self.driver->ContEnd(time); }, time);
             return std::pair(out.segments, out.end_speed);
         },
@@ -95,7 +95,7 @@ void bind_chain(Mcx314Class& c) {
         c.def(
             name,
             [function](Mcx314& self, unsigned axes, Wide v, Wide sv, Wide a, Wide dec_point) {
-                alone(*self.world, [&] { return (self.driver.get()->*function)({sv, v, a, dec_point}, axes); });
+                run_exclusive(*self.world, [&] { return (self.driver.get()->*function)({sv, v, a, dec_point}, axes); });
             },
             py::arg("axes"), py::arg("V"), py::arg("SV") = 0, py::arg("A") = 0, py::arg("DecPoint") = 0, doc);
     };
@@ -107,7 +107,7 @@ void bind_chain(Mcx314Class& c) {
         [](Mcx314& self, const std::array<std::uint16_t, 3>& plus, const std::array<std::uint16_t, 3>& minus,
            double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world,
                 [&] {
                     return self.driver->BPStack({plus, minus}, time);
@@ -121,7 +121,7 @@ void bind_chain(Mcx314Class& c) {
         "BPEnd",
         [](Mcx314& self, double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world, [&] { return self.driver->BPEnd(time); }, time);
         },
         py::arg("timeout") = 60.0, "Gives the registers back and waits for the end, timeout in s.");
@@ -159,7 +159,7 @@ void bind_mcx314_signals(Mcx314Class& c) {
     c.def(
         "read_interrupts",
         [](Mcx314& self, int axis) {
-            return alone(*self.world, [&]() -> Result<std::uint16_t> {
+            return run_exclusive(*self.world, [&]() -> Result<std::uint16_t> {
                 MOTIONRACK_CHECK(Driver::check_channel(axis, "read_interrupts"));
                 return self.driver->read_interrupts(axis);
             });

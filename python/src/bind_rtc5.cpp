@@ -233,7 +233,7 @@ void bind_answers(Rtc5Class& c) {
         "wait",
         [](Rtc5& self, double timeout) {
             const Duration time = duration(timeout);
-            alone(
+            run_exclusive(
                 *self.world,
                 [&]() -> Result<void> {
                     const Instant end = later(self.world->now(), time);
@@ -269,8 +269,8 @@ void bind_rtc5(py::module_& m) {
                 "now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. "
                 "Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words "
                 "the RTC5 manual 1.10 d (German), page 198.");
-    c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
-              const Turn turn(*world, Turn::For::moving);
+    c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
+              const RackLock turn(*world, RackLock::For::moving);
               card_of_type(*world, card, "rtc5");
               return Rtc5{world, rack::rtc5_card_of(world->running(), card)};
           }),

@@ -18,7 +18,7 @@ using Name = std::optional<std::string>;
 constexpr ReadLimit correction_limit{std::size_t{4} << 20, "a correction file"},
     fly_table_limit{std::size_t{64} << 20, "a compensation table"};
 
-std::vector<rtc5::Card*> cards_of(World& world) {
+std::vector<rtc5::Card*> cards_of(RackHandle& world) {
     std::vector<rtc5::Card*> out;
     for (const rack::RackCard& each : world.config().cards)
         if (rtc5::Card* const card = rack::rtc5_card_of(world.running(), each.name)) out.push_back(card);
@@ -26,7 +26,7 @@ std::vector<rtc5::Card*> cards_of(World& world) {
 }
 
 std::uint32_t select_rtc(Rtc5& self, std::uint32_t number) {
-    const Turn turn(*self.world, Turn::For::moving);
+    const RackLock turn(*self.world, RackLock::For::moving);
     const std::vector<rtc5::Card*> cards = cards_of(*self.world);
     if (number < 1 || number > cards.size())
         refuse(fmt::format("select_rtc: there is no card {}; the rack has {} of type rtc5. Nothing was done.", number,
@@ -102,7 +102,7 @@ void bind_cards(Rtc5Class& c) {
     c.def(
         "rtc5_count_cards",
         [](Rtc5& self) {
-            const Turn turn(*self.world, Turn::For::moving);
+            const RackLock turn(*self.world, RackLock::For::moving);
             return cards_of(*self.world).size();
         },
         "Cards of type rtc5 in the rack. Source: the maker's header of the RTC5 of 2013.");

@@ -15,15 +15,15 @@ namespace motionrack::python {
 
 namespace {
 
-using Shared = std::shared_ptr<World>;
+using Shared = std::shared_ptr<RackHandle>;
 
 Shared opened(const rack::RackReading& reading) {
     if (!reading.config) {
-        Raised raised{reading.errors.front(), false, reading.errors};
+        PythonError raised{reading.errors.front(), false, reading.errors};
         throw raised;
     }
-    Shared world = std::make_shared<World>(*reading.config);
-    attend(*world);
+    Shared world = std::make_shared<RackHandle>(*reading.config);
+    poll_python(*world);
     return world;
 }
 
@@ -51,7 +51,7 @@ py::tuple samples_of(const Sampler& sampler) {
 }
 
 /// Quantities of everything in the rack: {part: {name: meaning}}.
-py::dict quantities_of(World& world) {
+py::dict quantities_of(RackHandle& world) {
     py::dict out;
     for (const rack::QuantitiesOfPart& of : rack::quantities_of(world.rack())) {
         py::dict meanings;
@@ -61,14 +61,14 @@ py::dict quantities_of(World& world) {
     return out;
 }
 
-py::dict wires_of(World& world) {
+py::dict wires_of(RackHandle& world) {
     py::dict out;
     for (const rack::WireAccess::Named& wire : world.desk().names())
         out[py::str(std::string(wire.name))] = py::bool_(wire.drivable);
     return out;
 }
 
-py::dict faults_of(World& world) {
+py::dict faults_of(RackHandle& world) {
     py::dict out;
     for (const rack::FaultTarget& target : rack::fault_targets(world.rack())) {
         py::list names;
@@ -78,7 +78,7 @@ py::dict faults_of(World& world) {
     return out;
 }
 
-py::list conditions_of(World& world) {
+py::list conditions_of(RackHandle& world) {
     py::list out;
     rack::Rack& rack = world.running();
     for (const sim::Condition& condition : rack.kernel().conditions())
@@ -86,7 +86,7 @@ py::list conditions_of(World& world) {
     return out;
 }
 
-py::dict config_of_world(World& world) {
+py::dict config_of_world(RackHandle& world) {
     py::dict out;
     out["name"] = world.config().name;
     py::dict cards, axes;
@@ -98,122 +98,129 @@ py::dict config_of_world(World& world) {
     return out;
 }
 
-void bind_looking(py::class_<World, Shared>& world) {
-    world.def("config", [](World& w) { return looking(w, [&] { return config_of_world(w); }); })
-        .def("closed", &World::closed)
-        .def("started", &World::started)
-        .def("ticks", [](World& w) { return looking(w, [&] { return w.now().count(); }); })
-        .def("events", [](World& w) { return looking(w, [&] { return w.rack().kernel().events(); }); })
-        .def("trace_hash",
-             [](World& w) { return looking(w, [&] { return hash_text(w.running().kernel().trace_hash()); }); })
-        .def("state_hash",
-             [](World& w) { return looking(w, [&] { return hash_text(w.running().kernel().state_hash()); }); })
-        .def("conditions", [](World& w) { return looking(w, [&] { return conditions_of(w); }); })
+void bind_looking(py::class_<RackHandle, Shared>& world) {
+    world.def("config", [](RackHandle& w) { return inspect_rack(w, [&] { return config_of_world(w); }); })
+        .def("closed", &RackHandle::closed)
+        .def("started", &RackHandle::started)
+        .def("ticks", [](RackHandle& w) { return inspect_rack(w, [&] { return w.now().count(); }); })
+        .def("events", [](RackHandle& w) { return inspect_rack(w, [&] { return w.rack().kernel().events(); }); })
+        .def(
+            "trace_hash",
+            [](RackHandle& w) { return inspect_rack(w, [&] { return hash_text(w.running().kernel().trace_hash()); }); })
+        .def(
+            "state_hash",
+            [](RackHandle& w) { return inspect_rack(w, [&] { return hash_text(w.running().kernel().state_hash()); }); })
+        .def("conditions", [](RackHandle& w) { return inspect_rack(w, [&] { return conditions_of(w); }); })
         .def(
             "wire",
-            [](World& w, const std::string& name) { return looking(w, [&] { return value_of(w.desk().get(name)); }); },
-            py::arg("name"))
-        .def("wires", [](World& w) { return looking(w, [&] { return wires_of(w); }); })
-        .def(
-            "quantity",
-            [](World& w, const std::string& name) {
-                return looking(w, [&] { return value_of(rack::get_quantity(w.running(), name)); });
+            [](RackHandle& w, const std::string& name) {
+                return inspect_rack(w, [&] { return value_of(w.desk().get(name)); });
             },
             py::arg("name"))
-        .def("quantities", [](World& w) { return looking(w, [&] { return quantities_of(w); }); })
-        .def("fault_targets", [](World& w) { return looking(w, [&] { return faults_of(w); }); })
-        .def("not_done", [](World& w) { return looking(w, [&] { return w.not_done(); }); });
+        .def("wires", [](RackHandle& w) { return inspect_rack(w, [&] { return wires_of(w); }); })
+        .def(
+            "quantity",
+            [](RackHandle& w, const std::string& name) {
+                return inspect_rack(w, [&] { return value_of(rack::get_quantity(w.running(), name)); });
+            },
+            py::arg("name"))
+        .def("quantities", [](RackHandle& w) { return inspect_rack(w, [&] { return quantities_of(w); }); })
+        .def("fault_targets", [](RackHandle& w) { return inspect_rack(w, [&] { return faults_of(w); }); })
+        .def("not_done", [](RackHandle& w) { return inspect_rack(w, [&] { return w.not_done(); }); });
 }
 
-void bind_moving(py::class_<World, Shared>& world) {
+void bind_moving(py::class_<RackHandle, Shared>& world) {
     world
         .def("close",
-             [](World& w) {
-                 const Turn turn(w, Turn::For::moving);
+             [](RackHandle& w) {
+                 const RackLock turn(w, RackLock::For::moving);
                  w.close();
              })
-        .def("start", [](World& w) { alone(w, [&] { w.running(); }); })
+        .def("start", [](RackHandle& w) { run_exclusive(w, [&] { w.running(); }); })
         .def(
-            "advance", [](World& w, std::int64_t time) { alone(w, [&] { return w.advance(ticks(time)); }); },
+            "advance",
+            [](RackHandle& w, std::int64_t time) { run_exclusive(w, [&] { return w.advance(ticks(time)); }); },
             py::arg("ticks"))
         .def(
             "wait_wire",
-            [](World& w, const std::string& name, int level, std::int64_t timeout) {
-                return alone(w, [&] { return w.wait_wire(name, level, ticks(timeout)); });
+            [](RackHandle& w, const std::string& name, int level, std::int64_t timeout) {
+                return run_exclusive(w, [&] { return w.wait_wire(name, level, ticks(timeout)); });
             },
             py::arg("name"), py::arg("level"), py::arg("ticks"))
         .def(
             "set_wire",
-            [](World& w, const std::string& name, double value) { alone(w, [&] { return w.set_wire(name, value); }); },
+            [](RackHandle& w, const std::string& name, double value) {
+                run_exclusive(w, [&] { return w.set_wire(name, value); });
+            },
             py::arg("name"), py::arg("value"))
         .def(
             "release_wire",
-            [](World& w, const std::string& name) {
-                alone(w, [&] { return w.set_wire(name, std::numeric_limits<double>::quiet_NaN()); });
+            [](RackHandle& w, const std::string& name) {
+                run_exclusive(w, [&] { return w.set_wire(name, std::numeric_limits<double>::quiet_NaN()); });
             },
             py::arg("name"))
         .def(
             "set_quantity",
-            [](World& w, const std::string& name, double value) {
-                alone(w, [&] { return rack::set_quantity(w.running(), name, value); });
+            [](RackHandle& w, const std::string& name, double value) {
+                run_exclusive(w, [&] { return rack::set_quantity(w.running(), name, value); });
             },
             py::arg("name"), py::arg("value"))
         .def(
             "fault",
-            [](World& w, const std::string& fault, const std::string& target) {
-                alone(w, [&] { return rack::inject_fault(w.running(), fault, target); });
+            [](RackHandle& w, const std::string& fault, const std::string& target) {
+                run_exclusive(w, [&] { return rack::inject_fault(w.running(), fault, target); });
             },
             py::arg("fault"), py::arg("target"))
         .def(
             "plan_faults",
-            [](World& w, const std::vector<std::string>& texts) {
-                const Turn turn(w, Turn::For::moving);
+            [](RackHandle& w, const std::vector<std::string>& texts) {
+                const RackLock turn(w, RackLock::For::moving);
                 value_of(w.plan_faults(texts));
             },
             py::arg("texts"))
         .def(
             "set_card",
-            [](World& w, const std::string& card, const std::string& key, double value) {
-                const Turn turn(w, Turn::For::moving);
+            [](RackHandle& w, const std::string& card, const std::string& key, double value) {
+                const RackLock turn(w, RackLock::For::moving);
                 value_of(w.set_card(card, key, value));
             },
             py::arg("card"), py::arg("key"), py::arg("value"))
         .def(
             "begin_samples",
-            [](World& w, const std::vector<std::string>& names, std::int64_t period, std::size_t most) {
-                alone(w, [&] { return w.begin_samples(names, ticks(period), most); });
+            [](RackHandle& w, const std::vector<std::string>& names, std::int64_t period, std::size_t most) {
+                run_exclusive(w, [&] { return w.begin_samples(names, ticks(period), most); });
             },
             py::arg("names"), py::arg("period"), py::arg("most"))
         .def("end_samples",
-             [](World& w) {
-                 const Turn turn(w, Turn::For::moving);
+             [](RackHandle& w) {
+                 const RackLock turn(w, RackLock::For::moving);
                  return samples_of(value_of(w.end_samples()));
              })
         .def(
             "begin_waves",
-            [](World& w, const std::string& path, const std::vector<std::string>& signals) {
-                alone(w, [&] { return w.begin_waves(path, signals); });
+            [](RackHandle& w, const std::string& path, const std::vector<std::string>& signals) {
+                run_exclusive(w, [&] { return w.begin_waves(path, signals); });
             },
             py::arg("path"), py::arg("signals"))
-        .def("end_waves", [](World& w) { alone(w, [&] { return w.end_waves(); }); })
+        .def("end_waves", [](RackHandle& w) { run_exclusive(w, [&] { return w.end_waves(); }); })
         .def("copy",
-             [](World& w) {
-                 Shared out = alone(w, [&] { return w.copy(); });
-                 attend(*out);
+             [](RackHandle& w) {
+                 Shared out = run_exclusive(w, [&] { return w.copy(); });
+                 poll_python(*out);
                  return out;
              })
         .def("fresh",
-             [](World& w) {
-                 Shared out = looking(w, [&] { return std::make_shared<World>(w.config()); });
-                 attend(*out);
+             [](RackHandle& w) {
+                 Shared out = inspect_rack(w, [&] { return std::make_shared<RackHandle>(w.config()); });
+                 poll_python(*out);
                  return out;
              })
         .def(
             "copy_from",
-            [](World& w, World& other) {
+            [](RackHandle& w, RackHandle& other) {
                 if (&w == &other) return;
-                const Turn turn(other, Turn::For::moving);
-                alone(w, [&] { w.copy_from(other); });
+                const RackLock turn(other, RackLock::For::moving);
+                run_exclusive(w, [&] { w.copy_from(other); });
             },
             py::arg("other"));
 }
@@ -221,7 +228,7 @@ void bind_moving(py::class_<World, Shared>& world) {
 }  // namespace
 
 void bind_world(py::module_& m) {
-    py::class_<World, Shared> world(m, "World", "A rack; motionrack.Rack is what people use.");
+    py::class_<RackHandle, Shared> world(m, "RackHandle", "A rack; motionrack.Rack is what people use.");
     bind_looking(world);
     bind_moving(world);
     m.def(

@@ -20,7 +20,7 @@ class Host {
     void stop() { stop_ = true; }
     bool stopped() const { return stop_; }
 
-    /// The thread that has it; see Turn.
+    /// The thread that has it; see RackLock.
     std::atomic<std::thread::id> owner{};
 
   protected:

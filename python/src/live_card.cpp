@@ -70,7 +70,7 @@ void LiveCard::quick_stop() {
     if (closed()) return;
     stop();
     if (owner.load() == std::this_thread::get_id()) return;  // in a handler of a signal: the call ends with the stop
-    const Turn turn(*this, Turn::For::stopping);
+    const RackLock turn(*this, RackLock::For::stopping);
     if (closed()) return;
     stops_.stop();
     check_trouble();
@@ -82,7 +82,7 @@ void LiveCard::close() {
         refuse(fmt::format("The card at {} is in the middle of a call. Nothing was closed. Stop it by quick_stop().",
                            place_));
     stop();
-    const Turn turn(*this, Turn::For::stopping);
+    const RackLock turn(*this, RackLock::For::stopping);
     if (closed()) return;
     stops_.stop();
     const std::optional<Error> trouble = port_->trouble();
@@ -135,7 +135,7 @@ void LiveCard::check_offset(std::uint32_t offset, bool written) const {
 }
 
 std::uint16_t LiveCard::read(std::uint32_t offset) {
-    const Turn turn(*this, Turn::For::moving);
+    const RackLock turn(*this, RackLock::For::moving);
     live::CardPort& port = open_port();
     check_offset(offset, false);
     const std::uint16_t word = port.read(offset);
@@ -144,7 +144,7 @@ std::uint16_t LiveCard::read(std::uint32_t offset) {
 }
 
 void LiveCard::write(std::uint32_t offset, std::int64_t value) {
-    alone(*this, [&] {
+    run_exclusive(*this, [&] {
         check_offset(offset, true);
         if (value < 0 || value > 0xFFFF)
             raise({ErrorKind::refused,
@@ -154,7 +154,7 @@ void LiveCard::write(std::uint32_t offset, std::int64_t value) {
 }
 
 std::string LiveCard::view(bool clearing) {
-    const Turn turn(*this, Turn::For::moving);
+    const RackLock turn(*this, RackLock::For::moving);
     const rack::RegisterView seen = rack::find_card_kind(map_.name)->view(open_port(), clearing);
     check_trouble();
     return rack::view_text(seen, false);
@@ -166,7 +166,7 @@ bool LiveCard::wait_interrupt(Duration timeout) {
             fmt::format("The card at {} has no interrupt here. Nothing was done. Open it with interrupt=PATH, or "
                         "look at its registers.",
                         place_));
-    return alone(*this, [&] { return ears_.wait(timeout); });
+    return run_exclusive(*this, [&] { return ears_.wait(timeout); });
 }
 
 }  // namespace motionrack::python

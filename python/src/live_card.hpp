@@ -1,6 +1,6 @@
 // A real card as Python has it: a live port with a stop that holds, and Ctrl-C heard while a call waits.
 //
-//   Python ──► Turn ──► LiveCard ──► Driver, Library ──► GuardedPort ──► live::CardPort ──► card
+//   Python ──► RackLock ──► LiveCard ──► Driver, Library ──► GuardedPort ──► live::CardPort ──► card
 //   Ctrl-C, quick_stop() ──► stop flag ──► Ears, QuickStops ── all axes, at once ──► ┘
 //
 // A stop is taken in every state and from every thread. It ends the call that runs, and nothing is written to the card

@@ -9,8 +9,8 @@ constexpr auto hear_every = std::chrono::milliseconds(2);  // of real time, what
 constexpr auto look_every = std::chrono::milliseconds(50);
 }  // namespace
 
-Result<std::unique_ptr<Operated>> Operated::make(const rack::RackConfig& config) {
-    std::unique_ptr<Operated> out(new Operated);
+Result<std::unique_ptr<SteppedMachine>> SteppedMachine::make(const rack::RackConfig& config) {
+    std::unique_ptr<SteppedMachine> out(new SteppedMachine);
     operate::MachineSettings settings;
     settings.pace = [self = out.get()](Instant now) { return self->pace(now); };
     MOTIONRACK_TRY(std::unique_ptr<operate::Machine> machine, operate::Machine::make(config, std::move(settings)));
@@ -18,17 +18,17 @@ Result<std::unique_ptr<Operated>> Operated::make(const rack::RackConfig& config)
     return out;
 }
 
-void Operated::begin(std::unique_ptr<operate::Machine> machine) {
+void SteppedMachine::begin(std::unique_ptr<operate::Machine> machine) {
     machine_ = std::move(machine);
     motion_ = std::thread([this] { machine_->run(); });
-    std::unique_lock<std::mutex> alone(lock_);
+    std::unique_lock<std::mutex> run_exclusive(lock_);
     changed_.wait(alone, [this] { return parked_; });
 }
 
-Operated::~Operated() {
+SteppedMachine::~SteppedMachine() {
     if (!motion_.joinable()) return;
     {
-        const std::lock_guard<std::mutex> alone(lock_);
+        const std::lock_guard<std::mutex> run_exclusive(lock_);
         quitting_ = true;
         changed_.notify_all();
     }
@@ -36,8 +36,8 @@ Operated::~Operated() {
     motion_.join();
 }
 
-bool Operated::pace(Instant now) {
-    std::unique_lock<std::mutex> alone(lock_);
+bool SteppedMachine::pace(Instant now) {
+    std::unique_lock<std::mutex> run_exclusive(lock_);
     reached_ = now;
     if (quitting_ || now < allowed_) return parked_ = false, true;
     parked_ = true;
@@ -47,8 +47,8 @@ bool Operated::pace(Instant now) {
     return !parked_;
 }
 
-void Operated::advance(Duration time, const std::function<bool()>& look) {
-    std::unique_lock<std::mutex> alone(lock_);
+void SteppedMachine::advance(Duration time, const std::function<bool()>& look) {
+    std::unique_lock<std::mutex> run_exclusive(lock_);
     changed_.wait(alone, [this] { return parked_; });
     allowed_ = later(reached_, time);
     if (allowed_ <= reached_) return;

@@ -16,12 +16,12 @@
 
 namespace motionrack::python {
 
-class Operated {
+class SteppedMachine {
   public:
-    static Result<std::unique_ptr<Operated>> make(const rack::RackConfig& config);
-    ~Operated();
-    Operated(const Operated&) = delete;
-    Operated& operator=(const Operated&) = delete;
+    static Result<std::unique_ptr<SteppedMachine>> make(const rack::RackConfig& config);
+    ~SteppedMachine();
+    SteppedMachine(const SteppedMachine&) = delete;
+    SteppedMachine& operator=(const SteppedMachine&) = delete;
 
     /// Lets so much time pass, in whole slices of 2 ms. `look` is called every 50 ms of real time meanwhile, and ends
     /// the wait where it is true: the machine stands at the gate then, in the midst of what it does.
@@ -34,12 +34,12 @@ class Operated {
         bool done = false;
         machine_->post([&] {
             Value value = work(*machine_);
-            const std::lock_guard<std::mutex> alone(lock_);
+            const std::lock_guard<std::mutex> run_exclusive(lock_);
             out.emplace(std::move(value));
             done = true;
             changed_.notify_all();
         });
-        std::unique_lock<std::mutex> alone(lock_);
+        std::unique_lock<std::mutex> run_exclusive(lock_);
         changed_.notify_all();
         changed_.wait(alone, [&] { return done; });
         changed_.wait(alone, [this] { return parked_; });
@@ -47,7 +47,7 @@ class Operated {
     }
 
   private:
-    Operated() = default;
+    SteppedMachine() = default;
     bool pace(Instant now);
     void begin(std::unique_ptr<operate::Machine> machine);
 

@@ -11,14 +11,14 @@ namespace motionrack::python {
 
 /// What is thrown. `timeout`: a wait ended before what it waited for came. `all`: every problem, where there are
 /// several.
-struct Raised {
+struct PythonError {
     Error error;
     bool timeout = false;
     std::vector<Error> all = {};
 };
 
 [[noreturn]] inline void raise(Error error, bool timeout = false) {
-    throw Raised{std::move(error), timeout};
+    throw PythonError{std::move(error), timeout};
 }
 [[noreturn]] inline void refuse(std::string sentence) {
     raise({ErrorKind::refused, std::move(sentence)});

@@ -14,7 +14,7 @@ namespace motionrack::python {
 /// The commands of one card. A question takes `question_time` of the rack's time first, as the answer over the bus
 /// does.
 struct Rtc5 {
-    std::shared_ptr<World> world;
+    std::shared_ptr<RackHandle> world;
     rtc5::Card* card;  ///< nullptr: free_rtc5_dll
     Duration question_time = microseconds(10);
     std::uint32_t errors = 0, last_error = 0;  ///< the board's bits
@@ -32,7 +32,7 @@ auto keeping_error_bits(Rtc5& self, const rtc5::Refusal& refusal, Call call) {
     self.last_error = 0;
     try {
         return call();
-    } catch (const Raised& raised) {
+    } catch (const PythonError& raised) {
         self.last_error = self.card == nullptr ? rtc5::error_bit("ACCESS_DENIED")
                                                : rtc5::error_bits_of(raised.error, refusal, self.card->engine());
         self.errors |= self.last_error;
@@ -43,14 +43,15 @@ auto keeping_error_bits(Rtc5& self, const rtc5::Refusal& refusal, Call call) {
 /// `call` with the engine. `refusal` is looked at when it has failed.
 template <class Call>
 auto order(Rtc5& self, Call call, const rtc5::Refusal& refusal = rtc5::Refusal::parameter) {
-    return keeping_error_bits(self, refusal, [&] { return alone(*self.world, [&] { return call(self.engine()); }); });
+    return keeping_error_bits(self, refusal,
+                              [&] { return run_exclusive(*self.world, [&] { return call(self.engine()); }); });
 }
 
 /// The same after the time of a question. `call` gives a Result.
 template <class Call>
 auto ask(Rtc5& self, Call call, const rtc5::Refusal& refusal = rtc5::Refusal::parameter) {
     return keeping_error_bits(self, refusal, [&] {
-        return alone(*self.world, [&]() -> decltype(call(self.engine())) {
+        return run_exclusive(*self.world, [&]() -> decltype(call(self.engine())) {
             self.engine();
             MOTIONRACK_CHECK(self.world->advance(self.question_time));
             return call(self.engine());

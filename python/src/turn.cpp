@@ -19,7 +19,7 @@ std::vector<std::pair<const Host*, py::error_already_set>>& raised_meanwhile() {
 
 }  // namespace
 
-Turn::Turn(Host& host, For what) : host_(host) {
+RackLock::RackLock(Host& host, For what) : host_(host) {
     const std::thread::id me = std::this_thread::get_id();
     std::thread::id now{};
     if (host_.owner.compare_exchange_strong(now, me)) {
@@ -35,14 +35,14 @@ Turn::Turn(Host& host, For what) : host_(host) {
         refuse("The rack or card is in the middle of a run. Nothing was done. A progress call may look, not move.");
 }
 
-void Turn::wait(std::thread::id me) {
+void RackLock::wait(std::thread::id me) {
     const py::gil_scoped_release free;
     for (std::thread::id none{}; !host_.owner.compare_exchange_weak(none, me); none = {})
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     mine_ = true;
 }
 
-Turn::~Turn() {
+RackLock::~RackLock() {
     if (mine_) host_.owner = std::thread::id{};
 }
 
@@ -53,7 +53,7 @@ Duration duration(double seconds) {
     return from_seconds(seconds);
 }
 
-rack::Card& card_of_type(World& world, const std::string& name, std::string_view type) {
+rack::Card& card_of_type(RackHandle& world, const std::string& name, std::string_view type) {
     rack::Card& card = *value_of(rack::card_named(world.running(), name));
     for (const rack::RackCard& config : world.config().cards)
         if (config.name == name && config.type != type)
@@ -68,14 +68,14 @@ void SignalLook::look(Host& host) {
     if (present - last_ < std::chrono::milliseconds(20)) return;
     last_ = present;
     const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) stop_because(host, py::error_already_set());
+    if (PyErr_CheckSignals() != 0) abort_run(host, py::error_already_set());
 }
 
-void attend(World& world) {
+void poll_python(RackHandle& world) {
     world.on_look([&world, signals = SignalLook()]() mutable { signals.look(world); });
 }
 
-void stop_because(Host& host, py::error_already_set error) {
+void abort_run(Host& host, py::error_already_set error) {
     host.stop();
     for (const auto& [which, raised] : raised_meanwhile())
         if (which == &host) return;  // the first is what ended it
@@ -90,7 +90,7 @@ void end_call(Host& host) {
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
         try {
             host.end_call();
-        } catch (const Raised&) {  // the next call raises it again
+        } catch (const PythonError&) {  // the next call raises it again
         }
         throw error;
     }

@@ -17,14 +17,14 @@ namespace py = pybind11;
 
 /// While one lives its thread has the rack, or the card. Throws a refusal where another thread has it, or where this
 /// one is in the middle of a run (a progress call); there it may only look.
-class Turn {
+class RackLock {
   public:
     /// stopping: waits for the call of another thread, which the stop ends; not from within a call of this thread.
     enum class For : std::uint8_t { looking, moving, stopping };
-    Turn(Host& host, For what);
-    ~Turn();
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    RackLock(Host& host, For what);
+    ~RackLock();
+    RackLock(const RackLock&) = delete;
+    RackLock& operator=(const RackLock&) = delete;
 
   private:
     void wait(std::thread::id me);
@@ -36,12 +36,12 @@ class Turn {
 /// Runs `call` without Python's lock; it gives a Result<T> or a plain value. `timeout`: a failure of the machine after
 /// that time is a time-out. What Python raised meanwhile (KeyboardInterrupt, a progress call's exception) goes on.
 template <class Call>
-auto alone(Host& host, Call call, Duration timeout = never);
+auto run_exclusive(Host& host, Call call, Duration timeout = never);
 
 /// The same for what only looks: it keeps Python's lock and may be called from a progress call.
 template <class Call>
-auto looking(World& world, Call call) {
-    const Turn turn(world, Turn::For::looking);
+auto inspect_rack(RackHandle& world, Call call) {
+    const RackLock turn(world, RackLock::For::looking);
     world.rack();
     return call();
 }
@@ -55,10 +55,10 @@ class SignalLook {
   private:
     std::chrono::steady_clock::time_point last_{};
 };
-/// Lets World ask Python between runs.
-void attend(World& world);
+/// Lets RackHandle ask Python between runs.
+void poll_python(RackHandle& world);
 /// What Python raised ends the run, and goes on when it has ended. With Python's lock.
-void stop_because(Host& host, py::error_already_set error);
+void abort_run(Host& host, py::error_already_set error);
 /// Ends the call and throws the exception that Python raised while it ran.
 void end_call(Host& host);
 
@@ -77,9 +77,9 @@ struct is_result<Result<T>> : std::true_type {};
 }  // namespace detail
 
 template <class Call>
-auto alone(Host& host, Call call, Duration timeout) {
+auto run_exclusive(Host& host, Call call, Duration timeout) {
     using Value = decltype(call());
-    const Turn turn(host, Turn::For::moving);
+    const RackLock turn(host, RackLock::For::moving);
     host.check_call();
     const Instant began = host.now();
     if constexpr (std::is_void_v<Value>) {
@@ -109,24 +109,24 @@ auto alone(Host& host, Call call, Duration timeout) {
 /// The host of a driver: a rack, unless specialised.
 template <class Driver>
 struct HostOf {
-    using type = World;
+    using type = RackHandle;
 };
 
 /// A driver with the world whose card it drives.
 template <class Driver>
-struct Driven {
+struct BoundDriver {
     std::shared_ptr<typename HostOf<Driver>::type> world;
     std::unique_ptr<Driver> driver;
 };
 
 /// The card of that name, which must be of this type. Throws a refusal where it is another.
-rack::Card& card_of_type(World& world, const std::string& name, std::string_view type);
+rack::Card& card_of_type(RackHandle& world, const std::string& name, std::string_view type);
 
-/// A member function of `Driver` (or of what it is derived from) as a function for Python, run by alone().
+/// A member function of `Driver` (or of what it is derived from) as a function for Python, run by run_exclusive().
 template <class Driver, class Base, class Value, class... Parameters>
 auto call(Value (Base::*function)(Parameters...)) {
-    return [function](Driven<Driver>& self, std::decay_t<Parameters>... parameters) {
-        return alone(*self.world, [&] { return (self.driver.get()->*function)(parameters...); });
+    return [function](BoundDriver<Driver>& self, std::decay_t<Parameters>... parameters) {
+        return run_exclusive(*self.world, [&] { return (self.driver.get()->*function)(parameters...); });
     };
 }
 

@@ -14,21 +14,21 @@ constexpr Duration slice = milliseconds(50);
 constexpr std::size_t max_problems = 20;
 }  // namespace
 
-World::World(const rack::RackConfig& config) : config_(config) {
+RackHandle::RackHandle(const rack::RackConfig& config) : config_(config) {
     build();
 }
 
-void World::build() {
+void RackHandle::build() {
     desk_.reset();
     rack_ = std::make_unique<rack::Rack>(config_);
     desk_ = std::make_unique<rack::WireAccess>(*rack_);
 }
 
-World::~World() {
+RackHandle::~RackHandle() {
     close();
 }
 
-void World::close() {
+void RackHandle::close() {
     if (recorder_) static_cast<void>(end_waves());
     sampler_.reset();
     recorder_.reset();
@@ -41,33 +41,33 @@ void World::close() {
     plan_.reset();
 }
 
-rack::Rack& World::rack() {
+rack::Rack& RackHandle::rack() {
     if (!rack_) refuse("The rack was closed; nothing was done. Make another one.");
     return *rack_;
 }
 
-rack::Rack& World::running() {
+rack::Rack& RackHandle::running() {
     if (!rack().started()) start();
     return *rack_;
 }
 
 // ---- starting
 
-rack::JobSettings World::job_settings() {
+rack::JobSettings RackHandle::job_settings() {
     rack::JobSettings settings;
     settings.sample_period = sample_period_;
     settings.stop = &stop_;
-    settings.on_slice = [this] { between(); };
+    settings.on_slice = [this] { service_run(); };
     settings.progress = [this](const rack::JobProgress& progress) {
         if (progress_) progress_(progress);
     };
     return settings;
 }
 
-void World::start() {
+void RackHandle::start() {
     plan_ = value_of(rack::FaultSchedule::create(*rack_, fault_texts_));
     if (!rack_->axes().empty()) job_ = std::make_unique<rack::Job>(*rack_, job_settings());
-    bell_ = std::make_unique<Bell>(rack_->kernel());
+    bell_ = std::make_unique<RunBreaker>(rack_->kernel());
     tap_ = std::make_unique<rack::WireTap>(rack_->kernel());
     rack_->input_log().keep_no_more();
     rack_->start();
@@ -76,16 +76,16 @@ void World::start() {
     listen_again();
 }
 
-void World::listen_again() {
+void RackHandle::listen_again() {
     rack_->set_stop_flag(&stop_);
-    rack_->on_slice(slice, [this] { between(); });
+    rack_->on_slice(slice, [this] { service_run(); });
 }
 
 // ---- time
 
-void World::between() {
+void RackHandle::service_run() {
     plan_->apply_due();
-    if (sampler_ && bell_->take_ring() != never) sampler_->take(now());
+    if (sampler_ && bell_->take_break() != never) sampler_->take(now());
     if (recorder_) {
         if (now() >= next_register_look_) {
             recorder_->look();
@@ -97,18 +97,18 @@ void World::between() {
     if (look_) look_();
 }
 
-Result<void> World::run_to(Instant until, const std::function<bool()>& enough) {
+Result<void> RackHandle::run_to(Instant until, const std::function<bool()>& enough) {
     do {
         Instant next = std::min(until, later(now(), slice));
         if (recorder_) next = std::min(next, std::max(next_register_look_, now()));
         rack_->kernel().run_until(next);
-        between();
+        service_run();
         if (stop_) return fail(ErrorKind::stopped, fmt::format("The user stopped it at {:.6f} s.", to_seconds(now())));
     } while (now() < until && !(enough && enough()));
     return {};
 }
 
-Result<void> World::advance(Duration time) {
+Result<void> RackHandle::advance(Duration time) {
     running();
     if (time < Duration{})
         return fail(ErrorKind::refused,
@@ -121,7 +121,7 @@ Result<void> World::advance(Duration time) {
     return run_to(now() + time);
 }
 
-Result<bool> World::wait_wire(const std::string& name, int level, Duration timeout) {
+Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration timeout) {
     const sim::WireId wire = running().kernel().find_wire(name);
     if (wire == sim::WireId::none) {
         MOTIONRACK_CHECK(desk_->get(name));
@@ -135,21 +135,21 @@ Result<bool> World::wait_wire(const std::string& name, int level, Duration timeo
         return fail(ErrorKind::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.",
                                                     to_seconds(timeout), to_seconds(latest - now())));
     struct Listening {
-        Bell& bell;
+        RunBreaker& bell;
         ~Listening() { bell.listen_no_more(); }
     } listening{*bell_};
-    bell_->listen_for(wire, level);
+    bell_->break_on_wire(wire, level);
     if (bell_->heard()) return true;
     MOTIONRACK_CHECK(run_to(now() + timeout, [this] { return bell_->heard(); }));
     return bell_->heard();
 }
 
-Result<void> World::set_wire(const std::string& name, double value) {
+Result<void> RackHandle::set_wire(const std::string& name, double value) {
     running();
     return desk_->set(name, value);
 }
 
-rack::HomingOutcome World::home(rack::HomingSettings settings) {
+rack::HomingOutcome RackHandle::home(rack::HomingSettings settings) {
     running();
     settings.stop = &stop_;
     rack::HomingOutcome out = job_ ? job_->home(settings) : rack::home_axes(*rack_, settings);
@@ -159,7 +159,7 @@ rack::HomingOutcome World::home(rack::HomingSettings settings) {
 
 // ---- a part program
 
-control::gcode::Settings World::reading_of(const GivenProgram& program) const {
+control::gcode::Settings RackHandle::reading_of(const ProgramInput& program) const {
     control::gcode::Settings out = rack::reader_settings(config_, program.block_delete);
     if (job_) out.start = value_of(job_->start());
     if (!program.folder.empty()) out.subprogram = rack::subprograms_in(program.folder);
@@ -169,17 +169,17 @@ control::gcode::Settings World::reading_of(const GivenProgram& program) const {
     return out;
 }
 
-control::gcode::Settings World::check(const GivenProgram& program) const {
+control::gcode::Settings RackHandle::check(const ProgramInput& program) const {
     if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
     control::gcode::Settings reading = reading_of(program);
     if (auto check = control::gcode::check_program(program.text, reading, max_problems, program.name);
         !check.problems.empty())
-        throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
+        throw PythonError{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
     return reading;
 }
 
-Result<rack::JobOutcome> World::run(const GivenProgram& program, control::gcode::Settings reading,
-                                    std::function<void()> superseded) {
+Result<rack::JobOutcome> RackHandle::run(const ProgramInput& program, control::gcode::Settings reading,
+                                         std::function<void()> superseded) {
     running();
     MOTIONRACK_TRY(reading.start, job_->start());
     if (superseded_) superseded_();

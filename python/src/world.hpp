@@ -1,9 +1,9 @@
 // A rack as Python has it: not started until something needs its time, then run in slices between which Python is
 // heard.
 //
-//   Python ──► World ──┬─► Rack, Job (a part program), FaultSchedule
+//   Python ──► RackHandle ──┬─► Rack, Job (a part program), FaultSchedule
 //                      ├─► WireAccess, WireTap, WaveRecorder
-//                      └─► Bell ──break_run──► between(): faults that are due, samples, recordings, Ctrl-C
+//                      └─► RunBreaker ──break_run──► service_run(): faults that are due, samples, recordings, Ctrl-C
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@
 namespace motionrack::python {
 
 /// A part program and what goes with it.
-struct GivenProgram {
+struct ProgramInput {
     std::string text, name;
     std::string folder;  ///< where its subprograms lie; empty: it has none but its own
     std::string tools,
@@ -30,12 +30,12 @@ struct GivenProgram {
     bool block_delete = false;
 };
 
-class World final : public Host {
+class RackHandle final : public Host {
   public:
-    explicit World(const rack::RackConfig& config);
-    ~World() override;
-    World(const World&) = delete;
-    World& operator=(const World&) = delete;
+    explicit RackHandle(const rack::RackConfig& config);
+    ~RackHandle() override;
+    RackHandle(const RackHandle&) = delete;
+    RackHandle& operator=(const RackHandle&) = delete;
 
     const rack::RackConfig& config() const { return config_; }
     /// Throws a refusal once the world was closed.
@@ -78,10 +78,10 @@ class World final : public Host {
     // ---- part programs, one after the other, from where the axes stand
     /// How the program is read, which is good; else throws every problem, in the order of its lines, or why none can
     /// begin now. Nothing moves.
-    control::gcode::Settings check(const GivenProgram& program) const;
+    control::gcode::Settings check(const ProgramInput& program) const;
     /// A program that check() has found good, and how it is read. `superseded` is called before the samples of the next
     /// one take the place of its own.
-    Result<rack::JobOutcome> run(const GivenProgram& program, control::gcode::Settings reading,
+    Result<rack::JobOutcome> run(const ProgramInput& program, control::gcode::Settings reading,
                                  std::function<void()> superseded);
     /// See home_axes; `settings.stop` is this world's own.
     rack::HomingOutcome home(rack::HomingSettings settings);
@@ -97,8 +97,8 @@ class World final : public Host {
 
     // ---- the whole world
     /// A world of its own in the same state; recordings stay with this one.
-    std::shared_ptr<World> copy();
-    void copy_from(World& other);
+    std::shared_ptr<RackHandle> copy();
+    void copy_from(RackHandle& other);
 
     // ---- who looks on
     /// Between runs, at least every 50 ms of virtual time, and where the bell rings.
@@ -107,20 +107,20 @@ class World final : public Host {
     void on_progress(std::function<void(const rack::JobProgress&)> call) { progress_ = std::move(call); }
     /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look.
     /// While a driver or a job runs the rack, its host calls this.
-    void between();
+    void service_run();
     /// After something else had the host's slices (a job, a homing).
     void listen_again();
 
   private:
-    bool is_built_like(World& other);
+    bool is_built_like(RackHandle& other);
     void build();
     void start();
     Result<void> run_to(Instant until, const std::function<bool()>& enough = {});
     rack::JobSettings job_settings();
-    control::gcode::Settings reading_of(const GivenProgram& program) const;
+    control::gcode::Settings reading_of(const ProgramInput& program) const;
 
     rack::RackConfig config_;
-    GivenProgram program_;
+    ProgramInput program_;
     std::vector<std::string> fault_texts_;
     Duration sample_period_ = milliseconds(1);
     std::function<void()> look_, superseded_;
@@ -130,7 +130,7 @@ class World final : public Host {
     std::unique_ptr<rack::WireAccess> desk_;
     std::unique_ptr<rack::FaultSchedule> plan_;
     std::unique_ptr<rack::Job> job_;
-    std::unique_ptr<Bell> bell_;
+    std::unique_ptr<RunBreaker> bell_;
     std::unique_ptr<rack::WireTap> tap_;
     std::unique_ptr<rack::WaveRecorder> recorder_;
     Instant next_register_look_ = never;

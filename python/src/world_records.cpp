@@ -7,7 +7,7 @@
 
 namespace motionrack::python {
 
-Result<void> World::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
+Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
     running();
     if (sampler_)
         return fail(ErrorKind::refused,
@@ -21,12 +21,12 @@ Result<void> World::begin_samples(const std::vector<std::string>& names, Duratio
                     fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
     MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
     sampler_ = std::move(sampler);
-    bell_->ring_every(period);
-    if (bell_->take_ring() != never) sampler_->take(now());
+    bell_->break_every(period);
+    if (bell_->take_break() != never) sampler_->take(now());
     return {};
 }
 
-Result<Sampler> World::end_samples() {
+Result<Sampler> RackHandle::end_samples() {
     rack();
     if (!sampler_) return fail(ErrorKind::refused, "No recording runs; nothing was done.");
     sampler_->take(now());
@@ -36,7 +36,7 @@ Result<Sampler> World::end_samples() {
     return out;
 }
 
-Result<void> World::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
+Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
     running();
     if (recorder_)
         return fail(ErrorKind::refused, "Waves are recorded already; end that before the next file. It goes on.");
@@ -50,7 +50,7 @@ Result<void> World::begin_waves(const std::string& path, const std::vector<std::
     return {};
 }
 
-Result<void> World::end_waves() {
+Result<void> RackHandle::end_waves() {
     rack();
     if (!recorder_) return fail(ErrorKind::refused, "No waves are recorded; nothing was done.");
     const std::unique_ptr<rack::WaveRecorder> ended = std::move(recorder_);
@@ -58,9 +58,9 @@ Result<void> World::end_waves() {
     return ended->finish();
 }
 
-std::shared_ptr<World> World::copy() {
+std::shared_ptr<RackHandle> RackHandle::copy() {
     running();
-    auto out = std::make_shared<World>(config_);
+    auto out = std::make_shared<RackHandle>(config_);
     out->fault_texts_ = fault_texts_;
     out->sample_period_ = sample_period_;
     out->copy_from(*this);
@@ -68,7 +68,7 @@ std::shared_ptr<World> World::copy() {
 }
 
 /// Whether the state of one can be that of the other: the same cards in the same places, as many parts and wires.
-bool World::is_built_like(World& other) {
+bool RackHandle::is_built_like(RackHandle& other) {
     const sim::Kernel &own = running().kernel(), &its = other.running().kernel();
     const auto same = [](const rack::RackCard& a, const rack::RackCard& b) {
         return a.name == b.name && a.type == b.type;
@@ -78,7 +78,7 @@ bool World::is_built_like(World& other) {
                       other.config_.cards.end(), same);
 }
 
-void World::copy_from(World& other) {
+void RackHandle::copy_from(RackHandle& other) {
     running();
     other.running();
     if (!is_built_like(other)) refuse("The snapshot is of a rack of another kind; nothing was done.");

@@ -8,7 +8,7 @@
 
 namespace motionrack::python {
 
-Result<void> World::plan_faults(const std::vector<std::string>& texts) {
+Result<void> RackHandle::plan_faults(const std::vector<std::string>& texts) {
     if (texts.empty()) return {};
     if (rack().started())
         return fail(
@@ -21,7 +21,7 @@ Result<void> World::plan_faults(const std::vector<std::string>& texts) {
     return {};
 }
 
-Result<void> World::set_sample_period(Duration period) {
+Result<void> RackHandle::set_sample_period(Duration period) {
     if (period == sample_period_) return {};
     if (rack().started())
         return fail(
@@ -37,7 +37,7 @@ Result<void> World::set_sample_period(Duration period) {
     return {};
 }
 
-Result<void> World::set_profile(const std::string& profile) {
+Result<void> RackHandle::set_profile(const std::string& profile) {
     if (profile == config_.controller.profile) return {};
     if (profile != "trapezoid" && profile != "jerk_limited")
         return fail(ErrorKind::refused,
@@ -52,7 +52,7 @@ Result<void> World::set_profile(const std::string& profile) {
     return {};
 }
 
-Result<void> World::set_card(const std::string& name, const std::string& key, double value) {
+Result<void> RackHandle::set_card(const std::string& name, const std::string& key, double value) {
     if (rack().started())
         return fail(ErrorKind::refused,
                     "The rack's time has begun, and its cards are as they are; nothing was changed. Change the card of "
