@@ -11,10 +11,10 @@
 namespace motionrack::rack {
 namespace {
 
-/// The rounding to pulses, the chip's half pulse and the whole centre of an arc; what chords leave out; and with
-/// limited jerk the corners that are cut.
+/// The rounding to pulses, the chip's half pulse and the whole centre of an arc; the error of chords; and the part of
+/// the path tolerance that blended corners (limited jerk) or merged short moves may take.
 double max_deviation(const RackConfig& config, const test::RandomProgram& program, const JobOutcome& outcome) {
-    return 3.0 / 640 + (program.chords ? 0.0021 : 0) + (config.jerk_limited() ? outcome.tolerance_mm : 0);
+    return 3.0 / 640 + (program.chords ? 0.0021 : 0) + (config.jerk_limited() ? 1 : 0.25) * outcome.tolerance_mm;
 }
 
 /// Drives them one after the other; returns the part that the reader took (an arc may bulge beyond the travel).

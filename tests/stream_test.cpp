@@ -21,7 +21,7 @@ struct Watched {
     control::AxisGroup* axes = nullptr;
     std::unique_ptr<Stream> stream;
     std::vector<control::Geometry> programmed;
-    double tolerance = 0;  ///< how far corners may be cut
+    double tolerance = 0;  ///< mm, by which blended corners or merged short moves may leave the path
     std::function<void()> on_slice;
 
     explicit Watched(const RackConfig& config)
@@ -35,8 +35,8 @@ struct Watched {
         stream = std::make_unique<Stream>(*axes, host(), settings);
         stream->on_move([this](const control::Move& move, const control::Point& start) {
             programmed.push_back(control::geometry_of(move, start));
-            if (rack.config().jerk_limited() && move.path == control::PathControl::continuous)
-                tolerance = std::max(tolerance, move.tolerance_mm);
+            if (move.path == control::PathControl::continuous)
+                tolerance = std::max(tolerance, (rack.config().jerk_limited() ? 1 : 0.25) * move.tolerance_mm);
         });
         rack.set_stop_flag(stream->stop_flag());
         rack.on_slice(milliseconds(1), [this] {
