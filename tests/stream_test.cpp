@@ -105,7 +105,7 @@ void drive_all(Watched& w, const std::string& program, const std::function<void(
         }
         const Result<ExecutionState> state = w.stream->drive(next < lines.size());
         ASSERT_TRUE(state) << state.error().text();
-        if (*state == ExecutionState::waiting || *state == ExecutionState::held || *state == ExecutionState::paused)
+        if (*state == ExecutionState::waiting || *state == ExecutionState::feed_hold || *state == ExecutionState::paused)
             w.host().pass(milliseconds(1));
         if (between) between();
     }
@@ -137,7 +137,7 @@ void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize s
             w.stream->set_overrides(static_cast<double>(1 + random() % 200) / 100,
                                     static_cast<double>(25 + random() % 76) / 100);
         if (chance(200) && holds < 40) w.stream->hold(), ++holds;
-        if ((w.stream->state() == ExecutionState::held || w.stream->state() == ExecutionState::paused) && chance(20))
+        if ((w.stream->state() == ExecutionState::feed_hold || w.stream->state() == ExecutionState::paused) && chance(20))
             w.stream->resume();
     };
     drive_all(w, program.text);
@@ -175,7 +175,7 @@ TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     double held_at = -1;
     w.on_slice = [&] {
         if (!asked && w.rack.axes()[0].machine->position(w.rack.kernel().now()) > 30) w.stream->hold(), asked = true;
-        if (w.stream->state() == ExecutionState::held) {
+        if (w.stream->state() == ExecutionState::feed_hold) {
             const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
             if (held_at < 0) held_at = x;
             EXPECT_DOUBLE_EQ(x, held_at);
@@ -183,7 +183,7 @@ TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     };
     int waits = 0;
     drive_all(w, "G21 G90\nG1 X100 F3000\nG1 Y20\n", [&] {
-        if (w.stream->state() == ExecutionState::held && ++waits == 100) w.stream->resume();
+        if (w.stream->state() == ExecutionState::feed_hold && ++waits == 100) w.stream->resume();
     });
     EXPECT_GT(held_at, 30);
     EXPECT_LT(held_at, 45);
@@ -200,7 +200,7 @@ TEST_P(AStream, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
         bool asked = false;
         w.on_slice = [&] {
             if (!asked && w.seconds() > at) w.stream->hold(), asked = true;
-            if (w.stream->state() == ExecutionState::held) w.stream->resume();
+            if (w.stream->state() == ExecutionState::feed_hold) w.stream->resume();
         };
         drive_all(w, program);
         w.expect_limits();
@@ -335,9 +335,9 @@ TEST_P(AStream, WhoseSenderIsSlowStandsBetweenTheLinesAndLosesNothing) {
         for (int k = 0; k < 1000; ++k) {
             const Result<ExecutionState> state = w.stream->drive(k < 20);
             ASSERT_TRUE(state);
-            if (*state == ExecutionState::rest || *state == ExecutionState::waiting) w.host().pass(milliseconds(1));
+            if (*state == ExecutionState::idle || *state == ExecutionState::waiting) w.host().pass(milliseconds(1));
         }
-        EXPECT_EQ(w.stream->state(), ExecutionState::rest);
+        EXPECT_EQ(w.stream->state(), ExecutionState::idle);
     }
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 30, 1e-9);
     w.expect_limits();

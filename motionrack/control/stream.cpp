@@ -137,22 +137,22 @@ void Stream::add_piece() {
 // ---- wishes
 
 void Stream::hold() {
-    if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::held || state_ == ExecutionState::paused)
+    if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
         return;
     wish_ = Wish::hold;
     stop_flag_ = !ride_ && !probing_;
 }
 
 void Stream::resume() {
-    if (state_ != ExecutionState::held && state_ != ExecutionState::paused) return;
-    state_ = ExecutionState::driving;
+    if (state_ != ExecutionState::feed_hold && state_ != ExecutionState::paused) return;
+    state_ = ExecutionState::running;
     if (ride_) ride_->rider().resume();
 }
 
 void Stream::stop() {
     if (!path_begun_ && !has_work()) {
         // A pause behind which nothing waits would make the next line wait.
-        if (state_ == ExecutionState::held || state_ == ExecutionState::paused) state_ = ExecutionState::rest;
+        if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
         return;
     }
     wish_ = Wish::stop;
@@ -170,7 +170,7 @@ Result<ExecutionState> Stream::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
     const bool brakes = wish_ != Wish::none;
     if (brakes && !path_begun_) return stand();
-    if (!brakes && (state_ == ExecutionState::held || state_ == ExecutionState::paused)) return state_;
+    if (!brakes && (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)) return state_;
     pull_steps();
     if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
         feed_ = feed_wanted_;
@@ -241,7 +241,7 @@ Result<ExecutionState> Stream::hand_over(const PlannedMove& planned) {
                 --left;
             }
     }
-    state_ = ExecutionState::driving;
+    state_ = ExecutionState::running;
     const Result<void> followed = axes_->follow(planned);
     take_move_starts();
     if (!followed) return interrupted(followed.error());
@@ -268,14 +268,14 @@ Result<ExecutionState> Stream::stand() {
         forget();
         return state_;
     }
-    if (wish == Wish::hold && has_work()) return state_ = ExecutionState::held;
+    if (wish == Wish::hold && has_work()) return state_ = ExecutionState::feed_hold;
     while (!entries_.empty() && !entries_.front().is_move()) {
         if (entries_.front().is_probe()) return probe();
         const bool pause = entries_.front().step.kind == CanonCallKind::pause;
         pop();
         if (pause) return state_ = ExecutionState::paused;
     }
-    return state_ = has_work() ? ExecutionState::driving : ExecutionState::rest;
+    return state_ = has_work() ? ExecutionState::running : ExecutionState::idle;
 }
 
 Result<ExecutionState> Stream::interrupted(const Error& error) {
@@ -289,7 +289,7 @@ Result<ExecutionState> Stream::interrupted(const Error& error) {
         return tl::unexpected<Error>(error);
     }
     keep_rest_of_path();
-    return state_ = ExecutionState::held;
+    return state_ = ExecutionState::feed_hold;
 }
 
 void Stream::forget() {
@@ -298,7 +298,7 @@ void Stream::forget() {
     moves_ = 0;
     unpulled_ = probe_waits_ = false;
     planned_ = handed_ = 0;
-    state_ = ExecutionState::rest;
+    state_ = ExecutionState::idle;
     interpreter_.reset_after_program();
     resync_axes(*axes_);
 }

@@ -45,10 +45,10 @@ struct StreamExecutorSettings {
 };
 
 enum class ExecutionState : std::uint8_t {
-    rest,     ///< all that is known is done
-    driving,  ///< something was handed over
+    idle,     ///< all that is known is done
+    running,  ///< something was handed over
     waiting,  ///< there is time for more lines before the axes need the next move
-    held,     ///< stands on its path after hold()
+    feed_hold,///< stands on its path after hold()
     paused    ///< stands after M0, M1 or a step; resume() goes on
 };
 
@@ -217,7 +217,7 @@ class Stream {
     ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
     Wish wish_ = Wish::none;
-    ExecutionState state_ = ExecutionState::rest;
+    ExecutionState state_ = ExecutionState::idle;
     std::atomic<bool> stop_flag_{false};
     std::function<void(const gcode::Step&)> on_event_;
     std::function<void(const Move&, const Point&)> on_move_;

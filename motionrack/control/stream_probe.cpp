@@ -13,7 +13,7 @@ Result<ExecutionState> Stream::probe() {
         plan_single_move(*axes_, settings_.gcode.limits, settings_.accel_reserve, step.move);
     if (!planned) return interrupted(planned.error());
     if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
-    state_ = ExecutionState::driving;
+    state_ = ExecutionState::running;
     probing_ = true;
     const Result<ProbeResult> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
     probing_ = false;
@@ -31,7 +31,7 @@ Result<ExecutionState> Stream::probe() {
     interpreter_.set_probe_result(outcome->hit, outcome->at, place);
     read_to_ = place;
     new_planner(place);
-    if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::driving : ExecutionState::rest;
+    if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::running : ExecutionState::idle;
     forget();
     return fail(
         ErrorKind::machine,

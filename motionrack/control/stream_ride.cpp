@@ -27,7 +27,7 @@ Result<ExecutionState> Stream::drive_ride(bool more_may_come) {
     if (wish_ != Wish::none) {
         if (!path_begun_) return stand();
         ride_->rider().hold();
-    } else if (state_ == ExecutionState::held || state_ == ExecutionState::paused) {
+    } else if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) {
         return state_;
     }
     pull_steps();

@@ -152,7 +152,7 @@ void Machine::step() {
     for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
-    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::driving) return drive();
+    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::running) return drive();
     if (stop_wanted_) return wait_for_standstill();
     if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
         const rack::StopLatch& latch = rack_.stop_latch();
@@ -233,26 +233,26 @@ void Machine::drive() {
     const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::ExecutionState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
-    if (*driven != control::ExecutionState::driving) rack_.stop_latch().settle();  // a card's stop ends a hold, too
+    if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a card's stop ends a hold, too
     switch (*driven) {
         case control::ExecutionState::waiting:
             host_of(rack_).pass(milliseconds(1));
             break;
-        case control::ExecutionState::held:
+        case control::ExecutionState::feed_hold:
         case control::ExecutionState::paused:
             if (state_ == MachineState::moving)
-                enter(MachineState::hold, *driven == control::ExecutionState::held
+                enter(MachineState::hold, *driven == control::ExecutionState::feed_hold
                                               ? "held; resume goes on"
                                               : "the program waits; resume goes on");
             host_of(rack_).pass(settings_.slice);
             break;
-        case control::ExecutionState::rest:
+        case control::ExecutionState::idle:
             if (walk_ || over_) break;
             if (program_runs_) stream_->reset_after_program();
             program_runs_ = false;
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;
-        case control::ExecutionState::driving:
+        case control::ExecutionState::running:
             break;
     }
 }

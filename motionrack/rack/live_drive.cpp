@@ -108,7 +108,7 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedu
             case ExecutionState::waiting:
                 host.pass(look);
                 break;
-            case ExecutionState::held:
+            case ExecutionState::feed_hold:
                 if (!orders.holds())
                     stream.resume();
                 else if (!orders.pending())
@@ -122,9 +122,9 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedu
             case ExecutionState::paused:
                 stream.resume();
                 break;  // M0: nobody waits in simulated time
-            case ExecutionState::driving:
+            case ExecutionState::running:
                 break;
-            case ExecutionState::rest:
+            case ExecutionState::idle:
                 if (orders.stopped())
                     return fail(ErrorKind::stopped,
                                 fmt::format("Stopped on request in line {}; the axes came to rest along the path.",

@@ -21,14 +21,14 @@ Result<std::unique_ptr<SteppedMachine>> SteppedMachine::make(const rack::RackCon
 void SteppedMachine::begin(std::unique_ptr<operate::Machine> machine) {
     machine_ = std::move(machine);
     motion_ = std::thread([this] { machine_->run(); });
-    std::unique_lock<std::mutex> run_exclusive(lock_);
-    changed_.wait(alone, [this] { return parked_; });
+    std::unique_lock<std::mutex> lock(lock_);
+    changed_.wait(lock, [this] { return parked_; });
 }
 
 SteppedMachine::~SteppedMachine() {
     if (!motion_.joinable()) return;
     {
-        const std::lock_guard<std::mutex> run_exclusive(lock_);
+        const std::lock_guard<std::mutex> lock(lock_);
         quitting_ = true;
         changed_.notify_all();
     }
@@ -37,27 +37,27 @@ SteppedMachine::~SteppedMachine() {
 }
 
 bool SteppedMachine::pace(Instant now) {
-    std::unique_lock<std::mutex> run_exclusive(lock_);
+    std::unique_lock<std::mutex> lock(lock_);
     reached_ = now;
     if (quitting_ || now < allowed_) return parked_ = false, true;
     parked_ = true;
     changed_.notify_all();
-    changed_.wait_for(alone, hear_every);
+    changed_.wait_for(lock, hear_every);
     parked_ = !(quitting_ || now < allowed_);
     return !parked_;
 }
 
 void SteppedMachine::advance(Duration time, const std::function<bool()>& look) {
-    std::unique_lock<std::mutex> run_exclusive(lock_);
-    changed_.wait(alone, [this] { return parked_; });
+    std::unique_lock<std::mutex> lock(lock_);
+    changed_.wait(lock, [this] { return parked_; });
     allowed_ = later(reached_, time);
     if (allowed_ <= reached_) return;
     parked_ = false;
     changed_.notify_all();
-    while (!changed_.wait_for(alone, look_every, [this] { return parked_; })) {
-        alone.unlock();
+    while (!changed_.wait_for(lock, look_every, [this] { return parked_; })) {
+        lock.unlock();
         const bool enough = look();
-        alone.lock();
+        lock.lock();
         if (enough) allowed_ = reached_;
     }
 }

@@ -34,15 +34,15 @@ class SteppedMachine {
         bool done = false;
         machine_->post([&] {
             Value value = work(*machine_);
-            const std::lock_guard<std::mutex> run_exclusive(lock_);
+            const std::lock_guard<std::mutex> lock(lock_);
             out.emplace(std::move(value));
             done = true;
             changed_.notify_all();
         });
-        std::unique_lock<std::mutex> run_exclusive(lock_);
+        std::unique_lock<std::mutex> lock(lock_);
         changed_.notify_all();
-        changed_.wait(alone, [&] { return done; });
-        changed_.wait(alone, [this] { return parked_; });
+        changed_.wait(lock, [&] { return done; });
+        changed_.wait(lock, [this] { return parked_; });
         return std::move(*out);
     }
 

@@ -18,7 +18,7 @@ namespace motionrack::cli {
 
 namespace {
 
-using rack::counted;
+using rack::count_noun;
 
 struct CheckOptions {
     std::vector<std::string> files;

@@ -224,8 +224,8 @@ struct Fed {
             }
             state = stream->drive(next < lines.size());
             if (state && *state == control::ExecutionState::waiting) rack.cards().front()->host().pass(milliseconds(1));
-            if (state && *state == control::ExecutionState::held) stream->resume();
-        } while (state && (*state != control::ExecutionState::rest || next < lines.size()));
+            if (state && *state == control::ExecutionState::feed_hold) stream->resume();
+        } while (state && (*state != control::ExecutionState::idle || next < lines.size()));
     }
     double x() { return rack.axes()[0].machine->position(rack.kernel().now()); }
     std::function<void()> on_slice;

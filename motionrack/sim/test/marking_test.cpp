@@ -47,8 +47,8 @@ TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheSpeedLimit) {
     EXPECT_FALSE(check({.ideal = false, .natural_hz = 1}));
 }
 
-TEST(Track, TravelIsTheIntegralOfTheProfile) {
-    const Track track = *Track::make({.profile = {{0, 0}, {1, 100}, {3, 100}, {4, -100}}, .counts_per_unit = 10});
+TEST(Conveyor, TravelIsTheIntegralOfTheProfile) {
+    const Conveyor track = *Conveyor::make({.profile = {{0, 0}, {1, 100}, {3, 100}, {4, -100}}, .counts_per_unit = 10});
     EXPECT_DOUBLE_EQ(track.travel(0.5), 12.5);
     EXPECT_DOUBLE_EQ(track.travel(1), 50);
     EXPECT_DOUBLE_EQ(track.travel(3), 250);
@@ -63,8 +63,8 @@ TEST(Track, TravelIsTheIntegralOfTheProfile) {
     EXPECT_NEAR(sum, track.travel(4.5), 1e-6);
 }
 
-TEST(Track, CountsOfABlockAreThoseOfItsTicksOneByOne) {
-    const Track track = *Track::make({.profile = {{0.00105, 30}, {0.002, 300}, {0.00201, -50}, {0.004, -51}},
+TEST(Conveyor, CountsOfABlockAreThoseOfItsTicksOneByOne) {
+    const Conveyor track = *Conveyor::make({.profile = {{0.00105, 30}, {0.002, 300}, {0.00201, -50}, {0.004, -51}},
                                       .counts_per_unit = 777.7,
                                       .jitter_counts = 0.5});
     std::vector<std::int32_t> block(700), one(1);
@@ -76,8 +76,8 @@ TEST(Track, CountsOfABlockAreThoseOfItsTicksOneByOne) {
     }
 }
 
-TEST(Track, SlipAndJitterAreOfTheEncoderNotOfTheTravel) {
-    const Track track = *Track::make({.counts_per_unit = 1000, .slip = 0.01, .jitter_counts = 3});
+TEST(Conveyor, SlipAndJitterAreOfTheEncoderNotOfTheTravel) {
+    const Conveyor track = *Conveyor::make({.counts_per_unit = 1000, .slip = 0.01, .jitter_counts = 3});
     std::vector<std::int32_t> counts(10'000), again(10'000);
     track.counts(500, counts);
     track.counts(500, again);
@@ -92,24 +92,24 @@ TEST(Track, SlipAndJitterAreOfTheEncoderNotOfTheTravel) {
     EXPECT_DOUBLE_EQ(track.travel(1), 100);
 }
 
-TEST(Track, PartAndFieldAreEachOthersInverse) {
+TEST(Conveyor, PartAndFieldAreEachOthersInverse) {
     for (const bool rotary : {false, true}) {
-        const Track track =
-            *Track::make({.rotary = rotary, .direction_deg = 30, .centre_mm = {-50, 3}, .profile = {{0, 36}}});
+        const Conveyor track =
+            *Conveyor::make({.rotary = rotary, .direction_deg = 30, .centre_mm = {-50, 3}, .profile = {{0, 36}}});
         const sim::Spot there = track.on_part({7, 8}, 2.5), back = track.in_field(there, 2.5);
         EXPECT_NEAR(back.x, 7, 1e-12);
         EXPECT_NEAR(back.y, 8, 1e-12);
     }
-    const Track quarter = *Track::make({.rotary = true, .profile = {{0, 90}}});
+    const Conveyor quarter = *Conveyor::make({.rotary = true, .profile = {{0, 90}}});
     EXPECT_NEAR(quarter.in_field({10, 0}, 1).y, 10, 1e-12) << "counter-clockwise";
-    EXPECT_FALSE(Track::make({.profile = {}}));
-    EXPECT_FALSE(Track::make({.profile = {{1, 0}, {1, 5}}}));
-    EXPECT_FALSE(Track::make({.profile = {{0, nan}}}));
-    EXPECT_FALSE(Track::make({.counts_per_unit = 0}));
+    EXPECT_FALSE(Conveyor::make({.profile = {}}));
+    EXPECT_FALSE(Conveyor::make({.profile = {{1, 0}, {1, 5}}}));
+    EXPECT_FALSE(Conveyor::make({.profile = {{0, nan}}}));
+    EXPECT_FALSE(Conveyor::make({.counts_per_unit = 0}));
 }
 
 TEST(SerialPositionSource, WordsHaveResolutionPeriodAndDelay) {
-    const Track track = *Track::make({.direction_deg = 90, .profile = {{0, 100}}});
+    const Conveyor track = *Conveyor::make({.direction_deg = 90, .profile = {{0, 100}}});
     std::vector<std::uint32_t> words(2000);
     SerialPositionSource::make(track, {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120})->words(0, words);
     EXPECT_EQ(static_cast<std::int32_t>(words[11]), -5);  // read at -0.05 ms
@@ -120,7 +120,7 @@ TEST(SerialPositionSource, WordsHaveResolutionPeriodAndDelay) {
     EXPECT_EQ(words[1000], 0xFF9C0000u);
     EXPECT_FALSE(SerialPositionSource::make(track, {.bits_per_mm = 0}));
     EXPECT_FALSE(SerialPositionSource::make(track, {.period_us = nan}));
-    EXPECT_FALSE(SerialPositionSource::make(*Track::make({.rotary = true}), {.two_axes = true}));
+    EXPECT_FALSE(SerialPositionSource::make(*Conveyor::make({.rotary = true}), {.two_axes = true}));
 }
 
 /// How much of each tick the laser shines.

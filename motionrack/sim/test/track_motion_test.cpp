@@ -14,25 +14,25 @@ namespace {
 
 constexpr double never_s = std::numeric_limits<double>::infinity();
 
-Track track_of(std::vector<SpeedPoint> profile) {
-    return *Track::make({.profile = std::move(profile)});
+Conveyor track_of(std::vector<SpeedPoint> profile) {
+    return *Conveyor::make({.profile = std::move(profile)});
 }
 
-TEST(Track, TellsWhenItLeavesARange) {
-    const Track even = track_of({{0, 100}});
+TEST(Conveyor, TellsWhenItLeavesARange) {
+    const Conveyor even = track_of({{0, 100}});
     EXPECT_DOUBLE_EQ(even.leaves(0, -1, 5), 0.05);
     EXPECT_DOUBLE_EQ(even.leaves(0.02, -1, 5), 0.05);
     EXPECT_EQ(even.leaves(0, -1, never_s), never_s);
-    const Track back = track_of({{0, 0}, {1, 100}, {3, -100}});  // turns at 2 s, after 100 mm
+    const Conveyor back = track_of({{0, 0}, {1, 100}, {3, -100}});  // turns at 2 s, after 100 mm
     EXPECT_DOUBLE_EQ(back.leaves(0, -1, 50), 1);
     EXPECT_DOUBLE_EQ(back.leaves(2, 50, 101), 3);
     EXPECT_DOUBLE_EQ(back.leaves(0, -100, 101), 4.5) << "it never comes to 101";
-    const Track stands = track_of({{0, 0}});
+    const Conveyor stands = track_of({{0, 0}});
     EXPECT_EQ(stands.leaves(0, -1e-9, 1e-9), never_s);
 }
 
-TEST(Track, GoesOnFromWhereItIsWhenItsSpeedIsChanged) {
-    Track track = track_of({{0, 100}});
+TEST(Conveyor, GoesOnFromWhereItIsWhenItsSpeedIsChanged) {
+    Conveyor track = track_of({{0, 100}});
     track.drive(1, -20);
     EXPECT_DOUBLE_EQ(track.travel(1), 100);
     EXPECT_DOUBLE_EQ(track.travel(2), 80);
@@ -43,9 +43,9 @@ TEST(Track, GoesOnFromWhereItIsWhenItsSpeedIsChanged) {
     EXPECT_DOUBLE_EQ(track.speed(3), 100);
 }
 
-TEST(Track, BrakesWithItsDecelerationWhenItIsStopped) {
+TEST(Conveyor, BrakesWithItsDecelerationWhenItIsStopped) {
     for (const double way : {1.0, -1.0}) {
-        Track track = *Track::make({.profile = {{0, 100 * way}}, .deceleration = 200});
+        Conveyor track = *Conveyor::make({.profile = {{0, 100 * way}}, .deceleration = 200});
         track.stop(1);  // for 0.5 s, over 25 mm
         EXPECT_DOUBLE_EQ(track.speed(1), 100 * way);
         EXPECT_DOUBLE_EQ(track.speed(1.25), 50 * way);
