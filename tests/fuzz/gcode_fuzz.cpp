@@ -56,7 +56,7 @@ void check_problem(const Problem& problem, std::string_view text) {
     require(!problem.message.empty() && problem.status != GrblStatus::none, "a problem has a sentence and a number");
     require(problem.place.line >= 1 && problem.place.column >= 1, "a problem has a place", problem.message);
     if (problem.file != "f") return;
-    Lines lines(text);
+    ProgramLines lines(text);
     std::string_view line;
     while (lines.number() < problem.place.line) require(lines.next(line), "a problem's line is in the text");
     require(static_cast<std::size_t>(problem.place.column) <= line.size() + 1, "a problem's column is in its line");
@@ -70,7 +70,7 @@ void check_problem(const Problem& problem, std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-    Reader reader(text, machine(data[0]), "f");
+    ProgramReader reader(text, machine(data[0]), "f");
     Point before = {};
     int steps = 0;
     int problems = 0;
@@ -89,7 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     check_point(reader.interpreter().position());
     Interpreter sender(machine(data[0]));
-    Lines lines(text);
+    ProgramLines lines(text);
     for (std::string_view line; lines.next(line);) {
         if (const auto read = sender.line(line, lines.number(), Language::words); !read)
             require(read.error().status != GrblStatus::none, "a refused line has a number");

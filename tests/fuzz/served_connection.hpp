@@ -57,7 +57,7 @@ class ServedConnection {
     ~ServedConnection() {
         ::close(end_);
         for (int i = 0; i < 20; ++i) poll();
-        hall_->seats.end_all("The target ends.");
+        hall_->open_connections.end_all("The target ends.");
         poll();
         post_->end();
         hall_.reset();

@@ -15,7 +15,7 @@ using motionrack::fuzz::require;
 void check_error(const motionrack::Error& error, std::string_view text) {
     require(!error.message.empty() && error.file == "fuzz.tbl", "an error has a sentence and the file", error.text());
     require(error.place.line >= 1 && error.place.column >= 1, "an error has a place", error.text());
-    Lines lines(text);
+    ProgramLines lines(text);
     std::string_view line;
     while (lines.number() < error.place.line)
         require(lines.next(line), "the line of an error is in the text", error.text());

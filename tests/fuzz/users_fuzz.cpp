@@ -55,12 +55,12 @@ void check_user(const Authenticator& door, const Identity& user) {
 void check_tokens(const Authenticator& door, std::string_view text) {
     for (const std::string& wrong :
          {std::string(), std::string("TOKEN"), std::string(64, 'b'), hash_of(known_token()), std::string(64, '\0')})
-        require(!door.who(wrong, at(0)), "nobody comes in by a token that was not given out", wrong);
-    const auto known = door.who(known_token(), at(0));
+        require(!door.authenticate(wrong, at(0)), "nobody comes in by a token that was not given out", wrong);
+    const auto known = door.authenticate(known_token(), at(0));
     require(!known || text.find(hash_of(known_token())) != std::string_view::npos,
             "a token opens the door only where the file has its hash");
     if (!known) return;
-    require(!door.who(known_token(), known->expires), "a token that has expired opens no door");
+    require(!door.authenticate(known_token(), known->expires), "a token that has expired opens no door");
 }
 
 bool is_same(const Identity& a, const Identity& b) {
@@ -86,7 +86,7 @@ void change(Authenticator& door) {
     }
     const auto paired = door.pair(door.start_code(), "fuzz", "127.0.0.1", now);
     if (!paired) return require(!paired.error().sentence.empty(), "who is not paired is told why");
-    require(door.who(paired->token, now.wall).has_value(), "who was paired comes in");
+    require(door.authenticate(paired->token, now.wall).has_value(), "who was paired comes in");
     check_again(door.users());
 }
 
