@@ -92,8 +92,8 @@ TEST(Determinism, WatchingEveryWireDoesNotDisturb) {
         EXPECT_EQ(a.pulses_sent, b.pulses_sent) << i;
         EXPECT_EQ(a.counts_read, b.counts_read) << i;
         EXPECT_EQ(a.real_end, b.real_end) << i;
-        EXPECT_EQ(a.top.top_speed, b.top.top_speed) << i;
-        EXPECT_EQ(a.top.top_accel, b.top.top_accel) << i;
+        EXPECT_EQ(a.top.peak_velocity, b.top.peak_velocity) << i;
+        EXPECT_EQ(a.top.peak_accel, b.top.peak_accel) << i;
     }
 }
 

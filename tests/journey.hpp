@@ -50,11 +50,11 @@ inline void expect_limits(const JobOutcome& outcome, double jump = 1.15) {
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start) << axis.index;
         EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
         EXPECT_EQ(axis.lost_pulses, 0) << axis.index;
-        EXPECT_LE(axis.top.top_speed, axis.limits.max_speed * 1.001) << axis.index;
+        EXPECT_LE(axis.top.peak_velocity, axis.limits.max_velocity * 1.001) << axis.index;
         // What four samples can tell: one speed step of the chip more or less.
-        EXPECT_LE(axis.top.top_accel, axis.limits.max_accel * 1.02) << axis.index;
+        EXPECT_LE(axis.top.peak_accel, axis.limits.max_accel * 1.02) << axis.index;
         if (jump > 0) {
-            EXPECT_LE(axis.top.top_jump, axis.limits.start_speed * jump) << axis.index;
+            EXPECT_LE(axis.top.peak_velocity_step, axis.limits.max_velocity_step * jump) << axis.index;
         }
     }
 }

@@ -33,7 +33,7 @@ TEST(Journey, AWrongFirstLineMovesNothing) {
     Running running(router(), settings_of("G21 G90\nG1 X50\nG0 X10\n"));  // no feed
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
-    EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::bad_input);
+    EXPECT_EQ(outcome.ended.error().kind, ErrorKind::invalid_input);
     EXPECT_EQ(outcome.ended.error().place, (Place{2, 1}));
     for (const AxisOutcome& axis : outcome.axes) EXPECT_EQ(axis.pulses_sent, 0) << axis.index;
 }
@@ -42,7 +42,7 @@ TEST(Journey, AWrongLineLaterEndsTheStreamWhereTheLineBeforeItEnds) {
     Running running(router(), settings_of("G21 G90 F1200\nG1 X12.5 Y7\nG1 X9 X8\nG1 X0\n"));
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
-    EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::bad_input);
+    EXPECT_EQ(outcome.ended.error().kind, ErrorKind::invalid_input);
     EXPECT_EQ(outcome.ended.error().place.line, 3);
     EXPECT_TRUE(outcome.position_trusted);
     EXPECT_EQ(outcome.axes[0].pulses_net, 8000);
@@ -64,7 +64,7 @@ TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
     Running running(router(), settings);
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
-    EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(outcome.ended.error().kind, ErrorKind::stopped);
     EXPECT_EQ(outcome.ended.error().place.line, 3);
     ASSERT_GT(asked, 0) << "the stop was asked for on the way";
     // From 30 mm/s at 1000 mm/s2 in less than 0.1 s.
@@ -148,7 +148,7 @@ TEST(Journey, AHundredThousandShortLinesEndExactly) {
     for (const AxisOutcome& axis : outcome.axes) {
         EXPECT_EQ(axis.pulses_net, 0) << axis.index;
         EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
-        EXPECT_LE(axis.top.top_speed, axis.limits.max_speed * 1.001) << axis.index;
+        EXPECT_LE(axis.top.peak_velocity, axis.limits.max_velocity * 1.001) << axis.index;
     }
     EXPECT_LE(running.job.monitor().samples().size(), 1000u) << "memory does not grow with the program";
 }

@@ -75,7 +75,7 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
         EXPECT_LE(done.outcome.worst.mm, max_deviation(config, program, done.outcome))
             << "line " << done.outcome.worst.line;
         if (done.outcome.ended) continue;
-        EXPECT_EQ(done.outcome.ended.error().trouble, ErrorKind::stopped) << done.outcome.ended.error().text();
+        EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::stopped) << done.outcome.ended.error().text();
         // The next joint of what the chip has, and the longest way from the greatest speed to rest.
         EXPECT_LE(to_seconds(done.outcome.time), at + 2.5);
         ++stopped;

@@ -67,7 +67,7 @@ TEST(Journey, ALimitSwitchStopsTheJobAndSaysWhere) {
     config.axes[0].switches.limit_plus = 40;
     const Done done = drive(config, "G21 G90\nG1 X100 F3000\nG1 X0\n");
     ASSERT_FALSE(done.outcome.ended);
-    EXPECT_EQ(done.outcome.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::machine);
     EXPECT_EQ(done.outcome.ended.error().place.line, 2);
     EXPECT_NE(done.outcome.ended.error().message.find("axis X: the + limit switch"), std::string::npos);
     EXPECT_GT(done.outcome.axes[0].real_end, 40.0);
@@ -92,7 +92,7 @@ TEST(Journey, AStopComesToRestOnThePath) {
     const std::atomic<bool> stop{true};
     const Done done = drive(router(), "G21 G90\nG1 X100 Y50 F3000\nM2\n", &stop);
     ASSERT_FALSE(done.outcome.ended);
-    EXPECT_EQ(done.outcome.ended.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::stopped);
     EXPECT_TRUE(done.outcome.position_trusted);
 }
 

@@ -82,7 +82,7 @@ class PulseReferee {
             for (const double window : {0.002, 0.004}) {
                 SpeedJump jump = logs_[i].greatest_jump(window, accel_parts * axis.max_accel * pulses);
                 jump.speed /= pulses;
-                const double parts = jump.speed / axis.start_speed;
+                const double parts = jump.speed / axis.max_velocity_step;
                 if (parts > worst.parts) worst = {parts, static_cast<int>(i), jump};
             }
         }

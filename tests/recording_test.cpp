@@ -140,7 +140,7 @@ TEST_F(ARecordedRun, IsNotDisturbedByItsRecording) {
     for (std::size_t i = 0; i < seen.axes.size(); ++i) {
         EXPECT_EQ(seen.axes[i].pulses_sent, unseen.axes[i].pulses_sent);
         EXPECT_EQ(seen.axes[i].real_end, unseen.axes[i].real_end);
-        EXPECT_EQ(seen.axes[i].top.top_accel, unseen.axes[i].top.top_accel);
+        EXPECT_EQ(seen.axes[i].top.peak_accel, unseen.axes[i].top.peak_accel);
     }
 }
 
@@ -174,7 +174,7 @@ TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
 TEST_F(ARecordedRun, IsTheSameAgainWhenTheMachineStoppedIt) {
     const JobOutcome outcome = record(request_for(program, {"X.limit_plus=0@0.7s"}), "a.h5");
     ASSERT_FALSE(outcome.ended);
-    EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
     expect_same_again("a.h5");
 }
 
@@ -185,7 +185,7 @@ TEST_F(ARecordedRun, IsTheSameAgainWhenSomebodyStoppedIt) {
                 request_for(program, {}, live ? std::vector<std::string>{"feed=0.8@0.1s"} : std::vector<std::string>{});
             const JobOutcome outcome = record(request, "a.h5", stop_s);
             ASSERT_FALSE(outcome.ended);
-            EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::stopped);
+            EXPECT_EQ(outcome.ended.error().kind, ErrorKind::stopped);
             expect_same_again("a.h5");
             const auto reader = trace::RecordingReader::open(at("a.h5"));
             ASSERT_EQ(reader->inputs().size(), live ? 2u : 1u);

@@ -12,14 +12,14 @@ namespace motionrack::rack {
 namespace {
 
 using control::ExecutionState;
-using control::Stream;
+using control::StreamExecutor;
 
-/// A rack whose axes are driven by a Stream, watched all the time.
+/// A rack whose axes are driven by a StreamExecutor, watched all the time.
 struct Watched {
     Rack rack;
     Monitor monitor;
     control::AxisGroup* axes = nullptr;
-    std::unique_ptr<Stream> stream;
+    std::unique_ptr<StreamExecutor> stream;
     std::vector<control::Geometry> programmed;
     double tolerance = 0;  ///< mm, by which blended corners or merged short moves may leave the path
     std::function<void()> on_slice;
@@ -32,7 +32,7 @@ struct Watched {
         settings.gcode = reader_settings(config);
         settings.jerk_limited = config.jerk_limited();
         settings.accel_reserve = rack.axes().front().card->accel_reserve();
-        stream = std::make_unique<Stream>(*axes, host(), settings);
+        stream = std::make_unique<StreamExecutor>(*axes, host(), settings);
         stream->on_move([this](const control::Move& move, const control::Point& start) {
             programmed.push_back(control::geometry_of(move, start));
             if (move.path == control::PathControl::continuous)
@@ -66,9 +66,9 @@ struct Watched {
             const control::AxisLimits limits = rack.config().limits()[static_cast<std::size_t>(i)];
             const AxisStatistics& top = monitor.statistics(i);
             // A steered segment begins with the speed of the one before it, of which an axis may have a little more.
-            EXPECT_LE(top.top_speed, limits.max_speed * 1.005) << i;
-            EXPECT_LE(top.top_accel, limits.max_accel * 1.02) << i;
-            EXPECT_LE(top.top_jump, limits.start_speed * jump) << i;
+            EXPECT_LE(top.peak_velocity, limits.max_velocity * 1.005) << i;
+            EXPECT_LE(top.peak_accel, limits.max_accel * 1.02) << i;
+            EXPECT_LE(top.peak_velocity_step, limits.max_velocity_step * jump) << i;
             EXPECT_EQ(axis.turned_by().count(rack.kernel().now()), axis.machine->rotor().count(rack.kernel().now()))
                 << i;
         }
@@ -105,7 +105,8 @@ void drive_all(Watched& w, const std::string& program, const std::function<void(
         }
         const Result<ExecutionState> state = w.stream->drive(next < lines.size());
         ASSERT_TRUE(state) << state.error().text();
-        if (*state == ExecutionState::waiting || *state == ExecutionState::feed_hold || *state == ExecutionState::paused)
+        if (*state == ExecutionState::waiting || *state == ExecutionState::feed_hold ||
+            *state == ExecutionState::paused)
             w.host().pass(milliseconds(1));
         if (between) between();
     }
@@ -137,7 +138,8 @@ void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize s
             w.stream->set_overrides(static_cast<double>(1 + random() % 200) / 100,
                                     static_cast<double>(25 + random() % 76) / 100);
         if (chance(200) && holds < 40) w.stream->hold(), ++holds;
-        if ((w.stream->state() == ExecutionState::feed_hold || w.stream->state() == ExecutionState::paused) && chance(20))
+        if ((w.stream->state() == ExecutionState::feed_hold || w.stream->state() == ExecutionState::paused) &&
+            chance(20))
             w.stream->resume();
     };
     drive_all(w, program.text);
@@ -274,7 +276,7 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
     const auto run = [](const std::string& between) {
         Watched w(router(GetParam()));
         std::vector<double> at;
-        w.stream->on_event([&](const control::gcode::Step& step) {
+        w.stream->on_event([&](const control::gcode::CanonCall& step) {
             if (step.kind == control::gcode::CanonCallKind::output)
                 at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
         });
@@ -302,7 +304,7 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
 TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
     Watched w(router(GetParam()));
     std::vector<control::gcode::CanonCallKind> seen;
-    w.stream->on_event([&](const control::gcode::Step& step) { seen.push_back(step.kind); });
+    w.stream->on_event([&](const control::gcode::CanonCall& step) { seen.push_back(step.kind); });
     int waits = 0;
     drive_all(w, "G21 G90 F3000\nG1 X10 M3 S1000\nM0\nG1 X20\nM2\n", [&] {
         if (w.stream->state() != ExecutionState::paused) return;

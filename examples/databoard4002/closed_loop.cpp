@@ -13,7 +13,7 @@ Result<std::string> closed_loop(const std::string& csv) {
     for (std::string line; std::getline(file, line);) {
         std::array<double, 4> row{};
         if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &row[0], &row[1], &row[2], &row[3]) != 4)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         csv + " has the line '" + line + "', which is not: seconds, counts, counts, counts.");
         seconds.push_back(row[0]);
         for (std::size_t run = 0; run < turns.size(); ++run)

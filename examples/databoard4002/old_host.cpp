@@ -13,7 +13,7 @@ Result<std::string> old_host(const std::string& csv) {
     for (std::string line; std::getline(file, line);) {
         std::array<double, 3> row{};
         if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &row[0], &row[1], &row[2]) != 3)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         csv + " has the line '" + line + "', which is not: seconds, counts, counts a second.");
         seconds.push_back(row[0]);
         counts.push_back(static_cast<float>(row[1] / 1'000));

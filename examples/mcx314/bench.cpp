@@ -5,7 +5,7 @@
 namespace howto {
 
 Bench::Bench() : port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), nanoseconds(250)), driver_(port_, port_) {
-    for (int axis = 0; axis < 4; ++axis) chip_.pulses(axis).listen(pens_[static_cast<std::size_t>(axis)]);
+    for (int axis = 0; axis < 4; ++axis) chip_.pulses(axis).add_listener(pens_[static_cast<std::size_t>(axis)]);
     kernel_.start();
     for (int axis = 0; axis < 4; ++axis) chip_.pulses(axis).set_edge_listener(&pens_[static_cast<std::size_t>(axis)]);
     driver_.initialise();

@@ -32,7 +32,7 @@ std::string name_problem(std::string_view name) {
 
 Authenticator::Authenticator(AuthSettings settings)
     : settings_(std::move(settings)),
-      wrong_(settings_.wrong_at_once, settings_.wrong_per_second),
+      wrong_(settings_.failed_burst, settings_.wrong_per_second),
       all_wrong_(settings_.all_wrong_at_once, settings_.all_wrong_per_second) {}
 
 Result<std::unique_ptr<Authenticator>> Authenticator::open(AuthSettings settings) {
@@ -75,7 +75,7 @@ AuthResult<Authenticator::Paired> Authenticator::admit(std::string_view name, Ro
 }
 
 AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std::string_view name,
-                                                      std::string_view address, Now now) {
+                                                      std::string_view address, Timestamps now) {
     const std::lock_guard<std::mutex> alone(lock_);
     if (!wrong_.there_is(address, now.steady) || !all_wrong_.there_is("all", now.steady))
         return deny(AuthError::Why::too_many,
@@ -110,10 +110,10 @@ AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std
     return paired;
 }
 
-Result<std::string> Authenticator::invite(Role role, Now now) {
+Result<std::string> Authenticator::invite(Role role, Timestamps now) {
     const std::lock_guard<std::mutex> alone(lock_);
-    if (role == Role::nobody)
-        return fail(ErrorKind::bad_input, "Nobody was invited: the roles are observe, operate and maintain.");
+    if (role == Role::none)
+        return fail(ErrorKind::invalid_input, "Nobody was invited: the roles are observe, operate and maintain.");
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     if (invitations_.size() >= settings_.most_invitations)
         return fail(
@@ -162,8 +162,8 @@ AuthResult<Identity> Authenticator::authenticate(std::string_view token, WallTim
 Role Authenticator::role_of(std::string_view id, WallTime now) const {
     const std::lock_guard<std::mutex> alone(lock_);
     for (const Token& one : tokens_)
-        if (one.identity.id == id) return one.identity.expires <= now ? Role::nobody : one.identity.role;
-    return Role::nobody;
+        if (one.identity.id == id) return one.identity.expires <= now ? Role::none : one.identity.role;
+    return Role::none;
 }
 
 std::vector<Identity> Authenticator::users() const {

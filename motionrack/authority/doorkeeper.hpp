@@ -26,7 +26,7 @@ namespace motionrack::authority {
 using WallTime = std::chrono::system_clock::time_point;
 
 /// The two clocks at one instant: what is kept in files counts by the wall's, what limits counts by the steady one.
-struct Now {
+struct Timestamps {
     WallTime wall;
     std::chrono::steady_clock::time_point steady;
 };
@@ -36,7 +36,7 @@ struct AuthSettings {
     std::chrono::minutes invitation_life{10};
     std::chrono::hours token_life{90 * 24};
     std::size_t most_tokens = 500, most_invitations = 50;
-    double wrong_at_once = 5, wrong_per_second = 0.1;         ///< wrong codes of one address
+    double failed_burst = 5, wrong_per_second = 0.1;          ///< wrong codes of one address
     double all_wrong_at_once = 60, all_wrong_per_second = 1;  ///< and of all together
     /// Gets the code that lets the first person in, at once and each time that it was used; empty: there is none.
     std::function<void(const std::string&)> on_start_code = {};
@@ -46,7 +46,7 @@ struct AuthSettings {
 struct Identity {
     std::string id;  ///< of the token; no secret
     std::string user;
-    Role role = Role::nobody;
+    Role role = Role::none;
     WallTime expires;
 };
 
@@ -56,7 +56,7 @@ struct AuthError {
         wrong,
         too_many,
         failed
-    } why = Why::wrong;  ///< failed: the users file could not be written
+    } reason = Why::wrong;  ///< failed: the users file could not be written
     std::string sentence;
 };
 template <class T>
@@ -73,9 +73,9 @@ class Authenticator {
     };
     /// A code is good for one token. `address` is where the caller comes from: wrong codes are limited for each and for
     /// all. With an invitation only names that are not there yet can be paired.
-    AuthResult<Paired> pair(std::string_view code, std::string_view name, std::string_view address, Now now);
+    AuthResult<Paired> pair(std::string_view code, std::string_view name, std::string_view address, Timestamps now);
     /// A code that gives this role once, for ten minutes. Refused: too many are open, role nobody.
-    Result<std::string> invite(Role role, Now now);
+    Result<std::string> invite(Role role, Timestamps now);
     /// Forgets all tokens of this name. Refused: there is none.
     Result<void> revoke(std::string_view name);
     /// Forgets one token, by its id. Refused: there is none.

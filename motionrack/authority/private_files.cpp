@@ -31,7 +31,7 @@ Result<void> check_folder(const std::string& path, const std::string& subject) {
     struct stat about {};
     if (::stat(folder.c_str(), &about) != 0) return errno == ENOENT ? Result<void>() : not_seen(path, subject);
     if (!is_open_to_others(about)) return {};
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("Others may replace {}: its folder {} is open to them (mode {:o}). Nothing was started; "
                             "chmod go-w the folder, or name a file elsewhere.",
                             subject, folder, about.st_mode & 0777),
@@ -50,7 +50,7 @@ Result<void> check_writers(const std::string& path, const std::string& subject) 
     const bool there = ::stat(path.c_str(), &about) == 0;
     if (!there && errno != ENOENT) return not_seen(path, subject);
     if (there && (about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("Others may write {} (mode {:o}); they could let themselves in, or have wrong "
                                 "positions trusted. Nothing was started; look at its content, then chmod 600 it.",
                                 lower_first(subject), about.st_mode & 0777),
@@ -63,7 +63,7 @@ Result<void> check_readers(const std::string& path, const std::string& subject) 
     if (::stat(path.c_str(), &about) != 0) return not_seen(path, subject);
     const mode_t open = about.st_uid == 0 ? S_IWGRP | S_IXGRP | S_IRWXO : S_IRWXG | S_IRWXO;
     if ((about.st_mode & open) == 0) return {};
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("Others may read {} (mode {:o}). Nothing was started; chmod 600 it, and make a new key if "
                             "a stranger can have read this one.",
                             lower_first(subject), about.st_mode & 0777),

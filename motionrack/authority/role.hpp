@@ -9,7 +9,7 @@
 namespace motionrack::authority {
 
 enum class Role : std::uint8_t {
-    nobody,   ///< STOP, and pairing
+    none,     ///< STOP, and pairing
     observe,  ///< looks
     operate,  ///< moves the machine
     maintain  ///< breaks it on purpose, writes registers, lets others in

@@ -31,10 +31,11 @@ Result<void> Authenticator::read() {
     if (path.empty()) return {};
     MOTIONRACK_CHECK(check_writers(path, "The users file"));
     if (::stat(path.c_str(), &about) != 0) return {};
-    if (!S_ISREG(about.st_mode)) return fail(ErrorKind::bad_input, "This is no file: users are kept in one.", {}, path);
+    if (!S_ISREG(about.st_mode))
+        return fail(ErrorKind::invalid_input, "This is no file: users are kept in one.", {}, path);
     MOTIONRACK_TRY(const std::string text, read_whole_file(path, read_limits::users));
     const auto damaged = [&](const std::string& why) {
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The users file is damaged: {}. Nothing was started; put it right, or take it away and "
                                 "pair everybody again.",
                                 why),
@@ -52,7 +53,7 @@ Result<void> Authenticator::read() {
         const std::string name = text_of("name"), hash = text_of("token_sha256");
         const std::optional<Role> role = role_named(text_of("role"));
         if (const std::string problem = name_problem(name); !problem.empty()) return damaged("a user's name is wrong");
-        if (!role || *role == Role::nobody) return damaged(fmt::format("{} has no role", name));
+        if (!role || *role == Role::none) return damaged(fmt::format("{} has no role", name));
         if (!is_hash(hash)) return damaged(fmt::format("{} has no token_sha256", name));
         if (!ids.insert(id_of(hash)).second)
             return damaged(fmt::format("{} has the token_sha256 of another user", name));

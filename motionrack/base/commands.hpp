@@ -11,9 +11,9 @@ namespace motionrack {
 struct CommandInfo {
     std::string_view name;
     std::uint32_t code = 0;
-    int data_bytes = 0;      ///< that go with it: 0 none, 1 .. 4 a number, up to 1024 a table (which has no range)
-    std::int64_t least = 0;  ///< range of the data, as documented
-    std::int64_t greatest = 0;
+    int data_bytes = 0;    ///< that go with it: 0 none, 1 .. 4 a number, up to 1024 a table (which has no range)
+    std::int64_t min = 0;  ///< range of the data, as documented
+    std::int64_t max = 0;
     std::string_view unit;
     std::string_view variant;  ///< "": every variant of the card has it
     std::string_view meaning;
@@ -33,12 +33,12 @@ constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) 
         if (command.data_bytes < 0 || command.data_bytes > 1024 || command.answer_bytes < 0 ||
             command.answer_bytes > 1024)
             return {"the command ", command.name, " does not have 0 to 1024 bytes of data or answer"};
-        if (table && (command.least != 0 || command.greatest != 0))
+        if (table && (command.min != 0 || command.max != 0))
             return {"the command ", command.name, " has a table of data, which has no range"};
-        if (command.least > command.greatest) return {"the range of the command ", command.name, " is upside down"};
+        if (command.min > command.max) return {"the range of the command ", command.name, " is upside down"};
         const std::int64_t values = std::int64_t{1} << (table ? 0 : 8 * command.data_bytes);
         const std::int64_t least = command.data_bytes == 0 ? 0 : -values / 2;
-        if (command.least < least || command.greatest >= values)
+        if (command.min < least || command.max >= values)
             return {"the range of the command ", command.name, " does not fit its bytes of data"};
     }
     return {};

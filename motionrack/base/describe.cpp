@@ -35,7 +35,7 @@ std::string grouped(std::int64_t number) {
 
 std::string range_text(const CommandInfo& command) {
     if (command.data_bytes == 0 || command.data_bytes > 4) return "";
-    return fmt::format("{} .. {}", grouped(command.least), grouped(command.greatest));
+    return fmt::format("{} .. {}", grouped(command.min), grouped(command.max));
 }
 
 /// What is written with it and read after it.
@@ -119,7 +119,7 @@ std::string json(const CommandInfo& command) {
     return fmt::format(
         R"(  {{"name": {}, "code": {}, "data_bytes": {}, "least": {}, "greatest": {}, "unit": {}, "variant": {}, )"
         R"("reproduced": {}, "answer_bytes": {}, "meaning": {}}})",
-        quoted(command.name), command.code, command.data_bytes, command.least, command.greatest, quoted(command.unit),
+        quoted(command.name), command.code, command.data_bytes, command.min, command.max, quoted(command.unit),
         quoted(command.variant), command.reproduced, command.answer_bytes, quoted(command.meaning));
 }
 

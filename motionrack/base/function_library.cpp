@@ -7,7 +7,7 @@
 namespace motionrack {
 
 bool is_possible(const ArgumentInfo& argument, std::int64_t value) {
-    if (value < argument.least || value > argument.greatest) return false;
+    if (value < argument.min || value > argument.max) return false;
     if (argument.values.empty()) return true;
     std::int64_t bits = 0;
     for (const ValueInfo& one : argument.values) {
@@ -19,8 +19,7 @@ bool is_possible(const ArgumentInfo& argument, std::int64_t value) {
 
 std::string range_text(const ArgumentInfo& argument) {
     if (argument.values.empty())
-        return fmt::format("{} to {}{}{}", argument.least, argument.greatest, argument.unit.empty() ? "" : " ",
-                           argument.unit);
+        return fmt::format("{} to {}{}{}", argument.min, argument.max, argument.unit.empty() ? "" : " ", argument.unit);
     std::string out;
     for (const ValueInfo& one : argument.values)
         out += fmt::format("{}{} ({})", out.empty() ? "" : ", ", one.value, one.meaning);
@@ -33,12 +32,13 @@ Result<std::int64_t> value_of(const FunctionInfo& function, const ArgumentInfo& 
                               const std::map<std::string, std::int64_t, std::less<>>& arguments) {
     const auto given = arguments.find(argument.name);
     if (given == arguments.end())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("{}: the argument {} is missing; it must be {}. Nothing was done.", function.name,
                                 argument.name, range_text(argument)));
     if (!is_possible(argument, given->second))
-        return fail(ErrorKind::bad_input, fmt::format("{}: {} is {}, but must be {}. Nothing was done.", function.name,
-                                                      argument.name, given->second, range_text(argument)));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("{}: {} is {}, but must be {}. Nothing was done.", function.name, argument.name,
+                                given->second, range_text(argument)));
     return given->second;
 }
 
@@ -52,8 +52,9 @@ Result<CheckedCall> check_call(std::span<const FunctionInfo> functions, std::str
         std::string known;
         for (const FunctionInfo& function : functions)
             known += fmt::format("{}{}", known.empty() ? "" : ", ", function.name);
-        return fail(ErrorKind::bad_input, fmt::format("The library has no function {}; it has {}. Nothing was done.",
-                                                      name.substr(0, 40), known));
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("The library has no function {}; it has {}. Nothing was done.", name.substr(0, 40), known));
     }
     CheckedCall out{static_cast<std::size_t>(found - functions.begin()), {}};
     for (const ArgumentInfo& argument : found->arguments) {
@@ -64,8 +65,9 @@ Result<CheckedCall> check_call(std::span<const FunctionInfo> functions, std::str
     std::string known;
     for (const ArgumentInfo& argument : found->arguments)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", argument.name);
-    return fail(ErrorKind::bad_input, fmt::format("{} was given {} arguments; its arguments are: {}. Nothing was done.",
-                                                  found->name, arguments.size(), known.empty() ? "none" : known));
+    return fail(ErrorKind::invalid_input,
+                fmt::format("{} was given {} arguments; its arguments are: {}. Nothing was done.", found->name,
+                            arguments.size(), known.empty() ? "none" : known));
 }
 
 }  // namespace motionrack

@@ -25,7 +25,7 @@ struct ValueInfo {
 /// An argument: a whole number.
 struct ArgumentInfo {
     std::string_view name;
-    std::int64_t least = 0, greatest = 0;
+    std::int64_t min = 0, max = 0;
     std::string_view unit;
     std::string_view meaning;
     std::int64_t start = 0;                  ///< what a form begins with

@@ -32,7 +32,7 @@ Result<std::string> read_descriptor(int file, const std::string& name, const Rea
         const int why = errno;
         text.resize(old + (got > 0 ? static_cast<std::size_t>(got) : 0));
         if (text.size() > limit.max_bytes)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("{} has more than {}, the limit of {}. Nothing was done; name another file.", name,
                                     size_text(limit.max_bytes), limit.kind));
         if (got == 0) return text;

@@ -10,11 +10,11 @@ namespace motionrack {
 
 /// What kind of thing went wrong; the command line turns it into an exit code.
 enum class ErrorKind {
-    bad_input,  ///< a file or argument is wrong; nothing was done
-    refused,    ///< the request is well formed but outside a limit; nothing was done
-    machine,    ///< the machine stopped: limit switch, alarm, lost steps
-    io,         ///< a file or device could not be read or written
-    stopped     ///< the user asked to stop; what was recorded is kept
+    invalid_input,  ///< a file or argument is wrong; nothing was done
+    refused,        ///< the request is well formed but outside a limit; nothing was done
+    machine,        ///< the machine stopped: limit switch, alarm, lost steps
+    io,             ///< a file or device could not be read or written
+    stopped         ///< the user asked to stop; what was recorded is kept
 };
 
 /// A place in a text file; line and column count from 1, 0 means "no place".
@@ -26,7 +26,7 @@ struct Place {
 
 /// What could not be done, in a sentence that has the number seen, the limit, what was done and what to do next.
 struct Error {
-    ErrorKind trouble = ErrorKind::bad_input;
+    ErrorKind kind = ErrorKind::invalid_input;
     std::string message;
     std::string file = {};
     Place place = {};

@@ -32,7 +32,7 @@ class Axis {
     virtual Result<void> jog(double speed, Instant now) = 0;
     /// Begins to search home. From here on the position is not trusted until it is found. Refused: no such switch or
     /// index, speeds, axis moving, alarm, emergency stop.
-    virtual Result<void> home(const HomeOrder& order, Instant now) = 0;
+    virtual Result<void> home(const HomingRequest& order, Instant now) = 0;
     /// Declares the present place to be `position`, which is trusted then. Refused while moving.
     virtual Result<void> set_position(double position) = 0;
     /// Decelerates to a stop. Accepted in every state.
@@ -51,7 +51,7 @@ class Axis {
     // ---- looking
     virtual AxisState state() = 0;
     /// Whether position() means a place of the machine.
-    virtual bool trusted() const = 0;
+    virtual bool position_valid() const = 0;
     /// Where the card says the axis is.
     virtual double position() = 0;
     /// What the encoder says, in the axis' unit; 0 without one.
@@ -59,7 +59,7 @@ class Axis {
     /// Name of the state that a homing is in; "" before the first one.
     virtual std::string_view home_state() const = 0;
     /// What the last homing found.
-    virtual HomeOutcome home_outcome() const = 0;
+    virtual HomingResult home_outcome() const = 0;
 };
 
 }  // namespace motionrack::control

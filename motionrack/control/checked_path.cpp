@@ -42,7 +42,7 @@ Result<Geometry> checked_path(const Move& move, const Point& start, const PathLi
                                 move.line, move.seconds),
                     {move.line, 0});
     }
-    if (move.kind != MoveKind::traverse && !(move.feed > 0 && move.feed < 1e15)) {
+    if (move.kind != MoveKind::rapid && !(move.feed > 0 && move.feed < 1e15)) {
         return fail(
             ErrorKind::refused,
             fmt::format("the feed of line {} is {}; it must be above 0 and below 1e15. The move was not planned. Set F "

@@ -9,7 +9,7 @@ namespace motionrack::control {
 
 namespace {
 
-std::string override_words(const gcode::Step& step) {
+std::string override_words(const gcode::CanonCall& step) {
     const bool on = step.value != 0;
     switch (step.port) {
         case 48:
@@ -26,12 +26,12 @@ std::string override_words(const gcode::Step& step) {
     }
 }
 
-int output_code(const gcode::Step& step) {
+int output_code(const gcode::CanonCall& step) {
     if (step.analog) return step.with_motion ? 67 : 68;
     return (step.with_motion ? 62 : 64) + (step.value == 0);
 }
 
-std::string input_words(const gcode::Step& step) {
+std::string input_words(const gcode::CanonCall& step) {
     const char* kind = step.analog ? "analog" : "digital";
     if (step.value < 0)
         return fmt::format("{} input {} (M66): waited in vain, nothing is connected to it; #5399 is -1", kind,
@@ -39,7 +39,7 @@ std::string input_words(const gcode::Step& step) {
     return fmt::format("{} input {} (M66): {:g}, nothing is connected to it", kind, step.port, step.value);
 }
 
-std::string words_of(const gcode::Step& step) {
+std::string words_of(const gcode::CanonCall& step) {
     using gcode::CanonCallKind;
     switch (step.kind) {
         case CanonCallKind::comment:
@@ -96,7 +96,7 @@ void ProgramExecutor::plan_from(const Point& start) {
             make_look_ahead_planner(axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, start));
 }
 
-Result<void> ProgramExecutor::hand_over() {
+Result<void> ProgramExecutor::submit() {
     PlannedMove planned;
     while (true) {
         if (!held_ && is_stop_requested()) held_ = planner_->hold();
@@ -129,7 +129,7 @@ Result<void> ProgramExecutor::stopped() {
     return stopped_on_request(line_, axes_.commanded_position(), settings_.gcode.limits);
 }
 
-void ProgramExecutor::remember(const gcode::Step& step, ProgramResult& run) {
+void ProgramExecutor::remember(const gcode::CanonCall& step, ProgramResult& run) {
     note({step.line, blocks_ - 1, words_of(step)}, run);
 }
 
@@ -140,17 +140,17 @@ void ProgramExecutor::note(ProgramEvent event, ProgramResult& run) {
         ++run.events_left_out;
 }
 
-Result<void> ProgramExecutor::take(const gcode::Step& step, ProgramResult& run) {
+Result<void> ProgramExecutor::take(const gcode::CanonCall& step, ProgramResult& run) {
     using gcode::CanonCallKind;
     if (step.kind == CanonCallKind::move) {
         run.moves += step.move.kind != MoveKind::dwell;
-        if (!planner_->has_room()) MOTIONRACK_CHECK(hand_over());
+        if (!planner_->has_room()) MOTIONRACK_CHECK(submit());
         return planner_->push(programmed(step.move));
     }
     // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
     if (gcode::needs_standstill(step)) {
         planner_->flush();
-        MOTIONRACK_CHECK(hand_over());
+        MOTIONRACK_CHECK(submit());
     }
     remember(step, run);
     if (step.kind == CanonCallKind::end) run.ended = true;
@@ -158,10 +158,10 @@ Result<void> ProgramExecutor::take(const gcode::Step& step, ProgramResult& run) 
 }
 
 /// Everything before it is driven, then the probing move alone; the program goes on where the machine stands.
-Result<void> ProgramExecutor::probe(const gcode::Step& step, gcode::ProgramReader& reader, ProgramResult& run) {
+Result<void> ProgramExecutor::probe(const gcode::CanonCall& step, gcode::ProgramReader& reader, ProgramResult& run) {
     run.moves += 1;
     planner_->flush();
-    MOTIONRACK_CHECK(hand_over());
+    MOTIONRACK_CHECK(submit());
     MOTIONRACK_CHECK(axes_.finish());
     MOTIONRACK_TRY(const PlannedMove planned,
                    plan_single_move(axes_, settings_.gcode.limits, settings_.accel_reserve, programmed(step.move)));
@@ -194,10 +194,10 @@ Result<void> ProgramExecutor::run(std::string_view text, const std::string& file
     }
     // What was read before a problem is driven to its end, so that the machine stands where the program says.
     const bool axes_stopped =
-        !outcome && (outcome.error().trouble == ErrorKind::machine || outcome.error().trouble == ErrorKind::stopped);
+        !outcome && (outcome.error().kind == ErrorKind::machine || outcome.error().kind == ErrorKind::stopped);
     if (!axes_stopped) {
         planner_->flush();
-        Result<void> rest = hand_over();
+        Result<void> rest = submit();
         if (rest) rest = axes_.finish();
         if (outcome) outcome = rest;
     }

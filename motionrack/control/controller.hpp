@@ -77,15 +77,15 @@ class ProgramExecutor {
         return (settings_.stop && settings_.stop->load(std::memory_order_relaxed)) ||
                (settings_.halted && settings_.halted->load(std::memory_order_relaxed));
     }
-    Result<void> hand_over();
+    Result<void> submit();
     Result<void> stopped();
-    Result<void> take(const gcode::Step& step, ProgramResult& run);
+    Result<void> take(const gcode::CanonCall& step, ProgramResult& run);
     Move programmed(const Move& read);
     void tell(const PlannedMove& planned);
-    Result<void> probe(const gcode::Step& step, gcode::ProgramReader& reader, ProgramResult& run);
+    Result<void> probe(const gcode::CanonCall& step, gcode::ProgramReader& reader, ProgramResult& run);
     void plan_from(const Point& start);
     void note(ProgramEvent event, ProgramResult& run);
-    void remember(const gcode::Step& step, ProgramResult& run);
+    void remember(const gcode::CanonCall& step, ProgramResult& run);
 
     AxisGroup& axes_;
     ExecutorSettings settings_;

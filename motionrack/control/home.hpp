@@ -10,15 +10,15 @@
 namespace motionrack::control {
 
 /// Ways of finding home.
-enum class HomeType : std::uint8_t {
+enum class HomingMethod : std::uint8_t {
     stop_at_switch = 1,      ///< quick: decelerates at the switch and stands where it stops
     twice_to_switch = 2,     ///< back off the switch and to it again slowly: stands on its edge
     index_after_switch = 3,  ///< decelerates at the switch, then to the encoder's next index
     twice_and_index = 4      ///< as twice_to_switch, then to the index
 };
 
-struct HomeOrder {
-    HomeType type = HomeType::twice_to_switch;
+struct HomingRequest {
+    HomingMethod type = HomingMethod::twice_to_switch;
     bool towards_plus = false;  ///< direction of the search
     double speed = 0;           ///< of the search, > 0, at most the axis' greatest
     double slow_speed = 0;      ///< of the second approach and of the way to the index, > 0, at most the start speed
@@ -37,7 +37,7 @@ struct HomeOrder {
 };
 
 /// The home switch or the index changed. Places are positions as they count after homing; before that, where it failed.
-struct HomeEdge {
+struct HomingEdge {
     std::string what;   ///< "switch on", "switch off", "index"
     std::string state;  ///< in which it was seen
     double position = 0;
@@ -46,7 +46,7 @@ struct HomeEdge {
     double seconds = 0;  ///< since the homing began
 };
 
-struct HomeStay {
+struct HomingStateVisit {
     std::string state;
     double from_s = 0;  ///< since the homing began
     double took_s = 0;
@@ -54,13 +54,13 @@ struct HomeStay {
     double to = 0;
 };
 
-struct HomeOutcome {
-    HomeType type = HomeType::twice_to_switch;
+struct HomingResult {
+    HomingMethod type = HomingMethod::twice_to_switch;
     bool towards_plus = false;
     bool homed = false;    ///< the position is trusted
     std::string sentence;  ///< how it ended
-    std::vector<HomeEdge> edges;
-    std::vector<HomeStay> stays;
+    std::vector<HomingEdge> edges;
+    std::vector<HomingStateVisit> stays;
     std::vector<std::string> notes;
     std::int64_t bounces = 0;  ///< changes of the home switch that were no new edge
     double position = 0;       ///< where the axis stands

@@ -12,10 +12,10 @@ inline constexpr std::array<char, axis_count> axis_letters = {'X', 'Y', 'Z', 'A'
 using Point = std::array<double, axis_count>;
 
 enum class MoveKind : std::uint8_t {
-    traverse,  ///< straight, as fast as the axes allow (G0)
-    feed,      ///< straight at the feed (G1)
-    arc,       ///< arc or helix at the feed (G2, G3)
-    dwell      ///< nothing moves for `seconds` (G4)
+    rapid,  ///< straight, as fast as the axes allow (G0)
+    feed,   ///< straight at the feed (G1)
+    arc,    ///< arc or helix at the feed (G2, G3)
+    dwell   ///< nothing moves for `seconds` (G4)
 };
 
 /// What the path does between this move and the next (G61, G61.1, G64).
@@ -35,7 +35,7 @@ enum class FeedMode : std::uint8_t {
 /// third axis, < 0 clockwise; |turns| is the number of full or partial turns; the other axes move linearly with the
 /// angle.
 struct Move {
-    MoveKind kind = MoveKind::traverse;
+    MoveKind kind = MoveKind::rapid;
     PathControl path = PathControl::exact_path;
     FeedMode feed_mode = FeedMode::units_per_second;
     std::uint8_t first = 0;

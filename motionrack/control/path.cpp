@@ -108,9 +108,7 @@ namespace {
 
 /// Two straight moves of which nobody could tell that they are two but by the corner between them.
 bool are_alike(const Move& a, const Move& b) {
-    const auto straight = [](const Move& move) {
-        return move.kind == MoveKind::feed || move.kind == MoveKind::traverse;
-    };
+    const auto straight = [](const Move& move) { return move.kind == MoveKind::feed || move.kind == MoveKind::rapid; };
     return straight(a) && a.kind == b.kind && a.path == b.path && a.path != PathControl::exact_stop &&
            a.tolerance_mm == b.tolerance_mm && a.feed_mode == FeedMode::units_per_second &&
            a.feed_mode == b.feed_mode && a.feed == b.feed && a.rapid_override == b.rapid_override;
@@ -249,11 +247,11 @@ void LookAheadPlanner::forward(std::uint64_t until) {
         double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         // From rest to rest over what the hardware spends on its changes of speed: a pulse or two.
         if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);
-        planned.entry = committed_;
-        planned.exit = std::sqrt(exit);
-        planned.cruise = std::max({std::sqrt(top), planned.entry, planned.exit});
-        if (planned.entry != 0 || planned.exit != 0) planned.jerk = 0;
-        committed_ = gain == 1 ? planned.exit : planned.exit * std::sqrt(gain);
+        planned.entry_velocity = committed_;
+        planned.exit_velocity = std::sqrt(exit);
+        planned.cruise_velocity = std::max({std::sqrt(top), planned.entry_velocity, planned.exit_velocity});
+        if (planned.entry_velocity != 0 || planned.exit_velocity != 0) planned.jerk = 0;
+        committed_ = gain == 1 ? planned.exit_velocity : planned.exit_velocity * std::sqrt(gain);
     }
     settled_ = std::max(settled_, ready_);
 }
@@ -274,7 +272,7 @@ bool LookAheadPlanner::pull_early(PlannedMove& planned) {
 
 void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& change) {
     if (head_ == tail_) return;
-    if (head_ != ready_) committed_ = slot(head_).entry;
+    if (head_ != ready_) committed_ = slot(head_).entry_velocity;
     ready_ = settled_ = head_;
     Last before;
     for (std::uint64_t i = head_; i < tail_; ++i) {
@@ -294,8 +292,11 @@ void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& cha
 
 double seconds_of(const PlannedMove& planned) {
     if (planned.move.kind == MoveKind::dwell) return planned.move.seconds;
-    if (planned.jerk > 0) return SCurveProfile(planned.length, planned.cruise, planned.accel, planned.jerk).duration();
-    return TrapezoidalProfile(planned.length, planned.entry, planned.exit, planned.cruise, planned.accel).duration();
+    if (planned.jerk > 0)
+        return SCurveProfile(planned.length, planned.cruise_velocity, planned.accel, planned.jerk).duration();
+    return TrapezoidalProfile(planned.length, planned.entry_velocity, planned.exit_velocity, planned.cruise_velocity,
+                              planned.accel)
+        .duration();
 }
 
 void PlanSummary::add(const PlannedMove& planned) {
@@ -305,12 +306,12 @@ void PlanSummary::add(const PlannedMove& planned) {
         return;
     }
     moves += planned.moves;
-    if (planned.exit == 0) ++stops;
+    if (planned.exit_velocity == 0) ++stops;
     const bool linear = planned.start[0] != planned.move.end[0] || planned.start[1] != planned.move.end[1] ||
                         planned.start[2] != planned.move.end[2] || planned.move.kind == MoveKind::arc;
     if (!linear) return;
     path_mm += planned.length;
-    top_speed = std::max(top_speed, planned.cruise);
+    peak_velocity = std::max(peak_velocity, planned.cruise_velocity);
 }
 
 }  // namespace motionrack::control

@@ -126,10 +126,10 @@ double seconds_of(const PlannedMove& planned);
 struct PlanSummary {
     std::int64_t moves = 0;
     std::int64_t dwells = 0;
-    std::int64_t stops = 0;  ///< moves that end at rest
-    double seconds = 0;      ///< all, dwells included
-    double path_mm = 0;      ///< XYZ path; moves of ABC alone add nothing
-    double top_speed = 0;    ///< mm/s, of moves of XYZ
+    std::int64_t stops = 0;    ///< moves that end at rest
+    double seconds = 0;        ///< all, dwells included
+    double path_mm = 0;        ///< XYZ path; moves of ABC alone add nothing
+    double peak_velocity = 0;  ///< mm/s, of moves of XYZ
 
     void add(const PlannedMove& planned);
 };

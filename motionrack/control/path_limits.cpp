@@ -42,9 +42,9 @@ PathLimits::PathLimits(const MachineLimits& limits) {
     for (int i = 0; i < axis_count; ++i) {
         const AxisLimits& axis = limits[i];
         present_[i] = axis.present;
-        per_speed_[i] = reciprocal(axis.max_speed);
+        per_speed_[i] = reciprocal(axis.max_velocity);
         per_accel_[i] = reciprocal(axis.max_accel);
-        per_jump_[i] = reciprocal(axis.start_speed);
+        per_jump_[i] = reciprocal(axis.max_velocity_step);
         per_jerk_[i] = axis.max_jerk > 0 ? 1 / axis.max_jerk : -1;
         any_jerk_ = any_jerk_ || axis.max_jerk > 0;
     }
@@ -77,7 +77,7 @@ AlongPathLimits PathLimits::along(const Geometry& path, const Move& move) const 
         found.speed = std::min(found.speed, std::sqrt(pull_limit));
     }
     found.accel = 1 / per_accel;
-    if (move.kind == MoveKind::traverse) {
+    if (move.kind == MoveKind::rapid) {
         found.speed *= move.rapid_override;
     } else {
         found.speed =

@@ -38,7 +38,7 @@ double length_on_straight(const Geometry& path, const Point& place, const Pulses
 
 }  // namespace
 
-Move part_of(const Move& move, const Geometry& path, double from, double to) {
+Move sub_move(const Move& move, const Geometry& path, double from, double to) {
     Move part = move;
     part.end = position_at(path, to);
     part.feed = share_of_time(move, path.length, to - from);
@@ -62,7 +62,7 @@ Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerU
     return out;
 }
 
-Move rest_of(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+Move remaining_move(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
     const double left = path.length - nearest_point(path, place, pulses).length;
     Move rest = move;
     rest.feed = share_of_time(move, path.length, left);

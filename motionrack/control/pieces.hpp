@@ -9,7 +9,7 @@ namespace motionrack::control {
 /// The part of a move from `from` to `to` (lengths along its path, from < to), as a move that begins where the part
 /// begins. Ends of parts lie on the path; the last part ends where the move ends, exactly. In inverse time it takes its
 /// share of the move's time.
-Move part_of(const Move& move, const Geometry& path, double from, double to);
+Move sub_move(const Move& move, const Geometry& path, double from, double to);
 
 /// Each axis' pulses per mm or degree: what makes places of linear and rotary axes comparable. An axis with 0 of them
 /// does not count.
@@ -25,6 +25,7 @@ Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerU
 
 /// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of
 /// an arc so little may be left that it is a straight line.
-Move rest_of(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
+Move remaining_move(const Move& move, const Geometry& path, const Point& place,
+                    const PulsesPerUnit& pulses = units_alone);
 
 }  // namespace motionrack::control

@@ -11,12 +11,12 @@ namespace motionrack::control {
 struct PlannedMove {
     Move move;
     Point start = {};
-    double length = 0;      ///< mm or degrees, > 0; 0 for a dwell
-    double entry = 0;       ///< speed at the start, per second
-    double cruise = 0;      ///< top speed reached or allowed, per second
-    double exit = 0;        ///< speed at the end, per second
-    double accel = 0;       ///< along the path, per second squared, both ways
-    bool even = false;      ///< the speed changes evenly from `entry` to `exit` over the whole length
+    double length = 0;            ///< mm or degrees, > 0; 0 for a dwell
+    double entry_velocity = 0;    ///< speed at the start, per second
+    double cruise_velocity = 0;   ///< top speed reached or allowed, per second
+    double exit_velocity = 0;     ///< speed at the end, per second
+    double accel = 0;             ///< along the path, per second squared, both ways
+    bool constant_accel = false;  ///< the speed changes evenly from `entry` to `exit` over the whole length
     std::uint8_t axes = 0;  ///< that move on the whole of a path that this is a piece of, a bit each, X the lowest; 0:
                             ///< those that move here
     std::int64_t number = 0;  ///< of the first move in it, in the order of push, from 0

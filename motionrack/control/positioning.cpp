@@ -36,8 +36,8 @@ Result<void> PointToPointAxes::begin() {
 }
 
 double PointToPointAxes::speed_of(const PlannedMove& move, std::size_t axis) const {
-    const double most = limits_[axis].max_speed;
-    if (move.move.kind == MoveKind::traverse) return most;
+    const double most = limits_[axis].max_velocity;
+    if (move.move.kind == MoveKind::rapid) return most;
     const double feed = move.move.feed_mode == FeedMode::inverse_time ? move.move.feed * move.length : move.move.feed;
     return std::min(feed, most);
 }

@@ -13,7 +13,7 @@ Result<PlannedMove> plan_single_move(AxisGroup& axes, const MachineLimits& limit
     planner.flush();
     PlannedMove planned;
     if (planner.pull(planned)) return planned;
-    return fail(ErrorKind::bad_input, fmt::format("The probing move of line {} has no length.", move.line),
+    return fail(ErrorKind::invalid_input, fmt::format("The probing move of line {} has no length.", move.line),
                 {move.line, 1});
 }
 

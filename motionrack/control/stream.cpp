@@ -11,8 +11,8 @@ namespace motionrack::control {
 
 namespace {
 
+using gcode::CanonCall;
 using gcode::CanonCallKind;
-using gcode::Step;
 
 /// Pieces of an arc are short enough to tell from a place where on it the machine is.
 constexpr double most_sweep = 2 * pi / 3;
@@ -21,7 +21,7 @@ constexpr double least_pulses = 200;
 
 }  // namespace
 
-Stream::Stream(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings)
+StreamExecutor::StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings)
     : axes_(&axes),
       host_(host),
       settings_(settings),
@@ -35,7 +35,7 @@ Stream::Stream(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& s
 
 // ---- reading
 
-gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
+gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number) {
     text_ = text;
     if (gcode::Outcome<void> read = interpreter_.line(text_, number); !read) return read;
     unpulled_ = true;
@@ -43,11 +43,11 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
     return {};
 }
 
-gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk) {
+gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk) {
     text_ = text;
     gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
     if (!read) {
-        walk.refused(text_, read.error());
+        walk.line_rejected(text_, read.error());
         return read;
     }
     if (gcode::Outcome<void> taken = walk.line_accepted(interpreter_); !taken) return taken;
@@ -56,15 +56,15 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gc
     return {};
 }
 
-gcode::Outcome<void> Stream::program_over() {
+gcode::Outcome<void> StreamExecutor::program_over() {
     if (gcode::Outcome<void> done = interpreter_.finish(); !done) return done;
     unpulled_ = true;
     pull_steps();
     return {};
 }
 
-void Stream::move(const Move& move) {
-    Step step;
+void StreamExecutor::move(const Move& move) {
+    CanonCall step;
     step.line = move.line;
     step.move = move;
     begin_cut(step, true);
@@ -73,13 +73,13 @@ void Stream::move(const Move& move) {
     pull_steps();
 }
 
-void Stream::pull_steps() {
+void StreamExecutor::pull_steps() {
     while (entries_.size() < settings_.max_entries) {
         if (cutting_) {
             add_piece();
             continue;
         }
-        const Step* step = unpulled_ ? interpreter_.pull() : nullptr;
+        const CanonCall* step = unpulled_ ? interpreter_.pull() : nullptr;
         unpulled_ = step != nullptr;
         if (step == nullptr) return;
         if (step->probe != gcode::Probe::none) {
@@ -99,7 +99,7 @@ void Stream::pull_steps() {
     }
 }
 
-void Stream::begin_cut(const Step& step, bool by_hand) {
+void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
     Cutting cut{step, geometry_of(step.move, read_to_)};
     cut.by_hand = by_hand;
     cut.step.move.index = read_++;
@@ -119,7 +119,7 @@ void Stream::begin_cut(const Step& step, bool by_hand) {
     ++moves_;
 }
 
-void Stream::add_piece() {
+void StreamExecutor::add_piece() {
     const double each = cutting_->path.length / cutting_->pieces;
     const double from = each * cutting_->done++;
     const bool last = cutting_->done == cutting_->pieces;
@@ -127,7 +127,7 @@ void Stream::add_piece() {
     piece.last = last;
     piece.by_hand = cutting_->by_hand;
     Move& move = piece.step.move;
-    move = part_of(cutting_->step.move, cutting_->path, from, last ? cutting_->path.length : each * cutting_->done);
+    move = sub_move(cutting_->step.move, cutting_->path, from, last ? cutting_->path.length : each * cutting_->done);
     if (!last && move.path == PathControl::exact_stop) move.path = PathControl::exact_path;
     read_to_ = move.end;
     entries_.push_back(std::move(piece));
@@ -136,20 +136,20 @@ void Stream::add_piece() {
 
 // ---- wishes
 
-void Stream::hold() {
+void StreamExecutor::hold() {
     if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
         return;
     wish_ = Wish::hold;
     stop_flag_ = !ride_ && !probing_;
 }
 
-void Stream::resume() {
+void StreamExecutor::resume() {
     if (state_ != ExecutionState::feed_hold && state_ != ExecutionState::paused) return;
     state_ = ExecutionState::running;
     if (ride_) ride_->rider().resume();
 }
 
-void Stream::stop() {
+void StreamExecutor::stop() {
     if (!path_begun_ && !has_work()) {
         // A pause behind which nothing waits would make the next line wait.
         if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
@@ -159,14 +159,14 @@ void Stream::stop() {
     stop_flag_ = !ride_ || probing_;
 }
 
-void Stream::set_overrides(double feed, double rapid) {
+void StreamExecutor::set_overrides(double feed, double rapid) {
     feed_wanted_ = std::clamp(feed, 0.01, 2.0);
     rapid_wanted_ = std::clamp(rapid, 0.01, 1.0);
 }
 
 // ---- driving
 
-Result<ExecutionState> Stream::drive(bool more_may_come) {
+Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
     const bool brakes = wish_ != Wish::none;
     if (brakes && !path_begun_) return stand();
@@ -191,11 +191,11 @@ Result<ExecutionState> Stream::drive(bool more_may_come) {
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
     const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
     if (planner_.size() <= 1 && keep_back) return state_ = ExecutionState::waiting;
-    if (PlannedMove planned; planner_.pull_early(planned)) return hand_over(planned);
+    if (PlannedMove planned; planner_.pull_early(planned)) return submit(planned);
     return path_begun_ ? finish_path() : stand();
 }
 
-Result<void> Stream::fill_planner() {
+Result<void> StreamExecutor::fill_planner() {
     for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
         const Entry& entry = entries_[planned_];
         if (!entry.is_move()) {
@@ -209,20 +209,20 @@ Result<void> Stream::fill_planner() {
     return {};
 }
 
-bool Stream::stops_before(const Entry& entry) const {
+bool StreamExecutor::stops_before(const Entry& entry) const {
     if (single_step_ && entry.step.line != entries_.front().step.line) return true;
     return entry.is_probe() || gcode::needs_standstill(entry.step);
 }
 
 /// Whether what the axes have goes on for longer than the margin.
-bool Stream::time_left() {
+bool StreamExecutor::time_left() {
     if (block_began_ == never) return false;
     double seconds = 0;
     for (std::size_t i = 0; i < handed_; ++i) seconds += entries_[i].seconds;
     return block_began_ + from_seconds(seconds) > host_.now() + settings_.margin;
 }
 
-Result<ExecutionState> Stream::hand_over(const PlannedMove& planned) {
+Result<ExecutionState> StreamExecutor::submit(const PlannedMove& planned) {
     if (!path_begun_) {
         if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
@@ -248,7 +248,7 @@ Result<ExecutionState> Stream::hand_over(const PlannedMove& planned) {
     return state_;
 }
 
-Result<ExecutionState> Stream::finish_path() {
+Result<ExecutionState> StreamExecutor::finish_path() {
     const Result<void> finished = axes_->finish();
     take_move_starts();
     if (!finished) return interrupted(finished.error());
@@ -261,7 +261,7 @@ Result<ExecutionState> Stream::finish_path() {
 }
 
 /// The axes stand where the path that they had ends.
-Result<ExecutionState> Stream::stand() {
+Result<ExecutionState> StreamExecutor::stand() {
     const Wish wish = std::exchange(wish_, Wish::none);
     stop_flag_ = false;
     if (wish == Wish::stop) {
@@ -278,21 +278,21 @@ Result<ExecutionState> Stream::stand() {
     return state_ = has_work() ? ExecutionState::running : ExecutionState::idle;
 }
 
-Result<ExecutionState> Stream::interrupted(const Error& error) {
-    const bool held = !ride_ && error.trouble == ErrorKind::stopped && wish_ == Wish::hold;
+Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
+    const bool held = !ride_ && error.kind == ErrorKind::stopped && wish_ == Wish::hold;
     wish_ = Wish::none;
     stop_flag_ = false;
     path_begun_ = false;
     if (!held) {
         forget();
-        if (error.trouble == ErrorKind::stopped) return state_;
+        if (error.kind == ErrorKind::stopped) return state_;
         return tl::unexpected<Error>(error);
     }
     keep_rest_of_path();
     return state_ = ExecutionState::feed_hold;
 }
 
-void Stream::forget() {
+void StreamExecutor::forget() {
     entries_.clear();
     cutting_.reset();
     moves_ = 0;
@@ -303,14 +303,14 @@ void Stream::forget() {
     resync_axes(*axes_);
 }
 
-void Stream::resync_axes(AxisGroup& axes) {
+void StreamExecutor::resync_axes(AxisGroup& axes) {
     axes_ = &axes;
     read_to_ = axes_->commanded_position();
     interpreter_.resync_position(read_to_);
     new_planner(read_to_);
 }
 
-gcode::Settings Stream::fresh_settings() const {
+gcode::Settings StreamExecutor::fresh_settings() const {
     gcode::Settings settings = settings_.gcode;
     settings.start = interpreter_.position();
     settings.work_offsets = interpreter_.frame().work;
@@ -319,19 +319,19 @@ gcode::Settings Stream::fresh_settings() const {
     return settings;
 }
 
-void Stream::reset_modal_state() {
+void StreamExecutor::reset_modal_state() {
     interpreter_ = gcode::Interpreter(fresh_settings());
     line_driven_ = 0;
 }
 
-void Stream::clear_offsets() {
+void StreamExecutor::clear_offsets() {
     gcode::Settings settings = fresh_settings();
     settings.work_offsets = {};
     settings.g28 = settings.g30 = {};
     interpreter_ = gcode::Interpreter(settings);
 }
 
-void Stream::new_planner(const Point& place) {
+void StreamExecutor::new_planner(const Point& place) {
     planner_ =
         make_look_ahead_planner(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, place);
     if (ride_) ride_ = new_ride(place);
@@ -340,7 +340,7 @@ void Stream::new_planner(const Point& place) {
 
 // ---- what the machine has passed
 
-void Stream::take_move_starts() {
+void StreamExecutor::take_move_starts() {
     for (const MoveStart& start : axes_->take_move_starts()) {
         if (start.block < 0) continue;
         block_began_ = start.at;
@@ -351,7 +351,7 @@ void Stream::take_move_starts() {
 }
 
 /// The first entry was passed.
-void Stream::pop() {
+void StreamExecutor::pop() {
     Entry& front = entries_.front();
     if (front.is_move()) {
         moves_ -= front.last;

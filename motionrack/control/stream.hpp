@@ -45,11 +45,11 @@ struct StreamExecutorSettings {
 };
 
 enum class ExecutionState : std::uint8_t {
-    idle,     ///< all that is known is done
-    running,  ///< something was handed over
-    waiting,  ///< there is time for more lines before the axes need the next move
-    feed_hold,///< stands on its path after hold()
-    paused    ///< stands after M0, M1 or a step; resume() goes on
+    idle,       ///< all that is known is done
+    running,    ///< something was handed over
+    waiting,    ///< there is time for more lines before the axes need the next move
+    feed_hold,  ///< stands on its path after hold()
+    paused      ///< stands after M0, M1 or a step; resume() goes on
 };
 
 /// The last probing move.
@@ -63,10 +63,10 @@ struct ProbeReport {
     bool failed() const { return !begun || (!outcome.hit && gcode::probe_must(probe)); }
 };
 
-class Stream {
+class StreamExecutor {
   public:
     /// `host`: whose time passes. The axes' stop flag must be stop_flag().
-    Stream(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings);
+    StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings);
 
     // ---- what may be called at any time, also while drive() runs, from a slice of the host's time
     /// Whether line() takes another one. After a line that probes only when it has been done: the lines after it begin
@@ -129,7 +129,7 @@ class Stream {
     gcode::Settings fresh_settings() const;
 
     /// Called when the machine passes an event of the program (spindle, message, tool, end), in order.
-    void on_event(std::function<void(const gcode::Step&)> call) { on_event_ = std::move(call); }
+    void on_event(std::function<void(const gcode::CanonCall&)> call) { on_event_ = std::move(call); }
     /// Called with each move as it was read, before it is cut.
     void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
@@ -137,7 +137,7 @@ class Stream {
     enum class Wish : std::uint8_t { none, hold, stop };
     /// A piece of a move, or an event.
     struct Entry {
-        gcode::Step step;
+        gcode::CanonCall step;
         std::string text;
         Point start = {};
         double seconds = 0;       ///< of a move that was handed over
@@ -155,19 +155,19 @@ class Stream {
     };
     /// A move that is being cut.
     struct Cutting {
-        gcode::Step step;
+        gcode::CanonCall step;
         Geometry path;
         int pieces = 1, done = 0;
         bool by_hand = false;
     };
 
     void pull_steps();
-    void begin_cut(const gcode::Step& step, bool by_hand);
+    void begin_cut(const gcode::CanonCall& step, bool by_hand);
     void add_piece();
     Result<void> fill_planner();
     bool stops_before(const Entry& entry) const;
     bool time_left();
-    Result<ExecutionState> hand_over(const PlannedMove& planned);
+    Result<ExecutionState> submit(const PlannedMove& planned);
     Result<ExecutionState> finish_path();
     Result<ExecutionState> stand();
     Result<ExecutionState> probe();
@@ -219,7 +219,7 @@ class Stream {
     Wish wish_ = Wish::none;
     ExecutionState state_ = ExecutionState::idle;
     std::atomic<bool> stop_flag_{false};
-    std::function<void(const gcode::Step&)> on_event_;
+    std::function<void(const gcode::CanonCall&)> on_event_;
     std::function<void(const Move&, const Point&)> on_move_;
 };
 

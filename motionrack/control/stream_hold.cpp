@@ -21,7 +21,7 @@ bool turns_back(const Geometry& before, const Geometry& after, const PulsesPerUn
 }  // namespace
 
 /// The axes stand somewhere on the move that they began last, or already on the one that was queued behind it.
-void Stream::keep_rest_of_path() {
+void StreamExecutor::keep_rest_of_path() {
     const Point place = axes_->commanded_position();
     while (!entries_.empty() && !entries_.front().is_move()) pop();
     PulsesPerUnit pulses;
@@ -46,7 +46,7 @@ void Stream::keep_rest_of_path() {
     for (; nearest > 0; --nearest) pop();
     if (!entries_.empty() && handed_ > 0) {
         Entry& entry = entries_.front();
-        entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
+        entry.step.move = remaining_move(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
         entry.start = place;
         if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)
             pop();

@@ -5,8 +5,8 @@
 
 namespace motionrack::control {
 
-Result<ExecutionState> Stream::probe() {
-    const gcode::Step step = entries_.front().step;
+Result<ExecutionState> StreamExecutor::probe() {
+    const gcode::CanonCall step = entries_.front().step;
     line_driven_ = step.line;
     last_probe_ = {last_probe_.count, step.line, step.probe, false, {}};
     const Result<PlannedMove> planned =

@@ -16,14 +16,14 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 }  // namespace
 
-TrajectoryInterpolator Stream::new_ride(const Point& place) const {
+TrajectoryInterpolator StreamExecutor::new_ride(const Point& place) const {
     InterpolatorSettings settings;
     settings.most_seconds = max_line_seconds;
     settings.cut_dwells = true;
     return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
 }
 
-Result<ExecutionState> Stream::drive_ride(bool more_may_come) {
+Result<ExecutionState> StreamExecutor::drive_ride(bool more_may_come) {
     if (wish_ != Wish::none) {
         if (!path_begun_) return stand();
         ride_->rider().hold();
@@ -43,7 +43,7 @@ Result<ExecutionState> Stream::drive_ride(bool more_may_come) {
         ride_->flush();
         ride_ends_ = true;
     }
-    if (PlannedMove planned; ride_->pull(planned, true)) return hand_over(planned);
+    if (PlannedMove planned; ride_->pull(planned, true)) return submit(planned);
     const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
         // Where the ride stands: at the end of what is known, or held.
@@ -56,11 +56,11 @@ Result<ExecutionState> Stream::drive_ride(bool more_may_come) {
 }
 
 /// A first move alone waits for the line after it: then it need not end at rest.
-bool Stream::ride_may_wait(bool rest_follows) const {
+bool StreamExecutor::ride_may_wait(bool rest_follows) const {
     return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !ride_ends_;
 }
 
-Result<void> Stream::fill_ride() {
+Result<void> StreamExecutor::fill_ride() {
     for (; ride_->has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
         Entry& entry = entries_[planned_];
         if (!entry.is_move()) continue;
@@ -73,7 +73,7 @@ Result<void> Stream::fill_ride() {
 }
 
 /// Of one move of a ride the axes get several blocks; else a block may stand for several moves.
-void Stream::pop_before_block(std::int64_t block) {
+void StreamExecutor::pop_before_block(std::int64_t block) {
     for (; first_block_ < block; ++first_block_) {
         for (std::int64_t left = ride_ ? 0 : blocks_.front(); left > 0; pop()) left -= entries_.front().is_move();
         blocks_.pop_front();
@@ -82,7 +82,7 @@ void Stream::pop_before_block(std::int64_t block) {
 }
 
 /// All up to the last move before this one.
-void Stream::pop_driven(std::int64_t first_pending_move) {
+void StreamExecutor::pop_driven(std::int64_t first_pending_move) {
     std::size_t driven = 0;
     for (std::size_t i = 0; i < planned_; ++i)
         if (entries_[i].is_move()) {

@@ -13,7 +13,7 @@ namespace {
 Result<void> check_time(const char* what, Duration time) {
     if (time >= shortest_period && time <= longest_period) return {};
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("The {} of the frames is {:g} us, but must be {:g} us to {:g} s. Nothing was published.", what,
                     to_seconds(time) * 1e6, to_seconds(shortest_period) * 1e6, to_seconds(longest_period)));
 }

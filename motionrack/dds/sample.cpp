@@ -62,13 +62,13 @@ Result<void> check_bus_name(std::string_view name) {
     };
     if (name.empty() || name.size() > most)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format(
                 "The bus name has {} characters, but must have 1 to {}. Nothing was opened; choose another name.",
                 name.size(), most));
     const auto bad = std::find_if_not(name.begin(), name.end(), good);
     if (bad != name.end())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("Character {} of the bus name is none of letters, digits, '_' and "
                                 "'-'. Nothing was opened; choose another name.",
                                 bad - name.begin() + 1));
@@ -77,7 +77,7 @@ Result<void> check_bus_name(std::string_view name) {
 
 Result<void> check_domain(int domain) {
     if (domain >= 0 && domain <= 232) return {};
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("The DDS domain is {}, but must be 0 to 232. Nothing was opened.", domain));
 }
 

@@ -84,10 +84,10 @@ Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, co
                                               const CaptureSettings& settings) {
     auto looked = std::make_unique<Looked>(std::move(source));
     MOTIONRACK_TRY(const std::string_view head, looked->look());
-    if (head.empty()) return fail(ErrorKind::bad_input, "The file is empty. Nothing was decoded.", {}, name);
+    if (head.empty()) return fail(ErrorKind::invalid_input, "The file is empty. Nothing was decoded.", {}, name);
     const Format format = settings.format == Format::automatic ? guess(name, head) : settings.format;
     if (settings.format != Format::raw && head.rfind("PK\3\4", 0) == 0)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     "This is a packed file (a session of sigrok or Saleae?). Nothing was decoded; make a VCD file of "
                     "it, for instance with "
                     "sigrok-cli -i in.sr -O vcd -o out.vcd.",
@@ -121,7 +121,7 @@ Result<double> read_rate(std::string_view text) {
     const double rate = number * factor;
     if (bad != std::errc() || !(rate >= 1e-3 && rate <= 1e12))
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("'{}' is no sample rate: a number with k, M or G, as 24M or 500 kHz, from 0.001 to 1000 G.",
                         text.substr(0, 40)));
     return rate;

@@ -77,7 +77,7 @@ class Capture {
   protected:
     Capture(std::unique_ptr<Source> source, std::string name) : source_(std::move(source)), name_(std::move(name)) {}
     tl::unexpected<Error> refuse(std::string message, Place place) const {
-        return fail(ErrorKind::bad_input, std::move(message), place, name_);
+        return fail(ErrorKind::invalid_input, std::move(message), place, name_);
     }
     /// What a reader of bytes says, who does not know the file's name.
     Error in_file(Error error) const {

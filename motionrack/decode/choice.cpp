@@ -46,13 +46,13 @@ Result<std::size_t> find_signal(const std::vector<std::string>& signals, std::st
         if (ends_with_name(plain(signals[i]), wanted)) fitting.push_back(signals[i]), last = i;
     if (fitting.size() == 1) return last;
     if (fitting.size() > 1)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("'{}' may be {}. Nothing was decoded; write more of the name.", text, listed(fitting)));
     std::size_t number = 0;
     const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (bad == std::errc() && end == text.data() + text.size() && number < signals.size()) return number;
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("The capture has no line '{}'. Nothing was decoded; its lines are: {}.", text, listed(signals)));
 }
 
@@ -66,7 +66,7 @@ Result<ChannelSelection> read_choice(const std::vector<std::string>& signals, co
     }
     if (equal == 0 || lines.size() < 2 || lines.size() > 3 || std::count(lines.begin(), lines.end(), "") > 0)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format(
                 "'{}' names no channel: write X=A,B or X=A,B,Z with the lines' names or numbers. Nothing was decoded.",
                 text));
@@ -78,7 +78,7 @@ Result<ChannelSelection> read_choice(const std::vector<std::string>& signals, co
         MOTIONRACK_TRY(choice.z, find_signal(signals, lines[2]));
     }
     if (choice.a == choice.b || choice.z == choice.a || choice.z == choice.b)
-        return fail(ErrorKind::bad_input, fmt::format("'{}' names a line twice. Nothing was decoded.", text));
+        return fail(ErrorKind::invalid_input, fmt::format("'{}' names a line twice. Nothing was decoded.", text));
     return choice;
 }
 
@@ -125,7 +125,7 @@ Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::str
         MOTIONRACK_TRY(ChannelSelection choice, read_choice(signals, text));
         for (const ChannelSelection& other : out)
             if (other.name == choice.name)
-                return fail(ErrorKind::bad_input,
+                return fail(ErrorKind::invalid_input,
                             fmt::format("There are two channels '{}'. Nothing was decoded; give each another name.",
                                         choice.name));
         out.push_back(std::move(choice));
@@ -133,10 +133,11 @@ Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::str
     for (const char* before : {"enc_", ""})
         if (out.empty() && texts.empty()) out = named_like(signals, before);
     if (out.empty())
-        return fail(ErrorKind::bad_input, fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, "
-                                                      "X.enc_z). Nothing was decoded; say which they "
-                                                      "are with --channel X=A,B,Z. The lines are: {}.",
-                                                      listed(signals)));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, "
+                                "X.enc_z). Nothing was decoded; say which they "
+                                "are with --channel X=A,B,Z. The lines are: {}.",
+                                listed(signals)));
     if (out.size() > most_channels)
         return fail(
             ErrorKind::refused,

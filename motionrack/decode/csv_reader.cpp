@@ -284,7 +284,7 @@ Result<bool> CsvCapture::next(Block& block) {
         const Result<void> done = take(row);
         if (done) continue;
         if (!row.cut) return tl::unexpected(done.error());
-        cut_ = Error{ErrorKind::bad_input,
+        cut_ = Error{ErrorKind::invalid_input,
                      "The file ends inside a row: it is cut off. The rows before that were decoded.", name_, row.place};
     }
     if (sampler_.waiting() == 0) return false;

@@ -89,7 +89,7 @@ bool TextReader::more() {
     }
     if (end_ >= longest) {
         error_ =
-            Error{ErrorKind::bad_input,
+            Error{ErrorKind::invalid_input,
                   fmt::format("A line or word has more than {} bytes: this is no text. Nothing more was decoded; say "
                               "--format raw if it is binary.",
                               longest),

@@ -75,7 +75,7 @@ class VcdCapture final : public Capture {
 Error VcdCapture::ends_in(const char* what) {
     if (text_.error()) return in_file(*text_.error());
     over_ = true;
-    return {ErrorKind::bad_input,
+    return {ErrorKind::invalid_input,
             fmt::format("The file ends inside {}: it is cut off.{}", what, head_read_ ? "" : " Nothing was decoded."),
             name_, text_.place()};
 }
@@ -297,7 +297,7 @@ Result<bool> VcdCapture::next(Block& block) {
         if (done) continue;
         // What is wrong with the very last word, or behind it, is that the file is cut off.
         if (text_.error() || !(text_.cut() || over_)) return tl::unexpected(done.error());
-        cut_ = Error{ErrorKind::bad_input,
+        cut_ = Error{ErrorKind::invalid_input,
                      "The file ends inside a value or time: it is cut off. What is before that was decoded.", name_,
                      text_.place()};
         end();

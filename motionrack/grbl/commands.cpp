@@ -33,7 +33,7 @@ bool take_equals(std::string_view& text) {
 
 }  // namespace
 
-int Session::command(const std::string& text) {
+int GrblSession::command(const std::string& text) {
     const char what = text.size() > 1 ? text[1] : '\0';
     const State now = state();
     switch (what) {
@@ -62,7 +62,7 @@ int Session::command(const std::string& text) {
     return command_at_rest(text);
 }
 
-int Session::command_at_rest(const std::string& text) {
+int GrblSession::command_at_rest(const std::string& text) {
     switch (text[1]) {
         case '#':
             if (text.size() > 2) return error_unknown;
@@ -97,7 +97,7 @@ int Session::command_at_rest(const std::string& text) {
 }
 
 /// 10=3
-int Session::store(std::string_view text) {
+int GrblSession::store(std::string_view text) {
     double number = 0, value = 0;
     if (!take_number(text, number)) return error_bad_number;
     if (!take_equals(text)) return error_unknown;
@@ -115,7 +115,7 @@ int Session::store(std::string_view text) {
 }
 
 /// 0=G54. It is read, but not driven.
-int Session::store_startup_line(std::string_view text) {
+int GrblSession::store_startup_line(std::string_view text) {
     double number = 0;
     if (!take_number(text, number)) return error_bad_number;
     if (!take_equals(text) || (number != 0 && number != 1)) return error_unknown;
@@ -126,7 +126,7 @@ int Session::store_startup_line(std::string_view text) {
     return error_none;
 }
 
-int Session::restore(const std::string& text) {
+int GrblSession::restore(const std::string& text) {
     if (text.size() != 6 || text.compare(0, 5, "$RST=") != 0) return error_unknown;
     const char what = text[5];
     if (what != '$' && what != '#' && what != '*') return error_unknown;
@@ -145,7 +145,7 @@ int Session::restore(const std::string& text) {
     return answer_later;
 }
 
-int Session::check_mode() {
+int GrblSession::check_mode() {
     if (check_) {
         say("Disabled");
         answer(error_none);
@@ -162,7 +162,7 @@ int Session::check_mode() {
 // ---- lock and home
 
 /// The operator says that the axes are where they are shown to be.
-int Session::unlock() {
+int GrblSession::unlock() {
     if (state() != State::alarm) return error_none;
     if (!control()) return error_locked;
     if (machine_.state() == MachineState::error_stop) machine_.reset();  // of a STOP; all else needs the sender's reset
@@ -171,13 +171,13 @@ int Session::unlock() {
     return answer_later;
 }
 
-void Session::declare_positions() {
+void GrblSession::declare_positions() {
     for (const operate::AxisStatus& axis : machine_.status().axes)
-        if (!machine_.trusted(*machine_.rack().config().axis(axis.letter)))
-            (void)machine_.declare_position(axis.letter, axis.commanded);
+        if (!machine_.position_valid(*machine_.rack().config().axis(axis.letter)))
+            (void)machine_.set_position(axis.letter, axis.commanded);
 }
 
-int Session::home() {
+int GrblSession::home() {
     if (!operate::can_home(machine_.rack().config())) return error_no_homing;
     if (!control()) return error_locked;
     (void)machine_.enable(true);
@@ -191,8 +191,8 @@ int Session::home() {
 }
 
 /// Axes without a switch stand where they are shown to, as after power-up of a Grbl.
-bool Session::finish_homing() {
-    const Result<void>& ended = machine_.homed()->ended;
+bool GrblSession::finish_homing() {
+    const Result<void>& ended = machine_.last_homing()->ended;
     if (ended) {
         alarm_ = false;
         if (locked() && !std::exchange(doing_->declared, true)) {
@@ -203,7 +203,7 @@ bool Session::finish_homing() {
         finish_answer(stopped_ ? error_locked : error_none);
         return true;
     }
-    if (ended.error().trouble == ErrorKind::refused) {
+    if (ended.error().kind == ErrorKind::refused) {
         say(ended.error().message);
         finish_answer(error_no_homing);
         return true;
@@ -214,9 +214,9 @@ bool Session::finish_homing() {
     return false;
 }
 
-int Session::number_of_homing() const {
-    if (machine_.homed()->ended.error().trouble == ErrorKind::stopped) return alarm_homing_reset;
-    for (const rack::HomedAxis& axis : machine_.homed()->axes)
+int GrblSession::number_of_homing() const {
+    if (machine_.last_homing()->ended.error().kind == ErrorKind::stopped) return alarm_homing_reset;
+    for (const rack::HomedAxis& axis : machine_.last_homing()->axes)
         if (axis.begun && !axis.outcome.homed)
             return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
     return alarm_homing_no_switch;
@@ -224,7 +224,7 @@ int Session::number_of_homing() const {
 
 // ---- jog
 
-int Session::jog(const std::string& text) {
+int GrblSession::jog(const std::string& text) {
     const State now = state();
     if (now != State::idle && now != State::jog) return error_not_idle;
     const JogLine line = read_jog(text, interpreter(), settings_.axes);

@@ -46,7 +46,7 @@ bool grbl_has(const Block& block, int axes) {
 
 bool must_stand_first(const Block& block, const Interpreter& interpreter, bool laser) {
     using namespace control::gcode;
-    const Modes& modes = interpreter.modes();
+    const ModalState& modes = interpreter.modes();
     if (block.has_m(m_stop)) return true;
     if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
     if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
@@ -68,7 +68,7 @@ JogLine read_jog(const std::string& text, Interpreter reader, int axes) {
     if (const int fault = fault_of_jog(block, axes); fault != error_none) return wrong(fault);
     const std::string line = fmt::format("G1G94{}", words);
     if (const auto read = reader.line(line, 0); !read) return wrong(static_cast<int>(read.error().status));
-    const Step* step = reader.pull();
+    const CanonCall* step = reader.pull();
     if (step == nullptr) return wrong(error_locked);
     return {error_none, step->move.end, step->move.feed};
 }

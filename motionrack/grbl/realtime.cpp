@@ -15,30 +15,30 @@ constexpr std::string_view banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
 struct OverrideStep {
     Realtime what;
-    int Session::Overrides::*which;
+    int GrblSession::Overrides::*which;
     bool absolute;
     int percent;
 };
 constexpr std::array<OverrideStep, 13> override_steps = {{
-    {Realtime::feed_100, &Session::Overrides::feed, true, 100},
-    {Realtime::feed_plus_10, &Session::Overrides::feed, false, 10},
-    {Realtime::feed_minus_10, &Session::Overrides::feed, false, -10},
-    {Realtime::feed_plus_1, &Session::Overrides::feed, false, 1},
-    {Realtime::feed_minus_1, &Session::Overrides::feed, false, -1},
-    {Realtime::rapid_100, &Session::Overrides::rapid, true, 100},
-    {Realtime::rapid_50, &Session::Overrides::rapid, true, 50},
-    {Realtime::rapid_25, &Session::Overrides::rapid, true, 25},
-    {Realtime::spindle_100, &Session::Overrides::spindle, true, 100},
-    {Realtime::spindle_plus_10, &Session::Overrides::spindle, false, 10},
-    {Realtime::spindle_minus_10, &Session::Overrides::spindle, false, -10},
-    {Realtime::spindle_plus_1, &Session::Overrides::spindle, false, 1},
-    {Realtime::spindle_minus_1, &Session::Overrides::spindle, false, -1},
+    {Realtime::feed_100, &GrblSession::Overrides::feed, true, 100},
+    {Realtime::feed_plus_10, &GrblSession::Overrides::feed, false, 10},
+    {Realtime::feed_minus_10, &GrblSession::Overrides::feed, false, -10},
+    {Realtime::feed_plus_1, &GrblSession::Overrides::feed, false, 1},
+    {Realtime::feed_minus_1, &GrblSession::Overrides::feed, false, -1},
+    {Realtime::rapid_100, &GrblSession::Overrides::rapid, true, 100},
+    {Realtime::rapid_50, &GrblSession::Overrides::rapid, true, 50},
+    {Realtime::rapid_25, &GrblSession::Overrides::rapid, true, 25},
+    {Realtime::spindle_100, &GrblSession::Overrides::spindle, true, 100},
+    {Realtime::spindle_plus_10, &GrblSession::Overrides::spindle, false, 10},
+    {Realtime::spindle_minus_10, &GrblSession::Overrides::spindle, false, -10},
+    {Realtime::spindle_plus_1, &GrblSession::Overrides::spindle, false, 1},
+    {Realtime::spindle_minus_1, &GrblSession::Overrides::spindle, false, -1},
 }};
 constexpr int least_override = 10, greatest_override = 200;
 
 }  // namespace
 
-void Session::act(Realtime what) {
+void GrblSession::act(Realtime what) {
     const operate::Status& status = machine_.status();
     if (status_wanted_ && what != Realtime::status) report();
     switch (what) {
@@ -73,17 +73,17 @@ void Session::act(Realtime what) {
     }
 }
 
-bool Session::may_switch_coolant() {
+bool GrblSession::may_switch_coolant() {
     const State now = state();
     return (now == State::idle || now == State::run || now == State::hold) && control();
 }
 
-void Session::switch_coolant(bool mist, bool flood) {
+void GrblSession::switch_coolant(bool mist, bool flood) {
     machine_.set_coolant(mist, flood);
     until_overrides_ = 0;
 }
 
-void Session::override_by(Realtime what) {
+void GrblSession::override_by(Realtime what) {
     const auto step = std::find_if(override_steps.begin(), override_steps.end(),
                                    [&](const OverrideStep& one) { return one.what == what; });
     if (step == override_steps.end() || !control()) return;
@@ -96,7 +96,7 @@ void Session::override_by(Realtime what) {
 
 // ---- hold, door, reset
 
-void Session::hold() {
+void GrblSession::hold() {
     switch (state()) {
         case State::idle:
             held_ = true;
@@ -116,7 +116,7 @@ void Session::hold() {
 }
 
 /// The machine has no door: it is shut again at once, and the sender resumes.
-void Session::open_door() {
+void GrblSession::open_door() {
     const State now = state();
     if (now == State::home) {
         homing_alarm_ = alarm_homing_door;
@@ -130,7 +130,7 @@ void Session::open_door() {
     held_ = false;
 }
 
-void Session::resume() {
+void GrblSession::resume() {
     const State now = state();
     if ((now != State::hold && now != State::door) || is_moving(machine_) || !control()) return;
     held_ = door_ = hold_seen_ = spindle_stopped_ = false;
@@ -140,7 +140,7 @@ void Session::resume() {
 
 /// What another drives goes on, but where the settings say otherwise.
 /// A stop that is in force ends only with a reset that the sender asks for, not with what resets a Grbl by itself.
-void Session::reset(bool is_asked_for) {
+void GrblSession::reset(bool is_asked_for) {
     const MachineState state = machine_.state();
     const bool stands = operate::idle(state);
     const Result<void> may = stands || !settings_.may_stop ? Result<void>() : settings_.may_stop();
@@ -168,7 +168,7 @@ void Session::reset(bool is_asked_for) {
     if (!may) say(may.error().message);
 }
 
-void Session::begin_again(bool after_reset) {
+void GrblSession::begin_again(bool after_reset) {
     until_offset_ = until_overrides_ = 0;
     put(banner);
     if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
@@ -176,7 +176,7 @@ void Session::begin_again(bool after_reset) {
 
 // ---- what the machine does
 
-void Session::watch_machine() {
+void GrblSession::watch_machine() {
     const MachineState state = machine_.state();
     never_enabled_ = never_enabled_ && state == MachineState::disabled;
     jogging_ = state == MachineState::jogging || (jogging_ && state == MachineState::stopping);
@@ -197,24 +197,24 @@ void Session::watch_machine() {
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),
               true);
-        say(machine_.status().why);
+        say(machine_.status().reason);
     }
 }
 
 /// Drives are switched on by who wants to move them, not by who connects.
-void Session::energise() {
+void GrblSession::energise() {
     if (never_enabled_) (void)machine_.enable(true);
 }
 
-bool Session::locked() const {
+bool GrblSession::locked() const {
     const MachineState state = machine_.state();
     if (alarm_ || stopped_ || (state == MachineState::disabled && !never_enabled_)) return true;
     if (state == MachineState::error_stop || state == MachineState::service) return true;
     return std::ranges::any_of(machine_.rack().config().axes,
-                               [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
+                               [&](const rack::RackAxis& axis) { return !machine_.position_valid(axis); });
 }
 
-State Session::state() const {
+State GrblSession::state() const {
     const MachineState state = machine_.state();
     if (asleep_) return State::sleep;
     if (state == MachineState::homing) return State::home;

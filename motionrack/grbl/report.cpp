@@ -26,7 +26,7 @@ constexpr double mm_per_inch = 25.4;
 
 }  // namespace
 
-std::string Session::state_text(State now) const {
+std::string GrblSession::state_text(State now) const {
     switch (now) {
         case State::idle:
             return "Idle";
@@ -51,7 +51,7 @@ std::string Session::state_text(State now) const {
 }
 
 /// "1.000,2.000,3.000"; degrees stay degrees in inches.
-std::string Session::values(const control::Point& point) const {
+std::string GrblSession::values(const control::Point& point) const {
     std::string out;
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
         const bool inches = own_.inches != 0 && axis < 3;
@@ -62,7 +62,7 @@ std::string Session::values(const control::Point& point) const {
     return out;
 }
 
-void Session::report() {
+void GrblSession::report() {
     status_wanted_ = false;
     const State now = state();
     const operate::Status& status = machine_.status();
@@ -88,7 +88,7 @@ void Session::report() {
 }
 
 /// Work offset and overrides: after a change, and now and then; overrides never beside the offset.
-std::string Session::counted_reports(State now) {
+std::string GrblSession::counted_reports(State now) {
     const control::Point& offset = interpreter().frame().offset;
     const Overrides overrides_now = overrides();
     if (offset != std::exchange(told_offset_, offset)) until_offset_ = 0;
@@ -114,7 +114,7 @@ std::string Session::counted_reports(State now) {
 }
 
 /// P: the probe touches; limit switches of the axes; R: the emergency stop, which a Grbl has at its reset pin.
-std::string Session::pins() const {
+std::string GrblSession::pins() const {
     std::string out;
     if (const Result<double> probe = machine_.wires().get("probe"); probe && *probe != 0) out += 'P';
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
@@ -123,7 +123,7 @@ std::string Session::pins() const {
     return out.empty() ? out : "|Pn:" + out;
 }
 
-std::string Session::accessories() const {
+std::string GrblSession::accessories() const {
     using control::gcode::Spindle;
     const operate::Status& status = machine_.status();
     std::string out;
@@ -133,20 +133,20 @@ std::string Session::accessories() const {
     return out;
 }
 
-Session::Overrides Session::overrides() const {
+GrblSession::Overrides GrblSession::overrides() const {
     return {static_cast<int>(std::lround(machine_.feed_override() * 100)),
             static_cast<int>(std::lround(machine_.rapid_override() * 100)), spindle_override_};
 }
 
-double Session::spindle_rpm() const {
+double GrblSession::spindle_rpm() const {
     const operate::Status& status = machine_.status();
     if (status.spindle == control::gcode::Spindle::off || spindle_stopped_ || status.spindle_rpm == 0) return 0;
     return std::max(own_.least_rpm, std::min(own_.most_rpm, status.spindle_rpm * spindle_override_ / 100));
 }
 
-std::string Session::modes_text() const {
+std::string GrblSession::modes_text() const {
     using control::gcode::Spindle;
-    const control::gcode::Modes& modes = interpreter().modes();
+    const control::gcode::ModalState& modes = interpreter().modes();
     const int motion = modes.motion != control::gcode::no_motion ? modes.motion / 10 : was_g80_ ? 80 : 0;
     std::string out =
         fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion,
@@ -163,8 +163,8 @@ std::string Session::modes_text() const {
     return out;
 }
 
-std::string Session::parameters_text() const {
-    const control::gcode::Frame& frame = interpreter().frame();
+std::string GrblSession::parameters_text() const {
+    const control::gcode::WorkFrame& frame = interpreter().frame();
     std::string out;
     for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system)
         out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
@@ -175,8 +175,8 @@ std::string Session::parameters_text() const {
 }
 
 /// Machine coordinates of the last contact; 0 at the end: there was none.
-std::string Session::probe_text() const {
-    const control::gcode::Frame& frame = interpreter().frame();
+std::string GrblSession::probe_text() const {
+    const control::gcode::WorkFrame& frame = interpreter().frame();
     return fmt::format("[PRB:{}:{}]\r\n", values(frame.probe), frame.probe_hit ? 1 : 0);
 }
 

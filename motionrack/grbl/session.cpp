@@ -22,7 +22,7 @@ int decimal_of(const Problem& problem) {
 
 }  // namespace
 
-Session::Session(operate::Machine& machine, SessionSettings settings)
+GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
     : machine_(machine), settings_(std::move(settings)) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     never_enabled_ = machine_.state() == MachineState::disabled;
@@ -32,7 +32,7 @@ Session::Session(operate::Machine& machine, SessionSettings settings)
 
 // ---- bytes
 
-void Session::receive(std::string_view bytes) {
+void GrblSession::receive(std::string_view bytes) {
     for (const char c : bytes) {
         const auto byte = static_cast<std::uint8_t>(c);
         if (const std::optional<Realtime> what = realtime_of(byte)) {
@@ -46,7 +46,7 @@ void Session::receive(std::string_view bytes) {
     if (status_wanted_) report();
 }
 
-void Session::observe(std::string_view bytes) {
+void GrblSession::observe(std::string_view bytes) {
     for (const char c : bytes) {
         const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
         if (what == Realtime::reset && !settings_.onlookers_reset)
@@ -58,13 +58,13 @@ void Session::observe(std::string_view bytes) {
     if (status_wanted_) report();
 }
 
-void Session::tick() {
+void GrblSession::tick() {
     watch_machine();
     work();
     if (status_wanted_) report();
 }
 
-void Session::greet() {
+void GrblSession::greet() {
     intake_.clear();
     line_.reset();
     if (doing_) doing_->silent = true;
@@ -75,7 +75,7 @@ void Session::greet() {
 // ---- lines
 
 /// Takes lines for as long as nothing makes them wait.
-void Session::work() {
+void GrblSession::work() {
     while (true) {
         if (doing_ && !finish()) return;
         if (!settled()) return;
@@ -93,16 +93,16 @@ void Session::work() {
 }
 
 /// The machine is in nobody's hands but the lines'.
-bool Session::settled() const {
+bool GrblSession::settled() const {
     const MachineState state = machine_.state();
     return !machine_.has_orders() && state != MachineState::stopping && state != MachineState::homing;
 }
 
-bool Session::has_room() const {
+bool GrblSession::has_room() const {
     return machine_.has_room() && machine_.stream().moves() < planner_blocks;
 }
 
-bool Session::must_wait(const Line& line) {
+bool GrblSession::must_wait(const Line& line) {
     const std::string& text = line.text;
     if (line.too_long || text.empty()) return false;
     const State now = state();
@@ -116,7 +116,7 @@ bool Session::must_wait(const Line& line) {
            must_stand_first(block, interpreter(), own_.laser != 0);
 }
 
-void Session::carry_out(const std::string& text) {
+void GrblSession::carry_out(const std::string& text) {
     int error = error_none;
     if (!text.empty() && text[0] == '$')
         error = command(text);
@@ -125,7 +125,7 @@ void Session::carry_out(const std::string& text) {
     if (error != answer_later) answer(error);
 }
 
-int Session::gcode(const std::string& text) {
+int GrblSession::gcode(const std::string& text) {
     using namespace control::gcode;
     const State now = state();
     if (now == State::alarm || now == State::jog) return error_locked;
@@ -151,10 +151,10 @@ int Session::gcode(const std::string& text) {
 }
 
 /// A line for the machine, which begins in G0 as a Grbl does.
-control::gcode::Outcome<void> Session::give(const std::string& text, std::int32_t n_word) {
+control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::int32_t n_word) {
     if (!control()) {
         Problem problem;
-        problem.trouble = ErrorKind::refused;
+        problem.kind = ErrorKind::refused;
         return tl::unexpected<Problem>(std::move(problem));
     }
     energise();
@@ -166,7 +166,7 @@ control::gcode::Outcome<void> Session::give(const std::string& text, std::int32_
     return {};
 }
 
-int Session::refused(const Problem& problem) {
+int GrblSession::refused(const Problem& problem) {
     if (problem.status == GrblStatus::travel_exceeded) {
         if (!check_ && machine_.state() == MachineState::moving) machine_.cancel();
         doing_ = Doing{Doing::What::leaving_travel};
@@ -176,7 +176,7 @@ int Session::refused(const Problem& problem) {
     return decimal_of(problem);
 }
 
-bool Session::control() {
+bool GrblSession::control() {
     if (!settings_.take_control) return true;
     const Result<void> taken = settings_.take_control();
     if (!taken) say(taken.error().message);
@@ -186,7 +186,7 @@ bool Session::control() {
 // ---- what others do
 
 /// A reset of a machine that stands has forgotten the modes in which waiting lines were meant.
-void Session::stopped(const operate::StopReport& report) {
+void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
     const bool waits = held_ || door_ || line_ || doing_;
     if (report.releases && std::exchange(stopped_, false)) return say(report.text + " The sender may go on");
@@ -195,14 +195,14 @@ void Session::stopped(const operate::StopReport& report) {
     lock(report.text);
 }
 
-void Session::lose_control(const std::string& to) {
+void GrblSession::lose_control(const std::string& to) {
     if (operate::idle(machine_.state()) && !line_ && !doing_) return;
     lock(fmt::format("{} has taken control", to.empty() ? "Somebody" : to));
 }
 
 /// Lines that wait are answered as all later ones: a line of which only the end is forgotten would be another line. A
 /// homing is alarmed when it has ended, a line past the travel as well.
-void Session::lock(std::string_view why) {
+void GrblSession::lock(std::string_view why) {
     const bool locked_before = std::exchange(stopped_, true) || critical_;
     held_ = door_ = hold_seen_ = false;
     n_words_.clear();
@@ -216,7 +216,7 @@ void Session::lock(std::string_view why) {
 // ---- answers that had to wait
 
 /// Whether the line before is done with.
-bool Session::finish() {
+bool GrblSession::finish() {
     const MachineState state = machine_.state();
     if (critical_ || (state == MachineState::error_stop && doing_->what != Doing::What::homing)) return false;
     const bool stands = settled() && state != MachineState::moving && state != MachineState::hold;
@@ -243,21 +243,21 @@ bool Session::finish() {
     return true;
 }
 
-void Session::finish_answer(int error) {
+void GrblSession::finish_answer(int error) {
     if (!std::exchange(doing_, std::nullopt)->silent) answer(error);
 }
 
-void Session::end_program() {
+void GrblSession::end_program() {
     spindle_override_ = 100;
     machine_.set_overrides(1, 1);
     if (!doing_->silent) say("Pgm End");
 }
 
-void Session::finish_boot() {
+void GrblSession::finish_boot() {
     const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
     if (machine_.state() == MachineState::error_stop && !(after_reset && alarm_ && is_stop_ordered(machine_))) {
         critical_ = true;
-        say(machine_.status().why);
+        say(machine_.status().reason);
     }
     if (locked())
         say("'$H'|'$X' to unlock");
@@ -265,7 +265,7 @@ void Session::finish_boot() {
         startup();
 }
 
-void Session::startup() {
+void GrblSession::startup() {
     for (const std::string& text : startup_lines_) {
         if (text.empty()) continue;
         const auto read = give(text, 0);
@@ -276,7 +276,7 @@ void Session::startup() {
 
 // ---- answers
 
-void Session::answer(int error) {
+void GrblSession::answer(int error) {
     if (error == error_none)
         put("ok\r\n");
     else
@@ -284,13 +284,13 @@ void Session::answer(int error) {
 }
 
 /// In ASCII, and without what ends a message.
-void Session::say(std::string_view text) {
+void GrblSession::say(std::string_view text) {
     put("[MSG:");
     for (const char c : text) out_ += c >= ' ' && c <= '~' && c != '[' && c != ']' ? c : '?';
     put("]\r\n");
 }
 
-void Session::alarm(int number, bool needs_reset) {
+void GrblSession::alarm(int number, bool needs_reset) {
     alarm_ = true;
     put(fmt::format("ALARM:{}\r\n", number));
     if (!needs_reset) return;

@@ -40,13 +40,13 @@ struct SessionSettings {
 /// As senders see the machine.
 enum class State : std::uint8_t { idle, run, hold, jog, alarm, door, check, home, sleep };
 
-class Session {
+class GrblSession {
   public:
     static constexpr std::size_t planner_blocks = 15;  ///< that a sender can fill
 
     /// A machine that nobody has enabled is enabled by the first line that moves it: a Grbl has no such state. The
     /// machine must outlive this.
-    Session(operate::Machine& machine, SessionSettings settings);
+    GrblSession(operate::Machine& machine, SessionSettings settings);
 
     /// Somebody has connected: what was left of the one before is forgotten, the machine goes on. Sends the banner.
     void greet();

@@ -76,22 +76,24 @@ constexpr std::array<Setting, 22> table = {{
      nullptr},
     {24, 3, "homing feed, mm/min",
      [](const RackConfig& c) {
-         return of_homing(c, [](const control::HomeOrder& order, const RackAxis&) { return order.slow_speed * 60; });
+         return of_homing(c,
+                          [](const control::HomingRequest& order, const RackAxis&) { return order.slow_speed * 60; });
      },
      nullptr},
     {25, 3, "homing seek, mm/min",
      [](const RackConfig& c) {
-         return of_homing(c, [](const control::HomeOrder& order, const RackAxis&) { return order.speed * 60; });
+         return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.speed * 60; });
      },
      nullptr},
     {26, 0, "homing debounce, ms",
      [](const RackConfig& c) {
-         return of_homing(c, [](const control::HomeOrder& order, const RackAxis&) { return order.settle_s * 1000; });
+         return of_homing(c,
+                          [](const control::HomingRequest& order, const RackAxis&) { return order.settle_s * 1000; });
      },
      nullptr},
     {27, 3, "homing pull-off, mm",
      [](const RackConfig& c) {
-         return of_homing(c, [](const control::HomeOrder& order, const RackAxis&) { return order.clearance; });
+         return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.clearance; });
      },
      nullptr},
     {30, 0, "greatest spindle speed, rpm", nullptr, &SessionSettingValues::most_rpm, 1e6},
@@ -101,7 +103,7 @@ constexpr std::array<Setting, 22> table = {{
 
 constexpr std::array<AxisSetting, 4> axis_table = {{
     {100, "pulses a mm or degree", [](const RackAxis& axis) { return axis.pulses_per_unit(); }},
-    {110, "greatest speed, mm/min", [](const RackAxis& axis) { return axis.max_speed * 60; }},
+    {110, "greatest speed, mm/min", [](const RackAxis& axis) { return axis.max_velocity * 60; }},
     {120, "acceleration, mm/s2", [](const RackAxis& axis) { return axis.max_accel; }},
     {130, "travel, mm", [](const RackAxis& axis) { return axis.max_position - axis.min_position; }},
 }};

@@ -318,7 +318,7 @@ Result<ChainCheck> Journal::check() const {
 
 Result<std::vector<Entry>> Journal::read(const JournalQuery& question) const {
     if (question.limit < 1 || question.limit > 10000)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The journal gives 1 to 10000 entries at once, not {}.", question.limit));
     const std::lock_guard<std::mutex> guard(reading_);
     Statement select(

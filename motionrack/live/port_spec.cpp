@@ -10,7 +10,7 @@ namespace motionrack::live {
 namespace {
 
 tl::unexpected<Error> wrong(std::string_view text, std::string_view what) {
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("'{}' does not say where a card is: {}. The form is {}. Nothing was opened.", text, what,
                             port_spec_form()));
 }
@@ -26,7 +26,7 @@ std::optional<std::uint64_t> number(std::string_view text) {
 
 struct Range {
     std::string_view key;
-    std::uint64_t least, greatest;
+    std::uint64_t min, max;
     void (*set)(PortSpec&, std::uint64_t);
 };
 
@@ -50,8 +50,8 @@ std::string take(PortSpec& spec, std::string_view key, std::string_view value) {
         if (range.key != key) continue;
         const auto n = number(value);
         if (!n) return fmt::format("{} is '{}', which is no number", key, value);
-        if (*n < range.least || *n > range.greatest)
-            return fmt::format("{} is {}, but may be {} to {}", key, value, range.least, range.greatest);
+        if (*n < range.min || *n > range.max)
+            return fmt::format("{} is {}, but may be {} to {}", key, value, range.min, range.max);
         range.set(spec, *n);
         return "";
     }

@@ -20,7 +20,7 @@ constexpr double greatest_mm = 1e5;
 Result<void> check_size(const Drawing& drawing, const std::string& file) {
     if (element_count(drawing) > most_elements || segment_count(drawing) > most_segments)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format(
                 "The drawing has more than {} lines and arcs, or more than {} with arcs as lines. Nothing was marked.",
                 most_elements, most_segments),
@@ -30,7 +30,7 @@ Result<void> check_size(const Drawing& drawing, const std::string& file) {
         bool good = near(stroke.from);
         for (const Element& e : stroke.elements) good &= near(e.to) && near(e.centre);
         if (!good)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("Some of the drawing, or the centre of an arc, is more than {:g} mm from the "
                                     "field's middle. Nothing was marked; make it smaller.",
                                     greatest_mm),
@@ -45,9 +45,9 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
     Drawing drawing;
     if (source.text) {
         const auto text = numbered(*source.text, number);
-        if (!text) return fail(text.error().trouble, text.error().message, {}, file);
+        if (!text) return fail(text.error().kind, text.error().message, {}, file);
         auto made = text_drawing(*text, source.height_mm);
-        if (!made) return fail(made.error().trouble, made.error().message, {}, file);
+        if (!made) return fail(made.error().kind, made.error().message, {}, file);
         drawing = std::move(*made);
     } else {
         const std::string& name = source.svg ? *source.svg : *source.gcode;
@@ -55,14 +55,14 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
         MOTIONRACK_TRY(drawing, source.svg ? read_svg(text, name, source.tolerance_mm) : read_gcode(text, name));
     }
     if (element_count(drawing) == 0)
-        return fail(ErrorKind::bad_input, "The drawing has no lines. Nothing was marked.", {}, file);
+        return fail(ErrorKind::invalid_input, "The drawing has no lines. Nothing was marked.", {}, file);
     MOTIONRACK_CHECK(check_size(drawing, file));
     const Box box = box_of(drawing);
     double scale = source.scale;
     if (source.width_mm) {
         const double wide = box.high.x - box.low.x;
         if (!(wide > 0))
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         "The drawing is 0 mm wide and cannot be made as wide as width_mm. Nothing was marked.", {},
                         file);
         scale *= *source.width_mm / wide;
@@ -84,12 +84,12 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
 
 }  // namespace
 
-bool has_numbers(const Job& job) {
+bool has_numbers(const MarkingJob& job) {
     return std::any_of(job.drawings.begin(), job.drawings.end(),
                        [](const DrawingSource& d) { return d.text && d.text->find('{') != std::string::npos; });
 }
 
-Result<Drawing> drawing_of(const Job& job, const Load& load, std::int64_t number) {
+Result<Drawing> drawing_of(const MarkingJob& job, const Load& load, std::int64_t number) {
     Drawing out;
     for (const DrawingSource& source : job.drawings) {
         MOTIONRACK_TRY(Drawing one, source_drawing(source, job.file, load, number));

@@ -34,7 +34,7 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
         limits = {.present = true,
                   .min_position = -1e5,
                   .max_position = 1e5,
-                  .max_speed = 1e5,
+                  .max_velocity = 1e5,
                   .max_accel = 1e6,
                   .pulses_per_unit = 1};
     }
@@ -50,16 +50,16 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
         if ((*step)->kind != control::gcode::CanonCallKind::move || (*step)->move.kind == MoveKind::dwell) continue;
         const Move& move = (*step)->move;
         const Spot to{move.end[0], move.end[1]};
-        if (move.kind == MoveKind::traverse) {
+        if (move.kind == MoveKind::rapid) {
             down = false;
         } else {
             const bool is_arc = move.kind == MoveKind::arc;
             if (is_arc && (move.first != 0 || move.second != 1))
-                return fail(ErrorKind::bad_input,
+                return fail(ErrorKind::invalid_input,
                             "An arc outside the XY plane cannot be marked. Nothing was marked; use G17.",
                             {move.line, 0}, file);
             if (++count > most_elements)
-                return fail(ErrorKind::bad_input,
+                return fail(ErrorKind::invalid_input,
                             fmt::format("More than {} lines and arcs. Nothing was marked.", most_elements),
                             {move.line, 0}, file);
             if (is_arc || to.x != at.x || to.y != at.y) {

@@ -40,7 +40,7 @@ struct ProcessSpeeds {
     double laser_on_us = 0, laser_off_us = 0;                           ///< whole 0.5 us
 };
 
-struct Belt {
+struct BeltSettings {
     double speed = 0;                         ///< mm/s, or degrees/s of a table
     double direction_deg = 0;                 ///< of a belt
     double centre_x_mm = 0, centre_y_mm = 0;  ///< of a table
@@ -52,7 +52,7 @@ struct Belt {
 };
 
 enum class FlyMode : std::uint8_t { off, encoder, simulated, mcbsp };
-enum class Waits : std::uint8_t { none, automatic };
+enum class WaitMode : std::uint8_t { none, automatic };
 
 struct FlySettings {
     FlyMode mode = FlyMode::off;
@@ -62,7 +62,7 @@ struct FlySettings {
         simulated_speed;  ///< mm/s or degrees/s that the simulated encoder stands for; none: the belt's
     double offset_us =
         0;  ///< everything is marked so much of the belt's first speed further on: for a source that is late
-    Waits waits = Waits::none;
+    WaitMode waits = WaitMode::none;
     double margin_mm = 1;  ///< with waits: marks keep so far from the field's edge
 };
 
@@ -88,7 +88,7 @@ struct PartsSettings {
     double way(std::size_t i) const { return (at.empty() ? static_cast<double>(i) * spacing : at[i]) + track_delay; }
 };
 
-struct Job {
+struct MarkingJob {
     std::string file;
     std::vector<DrawingSource> drawings;
     Optics optics;
@@ -96,7 +96,7 @@ struct Job {
     parts::GalvoSettings galvo;
     parts::LaserSettings laser;
     ProcessSpeeds pace;
-    Belt belt;
+    BeltSettings belt;
     FlySettings fly;
     std::optional<PartsSettings> parts;  ///< none: one part, and the job begins by itself
     parts::SerialPositionSettings sender;
@@ -108,7 +108,7 @@ struct Job {
 
 /// A job, or everything that is wrong with it, with the places.
 struct JobRead {
-    std::optional<Job> job;
+    std::optional<MarkingJob> job;
     std::vector<Error> errors;
 };
 JobRead read_job(std::string_view text, const std::string& file);
@@ -121,8 +121,8 @@ using Load = std::function<Result<std::string>(const std::string& path)>;
 
 /// The drawing of a job in the field's mm, placed, scaled and turned, with this number in its texts. Errors: of the
 /// file, or a drawing without lines.
-Result<Drawing> drawing_of(const Job& job, const Load& load, std::int64_t number);
+Result<Drawing> drawing_of(const MarkingJob& job, const Load& load, std::int64_t number);
 /// Whether its texts have a number.
-bool has_numbers(const Job& job);
+bool has_numbers(const MarkingJob& job);
 
 }  // namespace motionrack::mark

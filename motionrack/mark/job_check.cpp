@@ -22,7 +22,7 @@ void check_steps(const TomlNode& root, std::string_view section, std::string_vie
                                                                   rack::number_text(value), rack::number_text(step)));
 }
 
-void check_drawings(const TomlNode& root, const Job& job, rack::Problems& problems) {
+void check_drawings(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     const TomlNode* node = root.find("drawing");
     if (job.drawings.empty())
         return problems.error(node != nullptr ? node->key_place : Place{1, 1}, "A job needs a [drawing].");
@@ -43,7 +43,7 @@ void check_drawings(const TomlNode& root, const Job& job, rack::Problems& proble
     }
 }
 
-void check_pace(const TomlNode& root, const Job& job, rack::Problems& problems) {
+void check_pace(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     for (const auto& [key, value] :
          {std::pair{"jump_delay_us", job.pace.jump_delay_us}, std::pair{"mark_delay_us", job.pace.mark_delay_us},
           std::pair{"polygon_delay_us", job.pace.polygon_delay_us}})
@@ -54,17 +54,17 @@ void check_pace(const TomlNode& root, const Job& job, rack::Problems& problems) 
     check_steps(root, "fly", "tracking_error_us", job.fly.tracking_error_us, 10, problems);
 }
 
-bool stands(const Job& job) {
+bool stands(const MarkingJob& job) {
     const auto profile = job.track().profile;
     return std::all_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed == 0; });
 }
-bool turns_back(const Job& job) {
+bool turns_back(const MarkingJob& job) {
     const auto profile = job.track().profile;
     return std::any_of(profile.begin(), profile.end(),
                        [&](const parts::SpeedPoint& p) { return p.speed * job.sense() < 0; });
 }
 
-void check_fly(const TomlNode& root, const Job& job, rack::Problems& problems) {
+void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     const FlySettings& fly = job.fly;
     const auto wrong = [&](std::string_view key, std::string message) {
         problems.error(root.find("fly")->place_of(key), std::move(message));
@@ -82,7 +82,7 @@ void check_fly(const TomlNode& root, const Job& job, rack::Problems& problems) {
         wrong("tracking_error_us",
               "The card makes up for tracking errors of encoders only, not of a McBSP source; take offset_us, which is "
               "right at constant speed.");
-    if (fly.waits == Waits::none) return;
+    if (fly.waits == WaitMode::none) return;
     const double quarter = job.belt.direction_deg / 90;
     if (job.belt.rotary)
         wrong("waits", "Waits are for drawings along a belt; on a table mark [parts] one after the other.");
@@ -96,7 +96,7 @@ void check_fly(const TomlNode& root, const Job& job, rack::Problems& problems) {
               "them only while the correction is on; take mode encoder.");
 }
 
-void check_parts(const TomlNode& root, const Job& job, rack::Problems& problems) {
+void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     if (!job.parts) return;
     const PartsSettings& parts = *job.parts;
     const TomlNode& table = *root.find("parts");
@@ -125,7 +125,7 @@ void check_parts(const TomlNode& root, const Job& job, rack::Problems& problems)
 
 }  // namespace
 
-void check_job(const TomlNode& root, const Job& job, rack::Problems& problems) {
+void check_job(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     check_drawings(root, job, problems);
     if (root.find("belt") != nullptr && root.find("table") != nullptr)
         problems.error(root.find("table")->key_place, "A job has a [belt] or a [table], not both.");

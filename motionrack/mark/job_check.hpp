@@ -7,6 +7,6 @@
 namespace motionrack::mark {
 
 /// Each mistake is an error with its place.
-void check_job(const rack::TomlNode& root, const Job& job, rack::Problems& problems);
+void check_job(const rack::TomlNode& root, const MarkingJob& job, rack::Problems& problems);
 
 }  // namespace motionrack::mark

@@ -50,19 +50,20 @@ inline constexpr std::array<Field, 7> pace_fields = {
     field<&ProcessSpeeds::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to the laser"),
 };
 inline constexpr std::array<Field, 5> belt_fields = {
-    field<&Belt::speed>("speed_mm_s", -1e5, 1e5, "mm/s", "speed"),
-    field<&Belt::direction_deg>("direction_deg", -3600, 3600, "deg", "where it goes, from +X counter-clockwise"),
-    field<&Belt::counts_per_unit>("counts_per_mm", -1e6, 1e6, "", "of its encoder, four a line"),
-    field<&Belt::slip>("slip", -0.5, 0.5, "", "of the encoder's wheel"),
-    field<&Belt::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
+    field<&BeltSettings::speed>("speed_mm_s", -1e5, 1e5, "mm/s", "speed"),
+    field<&BeltSettings::direction_deg>("direction_deg", -3600, 3600, "deg",
+                                        "where it goes, from +X counter-clockwise"),
+    field<&BeltSettings::counts_per_unit>("counts_per_mm", -1e6, 1e6, "", "of its encoder, four a line"),
+    field<&BeltSettings::slip>("slip", -0.5, 0.5, "", "of the encoder's wheel"),
+    field<&BeltSettings::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
 };
 inline constexpr std::array<Field, 6> table_fields = {
-    field<&Belt::speed>("speed_deg_s", -1e5, 1e5, "deg/s", "speed, counter-clockwise"),
-    field<&Belt::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
-    field<&Belt::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
-    field<&Belt::counts_per_unit>("counts_per_deg", -1e6, 1e6, "", "of its encoder, four a line"),
-    field<&Belt::slip>("slip", -0.5, 0.5, "", "of the encoder's wheel"),
-    field<&Belt::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
+    field<&BeltSettings::speed>("speed_deg_s", -1e5, 1e5, "deg/s", "speed, counter-clockwise"),
+    field<&BeltSettings::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
+    field<&BeltSettings::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
+    field<&BeltSettings::counts_per_unit>("counts_per_deg", -1e6, 1e6, "", "of its encoder, four a line"),
+    field<&BeltSettings::slip>("slip", -0.5, 0.5, "", "of the encoder's wheel"),
+    field<&BeltSettings::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
 };
 inline constexpr std::array<Field, 7> fly_fields = {
     with_choices(field<&FlySettings::mode>("mode", 0, 0, "", "where the card has the movement from"), modes),

@@ -20,7 +20,7 @@ double decimal_field(const TomlNode& node) {
 }
 
 /// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
-void read_profile(const TomlNode& table, Belt& belt, rack::Problems& problems) {
+void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& problems) {
     const TomlNode* profile = table.find("profile");
     if (profile == nullptr) return;
     if (profile->type != TomlType::array || profile->children.empty() || profile->children.size() > 10'000)
@@ -62,7 +62,7 @@ void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, 
 /// One section into its member of the job.
 class SectionReader {
   public:
-    SectionReader(Job& job, std::string unit, rack::Problems& problems)
+    SectionReader(MarkingJob& job, std::string unit, rack::Problems& problems)
         : job_(job), unit_(std::move(unit)), problems_(problems) {}
 
     void read(const TomlNode& node, std::string_view name) {
@@ -92,14 +92,14 @@ class SectionReader {
         return &job_.belt;
     }
 
-    Job& job_;
+    MarkingJob& job_;
     std::string unit_;
     rack::Problems& problems_;
 };
 
 }  // namespace
 
-parts::ConveyorSettings Job::track() const {
+parts::ConveyorSettings MarkingJob::track() const {
     parts::ConveyorSettings out;
     out.rotary = belt.rotary;
     out.direction_deg = belt.direction_deg;
@@ -111,7 +111,7 @@ parts::ConveyorSettings Job::track() const {
     return out;
 }
 
-double Job::sense() const {
+double MarkingJob::sense() const {
     const std::vector<parts::SpeedPoint> profile = track().profile;
     return std::any_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed < 0; }) ? -1 : 1;
 }
@@ -120,7 +120,7 @@ JobRead read_job(std::string_view text, const std::string& file) {
     const Result<TomlNode> root = rack::parse_toml(text, file);
     if (!root) return {std::nullopt, {root.error()}};
     rack::Problems problems(file);
-    Job job;
+    MarkingJob job;
     job.file = file;
     std::vector<std::string_view> names;
     for (const fields::SectionInfo& section : fields::sections) names.push_back(section.name);

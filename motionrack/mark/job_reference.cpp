@@ -9,7 +9,7 @@ namespace motionrack::mark {
 namespace {
 
 /// A section's defaults.
-const void* defaults_of(const Job& job, const DrawingSource& drawing, const rack::RackLens& lens,
+const void* defaults_of(const MarkingJob& job, const DrawingSource& drawing, const rack::RackLens& lens,
                         const PartsSettings& parts, std::string_view section) {
     if (section == "drawing") return &drawing;
     if (section == "optics") return &job.optics;
@@ -39,7 +39,7 @@ std::string array_row(const fields::ArrayKey& key, std::string_view section) {
 }  // namespace
 
 std::string job_file_reference() {
-    const Job job;
+    const MarkingJob job;
     const DrawingSource drawing;
     const rack::RackLens lens;
     const PartsSettings parts;

@@ -16,12 +16,12 @@ constexpr std::int64_t slice = 50'000;    // ticks between two looks at progress
 constexpr std::int64_t host_ticks = 100;  // between two looks of the host at the card
 constexpr auto greatest_ticks = static_cast<std::int64_t>(greatest_seconds * 1e5);
 
-bool takes_turns(const Job& job, const Prepared& prepared) {
+bool takes_turns(const MarkingJob& job, const Prepared& prepared) {
     return job.parts && job.parts->size() > 1 &&
            (!prepared.further.empty() || job.parts->start == PartStart::equidistant);
 }
 
-rtc5::Settings settings_of(const Job& job, const Prepared& prepared) {
+rtc5::Settings settings_of(const MarkingJob& job, const Prepared& prepared) {
     rtc5::Settings out;
     out.list1 = takes_turns(job, prepared) ? out.list_memory / 2 : out.list_memory;
     out.list2 = out.list_memory - out.list1;
@@ -30,7 +30,7 @@ rtc5::Settings settings_of(const Job& job, const Prepared& prepared) {
 
 }  // namespace
 
-Result<InputModel> InputModel::make(const Job& job, const ConveyorTracking& following) {
+Result<InputModel> InputModel::make(const MarkingJob& job, const ConveyorTracking& following) {
     const parts::ConveyorSettings& settings = following.track;
     MOTIONRACK_TRY(parts::Conveyor track, parts::Conveyor::make(settings));
     InputModel out(std::move(track));
@@ -59,8 +59,8 @@ bool InputModel::words(std::int64_t first, std::span<std::uint32_t> out) {
     return source_.has_value();
 }
 
-Line::Line(const Job& job, const Prepared& prepared, const ConveyorTracking& following, InputModel senses,
-           const rtc5::Settings& settings)
+MarkingHost::MarkingHost(const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following,
+                         InputModel senses, const rtc5::Settings& settings)
     : job_(job),
       prepared_(prepared),
       following_(following),
@@ -68,9 +68,11 @@ Line::Line(const Job& job, const Prepared& prepared, const ConveyorTracking& fol
       card_(settings),
       alternates_(takes_turns(job, prepared)) {}
 
-Result<std::unique_ptr<Line>> Line::make(const Job& job, const Prepared& prepared, const ConveyorTracking& following) {
+Result<std::unique_ptr<MarkingHost>> MarkingHost::make(const MarkingJob& job, const Prepared& prepared,
+                                                       const ConveyorTracking& following) {
     MOTIONRACK_TRY(InputModel senses, InputModel::make(job, following));
-    std::unique_ptr<Line> out(new Line(job, prepared, following, std::move(senses), settings_of(job, prepared)));
+    std::unique_ptr<MarkingHost> out(
+        new MarkingHost(job, prepared, following, std::move(senses), settings_of(job, prepared)));
     MOTIONRACK_CHECK(out->set_up());
     return out;
 }
@@ -89,7 +91,7 @@ Result<void> put_all(Engine& card, int list, const std::vector<rtc5::Command>& c
     return {};
 }
 
-Result<void> Line::load(int list, std::size_t marked) {
+Result<void> MarkingHost::load(int list, std::size_t marked) {
     MOTIONRACK_TRY(const std::vector<rtc5::Command> commands, list_of(job_, prepared_, following_, marked));
     loaded_[static_cast<std::size_t>(list - 1)] = marked;
     return put_all(card_, list, commands);
@@ -97,7 +99,7 @@ Result<void> Line::load(int list, std::size_t marked) {
 
 /// Starts reset the encoders only if a correction asked for it before: a list that sets it, and is over before the
 /// belt's time begins.
-Result<void> Line::arm() {
+Result<void> MarkingHost::arm() {
     const bool chain = job_.parts->start == PartStart::equidistant;
     card_.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start |
                            (chain ? rtc5::control_equidistant : 0));
@@ -111,11 +113,11 @@ Result<void> Line::arm() {
     card_.clear_extent();
     const double delay = counts_of(job_, following_, job_.parts->track_delay);
     const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::count);
-    if (delay < range.least || delay > range.greatest)
+    if (delay < range.min || delay > range.max)
         return fail(
             ErrorKind::refused,
             fmt::format("A track delay of {:g} is {:g} counts; the card takes {:g} to {:g}. Nothing was marked.",
-                        job_.parts->track_delay, delay, range.least, range.greatest));
+                        job_.parts->track_delay, delay, range.min, range.max));
     if (chain && job_.parts->size() > 1 && counts_of(job_, following_, job_.parts->spacing) == 0)
         return fail(ErrorKind::refused,
                     fmt::format("A spacing of {:g} is less than a count of the encoder, after which "
@@ -127,7 +129,7 @@ Result<void> Line::arm() {
 }
 
 /// The ticks in which the parts' edges are seen.
-Result<void> Line::find_edges() {
+Result<void> MarkingHost::find_edges() {
     const PartsSettings& parts = *job_.parts;
     const auto gone = [&](std::int64_t tick) {
         return std::fabs(senses_.track().travel(static_cast<double>(tick) * 1e-5));
@@ -152,7 +154,7 @@ Result<void> Line::find_edges() {
     return {};
 }
 
-Result<void> Line::set_up() {
+Result<void> MarkingHost::set_up() {
     if (prepared_.table) {
         MOTIONRACK_CHECK(card_.load_correction(prepared_.table, 1));
         MOTIONRACK_CHECK(card_.select_cor_table(1, 0));
@@ -175,7 +177,7 @@ Result<void> Line::set_up() {
     return card_.execute_list(1);
 }
 
-void Line::started(std::int64_t tick, StartFate fate) {
+void MarkingHost::started(std::int64_t tick, StartFate fate) {
     PartRun run;
     run.fate = fate;
     run.begin = run.end = tick - begin_;
@@ -191,7 +193,7 @@ void Line::started(std::int64_t tick, StartFate fate) {
     runs_.push_back(run);
 }
 
-void Line::ended(std::int64_t tick) {
+void MarkingHost::ended(std::int64_t tick) {
     ++over_;
     for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
         if (run->fate != StartFate::begun) continue;
@@ -201,7 +203,7 @@ void Line::ended(std::int64_t tick) {
 }
 
 /// What the host does when it looks: the other list is next, and the one that is over gets the next text.
-Result<void> Line::serve() {
+Result<void> MarkingHost::serve() {
     if (!alternates_) return {};
     card_.set_extstartpos(begun_ % 2 == 0 ? 0 : card_.settings().list1);
     for (; next_load_ < job_.parts->size() && over_ + 1 >= next_load_; ++next_load_)
@@ -209,11 +211,11 @@ Result<void> Line::serve() {
     return {};
 }
 
-bool Line::some_lost() const {
+bool MarkingHost::some_lost() const {
     return std::any_of(runs_.begin(), runs_.end(), [](const PartRun& run) { return run.fate == StartFate::busy; });
 }
 
-Result<void> Line::run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch) {
+Result<void> MarkingHost::run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch) {
     for (std::int64_t looked = card_.tick();;) {
         const auto edge = [&] { return next_edge_ < edges_.size() ? begin_ + edges_[next_edge_] : std::int64_t{-1}; };
         while (edge() == card_.tick()) waiting_.push_back(next_edge_++), card_.external_start();

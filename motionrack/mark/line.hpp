@@ -38,7 +38,7 @@ struct PartRun {
 /// The part's movement as the card's inputs see it.
 class InputModel final : public rtc5::Inputs {
   public:
-    static Result<InputModel> make(const Job& job, const ConveyorTracking& following);
+    static Result<InputModel> make(const MarkingJob& job, const ConveyorTracking& following);
     /// After it has come to its place; the belt's time is 0 at this tick of the card.
     Result<void> begin(std::int64_t tick);
     void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
@@ -53,12 +53,12 @@ class InputModel final : public rtc5::Inputs {
     std::int64_t begin_ = 0;
 };
 
-class Line final : rtc5::ListListener {
+class MarkingHost final : rtc5::ListListener {
   public:
     /// Everything is loaded and the belt's time is 0. `job` and `prepared` must live as long. Errors: as list_of;
     /// refused: a list that is too long, a part that does not come.
-    static Result<std::unique_ptr<Line>> make(const Job& job, const Prepared& prepared,
-                                              const ConveyorTracking& following);
+    static Result<std::unique_ptr<MarkingHost>> make(const MarkingJob& job, const Prepared& prepared,
+                                                     const ConveyorTracking& following);
 
     /// Until all parts are through and the card rests. `done` is told the belt's tick now and then.
     /// Errors: refused: more than greatest_seconds; stopped.
@@ -73,8 +73,8 @@ class Line final : rtc5::ListListener {
     bool some_lost() const;
 
   private:
-    Line(const Job& job, const Prepared& prepared, const ConveyorTracking& following, InputModel senses,
-         const rtc5::Settings& settings);
+    MarkingHost(const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following, InputModel senses,
+                const rtc5::Settings& settings);
     Result<void> set_up();
     Result<void> arm();
     Result<void> find_edges();
@@ -83,7 +83,7 @@ class Line final : rtc5::ListListener {
     void started(std::int64_t tick, rtc5::StartFate fate) override;
     void ended(std::int64_t tick) override;
 
-    const Job& job_;
+    const MarkingJob& job_;
     const Prepared& prepared_;
     ConveyorTracking following_;
     InputModel senses_;

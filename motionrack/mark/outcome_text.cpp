@@ -34,7 +34,7 @@ void overflows(Out to, const Marked& m) {
     if (m.lost_overflows > 0) fmt::format_to(to, "{} more overflows were not kept.\n", m.lost_overflows);
 }
 
-void fit(Out to, const Job& job, const Outcome& out) {
+void fit(Out to, const MarkingJob& job, const MarkingOutcome& out) {
     if (!out.fits_factor) return;
     const char* what = out.starts_limit ? "the time between two parts" : "the field";
     const char* unit = job.belt.rotary ? "degrees/s" : "mm/s";
@@ -54,16 +54,17 @@ void fit(Out to, const Job& job, const Outcome& out) {
 
 }  // namespace
 
-Room room_of(const Outcome& out, const Marked& marked) {
+FieldMargin room_of(const MarkingOutcome& out, const Marked& marked) {
     const Box &field = out.field, &reach = marked.reach;
-    return std::min({Room{reach.low.x - field.low.x, "left"}, Room{field.high.x - reach.high.x, "right"},
-                     Room{reach.low.y - field.low.y, "lower"}, Room{field.high.y - reach.high.y, "upper"}},
-                    [](const Room& a, const Room& b) { return a.mm < b.mm; });
+    return std::min(
+        {FieldMargin{reach.low.x - field.low.x, "left"}, FieldMargin{field.high.x - reach.high.x, "right"},
+         FieldMargin{reach.low.y - field.low.y, "lower"}, FieldMargin{field.high.y - reach.high.y, "upper"}},
+        [](const FieldMargin& a, const FieldMargin& b) { return a.mm < b.mm; });
 }
 
-std::vector<std::string> warnings_of(const Outcome& out) {
+std::vector<std::string> warnings_of(const MarkingOutcome& out) {
     std::vector<std::string> warnings;
-    const Room room = room_of(out, out.on);
+    const FieldMargin room = room_of(out, out.on);
     const double wanted = least_room_part * (out.field.high.x - out.field.low.x);
     if (!out.waits && room.mm >= 0 && room.mm < wanted)
         warnings.push_back(
@@ -78,7 +79,7 @@ std::vector<std::string> warnings_of(const Outcome& out) {
     return warnings;
 }
 
-std::string outcome_text(const Job& job, const Outcome& out) {
+std::string outcome_text(const MarkingJob& job, const MarkingOutcome& out) {
     std::string text;
     const Out to(text);
     fmt::format_to(to, "drawing: {}, {}, {:.3f} mm\n", rack::count_noun(out.strokes, "stroke"),
@@ -90,7 +91,7 @@ std::string outcome_text(const Job& job, const Outcome& out) {
     if (out.off) row(to, "without correction", *out.off);
     text += parts_text(job, out.on);
     overflows(to, out.on);
-    const Room room = room_of(out, out.on);
+    const FieldMargin room = room_of(out, out.on);
     if (room.mm >= 0) fmt::format_to(to, "room: {:.3f} mm are left in the field, at its {} edge\n", room.mm, room.edge);
     if (!out.drawing_in_field)
         fmt::format_to(to, "Some of the drawing is outside the field while the part is at its begin.\n");

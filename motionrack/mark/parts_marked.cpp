@@ -13,7 +13,7 @@ double seconds(std::int64_t tick) {
 }
 
 /// How far the belt goes until the part is where the drawing is meant.
-double way_of(const Job& job, std::size_t part) {
+double way_of(const MarkingJob& job, std::size_t part) {
     return job.parts ? job.parts->way(part) * job.sense() : 0;
 }
 
@@ -29,7 +29,7 @@ PartOutcome fate_of(rtc5::StartFate fate) {
 }
 
 /// Where pictures have the part.
-Affine shown_place(const Job& job, const Prepared& prepared, const parts::Conveyor& track, std::size_t part) {
+Affine shown_place(const MarkingJob& job, const Prepared& prepared, const parts::Conveyor& track, std::size_t part) {
     if (!job.parts || part == 0) return {};
     if (track.settings().rotary) {
         const double turn = (way_of(job, 0) - way_of(job, part)) * (pi / 180);
@@ -68,8 +68,8 @@ parts::Deviation together(const std::vector<PartMarked>& all) {
 
 }  // namespace
 
-void share_out(const Job& job, const Prepared& prepared, const std::vector<PartRun>& runs, const parts::Conveyor& track,
-               std::span<const parts::MarkedPoint> points, Marked& out) {
+void share_out(const MarkingJob& job, const Prepared& prepared, const std::vector<PartRun>& runs,
+               const parts::Conveyor& track, std::span<const parts::MarkedPoint> points, Marked& out) {
     const auto own_place = [&](Spot belt, double way) { return way == 0 ? belt : track.carried(belt, way); };
     PartMarked none;
     none.fate = PartOutcome::not_started;

@@ -30,7 +30,7 @@ std::string lost_text(const PartMarked& part, std::size_t number) {
 
 }  // namespace
 
-std::string parts_text(const Job& job, const Marked& marked) {
+std::string parts_text(const MarkingJob& job, const Marked& marked) {
     if (!job.parts) return {};
     std::string text;
     const auto to = std::back_inserter(text);

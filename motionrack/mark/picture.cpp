@@ -97,11 +97,11 @@ std::string of_part(const Marked& marked) {
 /// What all pictures of a job share.
 struct Scene {
     const Prepared& prepared;
-    const Outcome& out;
+    const MarkingOutcome& out;
     std::vector<Node> drawing;
     Box box{};  ///< of drawing and marks
 
-    Scene(const Prepared& p, const Outcome& o) : prepared(p), out(o), drawing(drawings_of(p, o.on)) {
+    Scene(const Prepared& p, const MarkingOutcome& o) : prepared(p), out(o), drawing(drawings_of(p, o.on)) {
         if (drawing.empty()) return;
         box = mark::box_of(std::span<const Node>(drawing));
         const Box most = grown(box, 3 * size_of(box));
@@ -163,10 +163,10 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
 /// The way of the spot in the field: as marks and, dashed, as jumps.
 Part field_of(const Scene& scene) {
     Part part;
-    const Outcome& out = scene.out;
+    const MarkingOutcome& out = scene.out;
     part.title = "In the field";
     part.height = 300;
-    const Room room = room_of(out, out.on);
+    const FieldMargin room = room_of(out, out.on);
     part.words = {fmt::format("{:.1f} mm wide and high", out.field.high.x - out.field.low.x),
                   room.mm >= 0 ? fmt::format("{} left at the {} edge", shown_length(room.mm), room.edge)
                                : fmt::format("{} too far over the {} edge", shown_length(-room.mm), room.edge)};
@@ -211,7 +211,7 @@ struct Parts {
     std::vector<Part> whole, details;
 };
 
-Parts parts_of(const Prepared& prepared, const Outcome& out) {
+Parts parts_of(const Prepared& prepared, const MarkingOutcome& out) {
     const Scene scene(prepared, out);
     Parts parts;
     parts.whole.push_back(part_of(scene, nullptr, "As drawn", ""));
@@ -226,7 +226,7 @@ Parts parts_of(const Prepared& prepared, const Outcome& out) {
 
 }  // namespace
 
-std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const Outcome& out) {
+std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const MarkingOutcome& out) {
     std::vector<trace::ReportPicture> pictures;
     const Parts parts = parts_of(prepared, out);
     for (const std::vector<Part>* row : {&parts.whole, &parts.details})
@@ -240,7 +240,7 @@ std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const Ou
     return pictures;
 }
 
-std::string picture_svg(const Prepared& prepared, const Outcome& out) {
+std::string picture_svg(const Prepared& prepared, const MarkingOutcome& out) {
     constexpr int margin = 20, gap = 16, heading = 58, foot = 34;
     const Parts parts = parts_of(prepared, out);
     std::string body;

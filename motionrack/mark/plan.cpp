@@ -31,18 +31,18 @@ class List {
     void speed(Op op, const char* name, double mm_s) {
         const double bits_ms = mm_s * k_ / 1000;
         const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::speed);
-        if (bits_ms < range.least || bits_ms > range.greatest)
-            refuse(fmt::format(
-                "{} of {:g} mm/s is {:g} bits/ms; the card takes {:g} to {:g}, which is {:g} to {:g} mm/s", name, mm_s,
-                bits_ms, range.least, range.greatest, range.least * 1000 / k_, range.greatest * 1000 / k_));
+        if (bits_ms < range.min || bits_ms > range.max)
+            refuse(
+                fmt::format("{} of {:g} mm/s is {:g} bits/ms; the card takes {:g} to {:g}, which is {:g} to {:g} mm/s",
+                            name, mm_s, bits_ms, range.min, range.max, range.min * 1000 / k_, range.max * 1000 / k_));
         put(op, {bits_ms});
     }
     double bits(double mm) {
         const double out = std::floor(mm * k_ + 0.5);
         const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::coordinate);
-        if (!(out >= range.least && out <= range.greatest))
+        if (!(out >= range.min && out <= range.max))
             refuse(fmt::format("a place at {:g} mm is beyond the card's virtual field of {:g} mm each way", mm,
-                               range.greatest / k_));
+                               range.max / k_));
         return out;
     }
     void refuse(std::string sentence) {
@@ -70,7 +70,7 @@ Direction direction_of(const parts::ConveyorSettings& track) {
 }
 
 /// The correction of what goes along X, Y or both.
-void put_linear(List& list, const Job& job, const Prepared& prepared, const ConveyorTracking& following) {
+void put_linear(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following) {
     const Direction d = direction_of(following.track);
     const double scale = prepared.bits_per_mm * job.fly.scale_factor / counts_per_unit(job, following);
     if (following.mode == FlyMode::mcbsp) {
@@ -86,13 +86,13 @@ void put_linear(List& list, const Job& job, const Prepared& prepared, const Conv
     }
 }
 
-void put_fly(List& list, const Job& job, const Prepared& prepared, const ConveyorTracking& following) {
+void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following) {
     const double unit = counts_per_unit(job, following);
     if (following.mode == FlyMode::off || unit == 0) return;
     const bool words = following.mode == FlyMode::mcbsp;
     if (!following.corrects) {
         // Off, but the count begins at 0 for the waits.
-        if (job.fly.waits != Waits::none && !words) list.put(Op::set_fly_x, {0});
+        if (job.fly.waits != WaitMode::none && !words) list.put(Op::set_fly_x, {0});
         return;
     }
     if (!following.track.rotary) return put_linear(list, job, prepared, following);
@@ -106,7 +106,7 @@ void put_fly(List& list, const Job& job, const Prepared& prepared, const Conveyo
 }
 
 /// Everything further on by what the belt goes in a time; before fly, so that the flags see it.
-void put_offset(List& list, const Job& job, const ConveyorTracking& following) {
+void put_offset(List& list, const MarkingJob& job, const ConveyorTracking& following) {
     constexpr double before_fly = 4;
     if (job.fly.offset_us == 0 || !following.corrects) return;
     const double way = following.track.profile[0].speed * job.fly.offset_us * 1e-6;
@@ -123,7 +123,7 @@ void put_offset(List& list, const Job& job, const ConveyorTracking& following) {
     list.put(Op::set_offset_list, {before_fly, list.bits(offset.x), list.bits(offset.y), 0});
 }
 
-void put_settings(List& list, const Job& job) {
+void put_settings(List& list, const MarkingJob& job) {
     list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_mm_s);
     list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_mm_s);
     list.put(Op::set_scanner_delays,
@@ -144,7 +144,7 @@ void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
 }
 
 /// Holds until the belt has gone so far.
-void put_wait(List& list, const Job& job, const ConveyorTracking& following, double way) {
+void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& following, double way) {
     const double unit = counts_of(job, following, way), rising = unit < 0 ? -1 : 1;
     if (following.mode == FlyMode::mcbsp)
         list.put(Op::wait_for_mcbsp, {direction_of(following.track).x != 0 ? 0.0 : 1.0, unit, rising});
@@ -153,7 +153,7 @@ void put_wait(List& list, const Job& job, const ConveyorTracking& following, dou
 }
 
 /// Each batch waits, parked where it will begin, so that the waiting spot does not go out of the field with the part.
-Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, const ConveyorTracking& following,
+Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following,
                          const Drawing& drawing) {
     const double margin = job.fly.margin_mm, sense = job.sense();
     Box field = prepared.field();
@@ -205,13 +205,13 @@ Box Prepared::field() const {
             {rtc5::field_greatest / bits_per_mm, rtc5::field_greatest / bits_per_mm}};
 }
 
-ConveyorTracking following_of(const Job& job, double factor) {
+ConveyorTracking following_of(const MarkingJob& job, double factor) {
     ConveyorTracking out{job.track(), job.fly.mode, job.fly.simulated_speed.value_or(job.belt.speed) * factor, true};
     for (parts::SpeedPoint& point : out.track.profile) point.speed *= factor;
     return out;
 }
 
-double counts_per_unit(const Job& job, const ConveyorTracking& following) {
+double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following) {
     switch (following.mode) {
         case FlyMode::mcbsp:
             return job.sender.bits_per_mm;
@@ -222,12 +222,12 @@ double counts_per_unit(const Job& job, const ConveyorTracking& following) {
     }
 }
 
-double counts_of(const Job& job, const ConveyorTracking& following, double way) {
+double counts_of(const MarkingJob& job, const ConveyorTracking& following, double way) {
     const double unit = counts_per_unit(job, following);
     return std::floor(way * (following.mode == FlyMode::simulated ? std::fabs(unit) : unit * job.sense()) + 0.5);
 }
 
-Result<Prepared> prepare(const Job& job, const Load& load) {
+Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
     Prepared out;
     const PartsSettings parts = job.parts.value_or(PartsSettings{});
     const std::size_t different = has_numbers(job) ? parts.size() : 1;
@@ -238,7 +238,7 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
         part.segments = segments_of(part.drawing);
         elements += part.segments.size();
         if (elements > most_elements)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("The drawings of {} parts with their numbers have more than {} lines. Nothing was "
                                     "marked; mark fewer parts at once.",
                                     different, most_elements),
@@ -280,17 +280,17 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
     return out;
 }
 
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const ConveyorTracking& following,
-                                           std::size_t marked) {
+Result<std::vector<rtc5::Command>> list_of(const MarkingJob& job, const Prepared& prepared,
+                                           const ConveyorTracking& following, std::size_t marked) {
     const Drawing& drawing = prepared.of(marked).drawing;
-    if (job.fly.waits == Waits::none) MOTIONRACK_CHECK(check_reaches_field(drawing, prepared.field(), following));
+    if (job.fly.waits == WaitMode::none) MOTIONRACK_CHECK(check_reaches_field(drawing, prepared.field(), following));
     List list(prepared.bits_per_mm);
     if (job.parts && job.parts->start == PartStart::equidistant && marked + 1 < job.parts->size())
         list.put(Op::simulate_ext_start, {counts_of(job, following, job.parts->spacing), 0});
     put_settings(list, job);
     put_offset(list, job, following);
     put_fly(list, job, prepared, following);
-    if (job.fly.waits != Waits::none)
+    if (job.fly.waits != WaitMode::none)
         MOTIONRACK_CHECK(put_batches(list, job, prepared, following, drawing));
     else
         for (const Stroke& stroke : drawing.strokes) put_stroke(list, stroke, {}, true);
@@ -299,7 +299,7 @@ Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepa
     return list.take();
 }
 
-Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared,
+Result<std::vector<rtc5::Command>> arming_list_of(const MarkingJob& job, const Prepared& prepared,
                                                   const ConveyorTracking& following) {
     List list(prepared.bits_per_mm);
     put_fly(list, job, prepared, following);

@@ -31,7 +31,7 @@ struct Prepared : PartDrawing {
 };
 
 /// Errors: of the files the job names.
-Result<Prepared> prepare(const Job& job, const Load& load);
+Result<Prepared> prepare(const MarkingJob& job, const Load& load);
 
 /// The movement of the part and how the card follows it.
 struct ConveyorTracking {
@@ -41,18 +41,18 @@ struct ConveyorTracking {
     bool corrects = true;        ///< false: all is done but the correction
 };
 /// A job's, with all speeds times `factor`.
-ConveyorTracking following_of(const Job& job, double factor = 1);
+ConveyorTracking following_of(const MarkingJob& job, double factor = 1);
 /// What one mm or degree of movement is in the numbers that the card gets; 0: nothing.
-double counts_per_unit(const Job& job, const ConveyorTracking& following);
+double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following);
 /// Whole counts of a way that the belt goes, with their sign.
-double counts_of(const Job& job, const ConveyorTracking& following, double way);
+double counts_of(const MarkingJob& job, const ConveyorTracking& following, double way);
 
 /// The list of the part that is marked `marked`th, up to and with set_end_of_list. Errors: refused: a speed, place or
 /// scale that the card does not take; a drawing that does not come into the field.
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const ConveyorTracking& following,
-                                           std::size_t marked = 0);
+Result<std::vector<rtc5::Command>> list_of(const MarkingJob& job, const Prepared& prepared,
+                                           const ConveyorTracking& following, std::size_t marked = 0);
 /// Before the first start: asks for the encoders to become 0 at it. Errors: as list_of.
-Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared,
+Result<std::vector<rtc5::Command>> arming_list_of(const MarkingJob& job, const Prepared& prepared,
                                                   const ConveyorTracking& following);
 
 }  // namespace motionrack::mark

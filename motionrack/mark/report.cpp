@@ -8,7 +8,7 @@ namespace motionrack::mark {
 
 namespace {
 
-std::string verdict_text(const Outcome& out) {
+std::string verdict_text(const MarkingOutcome& out) {
     if (!out.on.overflows.empty())
         return fmt::format(
             "The correction left the field {} times, first at {:.5f} s ({}); the mirrors stayed at its edge meanwhile.",
@@ -35,7 +35,7 @@ std::vector<std::string> row_of(const char* name, const Marked& m) {
             fmt::format("{:.3f} J", m.energy_j)};
 }
 
-trace::ReportTable deviations(const Outcome& out) {
+trace::ReportTable deviations(const MarkingOutcome& out) {
     trace::ReportTable t{"Deviations",
                          "Marks on the part against the drawing",
                          {"", "Worst", "RMS", "Not marked", "Marked", "Time", "Laser on", "Energy"},
@@ -72,7 +72,7 @@ trace::ReportTable parts_table(const Marked& m) {
     return t;
 }
 
-void add_numbers(const Job& job, const Outcome& out, trace::ReportData& data) {
+void add_numbers(const MarkingJob& job, const MarkingOutcome& out, trace::ReportData& data) {
     const auto add = [&](const char* label, std::string value, const char* unit) {
         data.numbers.push_back({label, std::move(value), unit});
     };
@@ -91,7 +91,7 @@ void add_numbers(const Job& job, const Outcome& out, trace::ReportData& data) {
         add("It fits up to", fmt::format("{:.4g}", *out.fits_factor), "times the speed");
 }
 
-void add_series(const Outcome& out, trace::ReportData& data) {
+void add_series(const MarkingOutcome& out, trace::ReportData& data) {
     trace::ReportSeries x{"X of the spot in the field, mm", "x", {}, "field", {out.field.low.x, out.field.high.x}};
     trace::ReportSeries y{"Y of the spot in the field, mm", "z", {}, "field", {out.field.low.y, out.field.high.y}};
     trace::ReportSeries gate{"Laser on, %", "b", {}, "", {}};
@@ -106,7 +106,8 @@ void add_series(const Outcome& out, trace::ReportData& data) {
 
 }  // namespace
 
-trace::ReportData report_of(const Job& job, const Prepared& prepared, const Outcome& out, std::string_view text) {
+trace::ReportData report_of(const MarkingJob& job, const Prepared& prepared, const MarkingOutcome& out,
+                            std::string_view text) {
     trace::ReportData data;
     data.title = "Marking job";
     data.program_kind = "Job";

@@ -51,8 +51,9 @@ struct Quick {
     bool fits() const { return beyond_mm <= 0 && !some_lost; }
 };
 
-Result<Quick> run_quick(const Job& job, const Prepared& prepared, double factor, const Watch& watch) {
-    MOTIONRACK_TRY(const std::unique_ptr<Line> line, Line::make(job, prepared, following_of(job, factor)));
+Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double factor, const Watch& watch) {
+    MOTIONRACK_TRY(const std::unique_ptr<MarkingHost> line,
+                   MarkingHost::make(job, prepared, following_of(job, factor)));
     MOTIONRACK_CHECK(line->run(nullptr, {}, watch));
     Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
     const rtc5::Extent& e = line->card().extent();
@@ -69,10 +70,10 @@ constexpr double marked_at = 0.9;
 /// The greatest factor of the speed at which everything fits.
 class FitSearch {
   public:
-    FitSearch(const Job& job, const Prepared& prepared, const Watch& watch)
+    FitSearch(const MarkingJob& job, const Prepared& prepared, const Watch& watch)
         : job_(job), prepared_(prepared), watch_(watch) {}
 
-    Result<void> find(const Quick& now, Outcome& out) {
+    Result<void> find(const Quick& now, MarkingOutcome& out) {
         const double greatest = std::min(1000.0, parts::greatest_track_speed / top_speed());
         const double least = std::max(1e-3, now.ticks * 1e-5 / greatest_seconds);
         double low = 1, high = 1;
@@ -108,7 +109,7 @@ class FitSearch {
             top = std::max(top, std::fabs(point.speed));
         return top;
     }
-    Result<bool> fits(double factor, Outcome& out) {
+    Result<bool> fits(double factor, MarkingOutcome& out) {
         MOTIONRACK_TRY(const Quick quick, run_quick(job_, prepared_, factor, watch_));
         if (!quick.fits()) out.starts_limit = quick.beyond_mm <= 0;
         // Some twenty runs, less when it is near at once.
@@ -117,13 +118,13 @@ class FitSearch {
         return quick.fits();
     }
 
-    const Job& job_;
+    const MarkingJob& job_;
     const Prepared& prepared_;
     const Watch& watch_;
     double tried_ = 0;
 };
 
-Result<Marked> mark_once(const Job& job, const Prepared& prepared, const ConveyorTracking& following,
+Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following,
                          double expected_ticks, const std::function<void(double)>& progress, const Watch& watch) {
     parts::StationSettings settings;
     settings.galvo = job.galvo;
@@ -132,7 +133,7 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Conveyo
     settings.laser = job.laser;
     settings.track = following.track;
     MOTIONRACK_TRY(parts::MarkingStation station, parts::MarkingStation::make(settings));
-    MOTIONRACK_TRY(const std::unique_ptr<Line> line, Line::make(job, prepared, following));
+    MOTIONRACK_TRY(const std::unique_ptr<MarkingHost> line, MarkingHost::make(job, prepared, following));
     Engine& card = line->card();
     OverflowLog overflows(prepared.bits_per_mm, station.track());
     StationSink sink(station, overflows, line->begin(),
@@ -177,7 +178,7 @@ bool moves(const parts::ConveyorSettings& track) {
 }
 
 /// Waits promise that everything is marked where it should be.
-Result<void> refuse_too_fast(const Job& job, const Quick& now, const Outcome& out) {
+Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const MarkingOutcome& out) {
     const std::string fast =
         job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.speed)) : "the speeds of the profile";
     const std::string slow = job.belt.profile.empty()
@@ -193,15 +194,15 @@ Result<void> refuse_too_fast(const Job& job, const Quick& now, const Outcome& ou
 
 }  // namespace
 
-Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& watch) {
-    Outcome out;
+Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const Watch& watch) {
+    MarkingOutcome out;
     out.notes = prepared.notes;
     out.drawing_mm = length_of(prepared.drawing);
     out.strokes = prepared.drawing.strokes.size();
     out.elements = element_count(prepared.drawing);
     out.field = prepared.field();
     const Box box = box_of(prepared.drawing);
-    const bool waits = out.waits = job.fly.waits != Waits::none;
+    const bool waits = out.waits = job.fly.waits != WaitMode::none;
     out.drawing_in_field = waits || (box.low.x >= out.field.low.x && box.low.y >= out.field.low.y &&
                                      box.high.x <= out.field.high.x && box.high.y <= out.field.high.y);
     const ConveyorTracking with = following_of(job);

@@ -76,7 +76,7 @@ struct Marked {
     bool good() const { return overflows.empty() && parts_lost() == 0; }
 };
 
-struct Outcome {
+struct MarkingOutcome {
     Marked on;                  ///< as the job says
     std::optional<Marked> off;  ///< the same without correction; none if the job has none
     double drawing_mm = 0;
@@ -95,6 +95,6 @@ struct Outcome {
 };
 
 /// Errors: as Line; refused: waits on a belt that is too fast for them.
-Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& watch = {});
+Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const Watch& watch = {});
 
 }  // namespace motionrack::mark

@@ -36,7 +36,7 @@ class SvgReader {
     Result<void> read() {
         if (text_.size() > most_svg_bytes)
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format("{} bytes; a drawing may have {}. Nothing was marked.", text_.size(), most_svg_bytes), {},
                 file_);
         pugi::xml_document document;
@@ -64,7 +64,7 @@ class SvgReader {
         const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
         const Place place{static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
                           static_cast<int>(at - line_begin) + 1};
-        return fail(ErrorKind::bad_input, what + ". Nothing was marked.", place, file_);
+        return fail(ErrorKind::invalid_input, what + ". Nothing was marked.", place, file_);
     }
     static std::string short_of(std::string_view text) {
         std::string out;

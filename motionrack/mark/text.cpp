@@ -124,7 +124,7 @@ double on_grid(char c) {
 }
 
 tl::unexpected<Error> wrong_braces(std::size_t at) {
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("Character {} of the text: in braces there may be n, or n:05 for five "
                             "digits with zeros in front. Nothing was marked.",
                             at + 1));
@@ -154,7 +154,7 @@ Result<std::string> numbered(std::string_view text, std::int64_t number) {
         }
         const std::string shown = fmt::format("{:0{}}", number, digits);
         if (!plain && shown.size() > digits)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("The number {} has more than the {} digits of character {} of "
                                     "the text. Nothing was marked; give it more.",
                                     number, digits, i + 1));
@@ -177,7 +177,7 @@ Result<Drawing> text_drawing(std::string_view text, double height_mm) {
             std::find_if(std::begin(glyphs), std::end(glyphs), [&](const Glyph& g) { return g.letter == text[i]; });
         if (glyph == std::end(glyphs))
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format("Character {} of the text is not in the font, which has A-Z, a-z, 0-9 and common marks. "
                             "Nothing was marked; draw it as an SVG path.",
                             i + 1));

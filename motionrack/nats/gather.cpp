@@ -74,7 +74,7 @@ class Gatherer {
             const auto point = points_.find(answer.key);
             if (point == points_.end() || results_.has(point->second)) continue;
             Result<sweep::Row> row = read_answer(answer.text);
-            if (!row && row.error().trouble == ErrorKind::bad_input) continue;
+            if (!row && row.error().kind == ErrorKind::invalid_input) continue;
             if (!row) {
                 // The same command may try it again.
                 (void)queue_.forget(name_, answer.key);

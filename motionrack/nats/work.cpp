@@ -93,7 +93,7 @@ class Worker {
         signs_.add(*point);
         const Result<sweep::Row> row = run_point(*point);
         signs_.remove(*point);
-        if (!row && row.error().trouble == ErrorKind::stopped) {
+        if (!row && row.error().kind == ErrorKind::stopped) {
             point->give_back();
             return false;
         }

@@ -21,7 +21,7 @@ bool measures_only(const rack::RackConfig& config, const std::string& card) {
 Result<void> Machine::set_work_zero(char axis, double value) {
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work zero was not set", axis));
     if (!std::isfinite(value))
-        return fail(ErrorKind::bad_input, "The work zero was not set: the value is not a number.");
+        return fail(ErrorKind::invalid_input, "The work zero was not set: the value is not a number.");
     if (stream_->has_work())
         return fail(ErrorKind::refused,
                     "The work zero was not set: the machine moves. Stop it, or wait until it stands.");

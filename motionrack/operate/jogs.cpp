@@ -65,7 +65,7 @@ std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
     const AxisState state = one.axis->state();
     if (state == AxisState::standstill || state == AxisState::error) {
         leases_.erase(one.letter);
-        return Ended{one.letter, one.axis->trusted(), one.axis->wait(Duration{0})};
+        return Ended{one.letter, one.axis->position_valid(), one.axis->wait(Duration{0})};
     }
     if (one.leased && !stop) static_cast<void>(one.axis->jog(held(one.letter) ? leases_.at(one.letter).speed : 0, now));
     return std::nullopt;

@@ -34,8 +34,8 @@ class Jogs {
     /// What became of an axis that stands again.
     struct Ended {
         char letter = 'X';
-        bool trusted = false;  ///< the axis trusts its position
-        Result<void> how;      ///< ErrorKind::machine: something stopped it; refused: it did not begin
+        bool position_valid = false;  ///< the axis trusts its position
+        Result<void> how;             ///< ErrorKind::machine: something stopped it; refused: it did not begin
     };
 
     /// `lease` is of `wall`, which is called on the motion thread.

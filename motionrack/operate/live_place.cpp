@@ -11,7 +11,7 @@ Result<LivePlace> read_live_place(std::string_view text) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals >= text.find(':'))
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("'{}' does not say which card is where. Nothing was opened. Write the name of a card of "
                         "the rack file, '=' and its place, as bench=port:/dev/port,offset=0x300,width=8.",
                         text));
@@ -27,7 +27,7 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
         if (card == nullptr) {
             std::string known;
             for (const rack::RackCard& one : config.cards) known += (known.empty() ? "" : ", ") + one.name;
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was opened. A real "
                                     "card stands for one of them.",
                                     rack::in_quotes(name), known));
@@ -48,7 +48,7 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
                                     name, letters));
         for (std::size_t j = 0; j < i; ++j)
             if (places[j].card == name)
-                return fail(ErrorKind::bad_input,
+                return fail(ErrorKind::invalid_input,
                             fmt::format("Card {} has two places, {} and {}. Nothing was opened. Name one.", name,
                                         places[j].place, places[i].place));
     }

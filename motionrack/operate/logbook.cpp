@@ -25,7 +25,7 @@ std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
     for (const AxisStatus& axis : axes)
         out += fmt::format("{}{} {:.4f} {}{}", out.empty() ? "" : ", ", axis.letter, axis.commanded,
-                           axis.rotary ? "deg" : "mm", axis.trusted ? "" : " (not trusted)");
+                           axis.rotary ? "deg" : "mm", axis.position_valid ? "" : " (not trusted)");
     return out;
 }
 
@@ -33,9 +33,9 @@ json axes_json(const std::vector<AxisStatus>& axes) {
     json out = json::array();
     for (const AxisStatus& axis : axes)
         out.push_back({{"letter", std::string(1, axis.letter)},
-                       {"place", axis.place},
+                       {"place", axis.true_position},
                        {"commanded", axis.commanded},
-                       {"trusted", axis.trusted}});
+                       {"trusted", axis.position_valid}});
     return out;
 }
 
@@ -51,7 +51,7 @@ void JournalWriter::see(const Status& status) {
         state_ = status.state;
         feed_ = status.feed_override;
         rapid_ = status.rapid_override;
-        for (const AxisStatus& axis : status.axes) trusted_.push_back(axis.trusted);
+        for (const AxisStatus& axis : status.axes) trusted_.push_back(axis.position_valid);
         keep(status);
     }
     see_alarms(status);
@@ -94,7 +94,7 @@ void JournalWriter::see_state(const Status& status) {
     const MachineState before = std::exchange(state_, status.state);
     if (before == state_) return;
     write(status.at, "state",
-          sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
+          sentence(fmt::format("{}{}{}", name_of(state_), status.reason.empty() ? "" : ": ", status.reason)),
           json{{"state", name_of(state_)}, {"before", name_of(before)}}.dump());
     if (is_stationary(state_) && !is_stationary(before))
         write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)),
@@ -110,7 +110,7 @@ void JournalWriter::see_job(const Status& status) {
     if (!program_runs_ && status.state == MachineState::error_stop) {
         event = "broken off";
         text = sentence(
-            fmt::format("{} broke off at line {} of {}: {}", status.program, status.line, status.lines, status.why));
+            fmt::format("{} broke off at line {} of {}: {}", status.program, status.line, status.lines, status.reason));
     } else if (!program_runs_ && status.state == MachineState::stopping) {
         event = "stopped";
         text = fmt::format("{} was stopped at line {} of {}.", status.program, status.line, status.lines);
@@ -157,11 +157,11 @@ void JournalWriter::see_settings(const Status& status) {
 void JournalWriter::see_positions(const Status& status) {
     for (std::size_t i = 0; i < status.axes.size() && i < trusted_.size(); ++i) {
         const AxisStatus& axis = status.axes[i];
-        if (axis.trusted == trusted_[i]) continue;
-        trusted_[i] = axis.trusted;
+        if (axis.position_valid == trusted_[i]) continue;
+        trusted_[i] = axis.position_valid;
         write(status.at, "position",
               fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded,
-                          axis.rotary ? "deg" : "mm", axis.trusted ? "trusted" : "not trusted any more"),
+                          axis.rotary ? "deg" : "mm", axis.position_valid ? "trusted" : "not trusted any more"),
               json{{"axes", axes_json({axis})}}.dump());
         keep(status);
     }

@@ -59,7 +59,7 @@ Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
 rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
     for (const InitialAxisState& one : standing)
         for (rack::RackAxis& axis : config.axes)
-            if (axis.letter == one.letter) axis.start_position = one.place;
+            if (axis.letter == one.letter) axis.start_position = one.true_position;
     return config;
 }
 
@@ -120,7 +120,7 @@ Result<void> Machine::ready(const char* what) {
 
 Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter) {
     if (const rack::RackAxis* axis = config.axis(letter)) return axis;
-    return fail(ErrorKind::bad_input, fmt::format("{}: the machine has no axis {}.", what, letter));
+    return fail(ErrorKind::invalid_input, fmt::format("{}: the machine has no axis {}.", what, letter));
 }
 
 /// Enabled, and what was declared of positions is carried out: it holds of where the axes stood.
@@ -142,7 +142,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(door_.check_closed(what));
     MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
     for (const rack::RackAxis& axis : rack_.config().axes)
-        if (!trusted(axis))
+        if (!position_valid(axis))
             return fail(ErrorKind::refused,
                         fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
                                     "where it stands. Nothing was moved.",
@@ -183,7 +183,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
 control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t number) {
     const auto refuse = [&](std::string why) {
         control::gcode::Problem problem;
-        problem.trouble = ErrorKind::refused;
+        problem.kind = ErrorKind::refused;
         problem.message = std::move(why);
         problem.place.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
@@ -229,7 +229,7 @@ void Machine::stop(const StopOrigin& by) {
     ordered_by_ = by.kind.empty() ? std::string() : report.text;
     rack_.stop_latch().order();
     take_stop();
-    tell_stop(report, status_.why, stop_listeners_);
+    tell_stop(report, status_.reason, stop_listeners_);
 }
 
 void Machine::cancel(const StopOrigin& by) {
@@ -245,7 +245,7 @@ void Machine::cancel(const StopOrigin& by) {
     door_.forget_tools();
     stop_wanted_ = true;
     if (!idle(state_) && state_ != MachineState::stopping) enter(MachineState::stopping);
-    tell_stop(report, status_.why, stop_listeners_);
+    tell_stop(report, status_.reason, stop_listeners_);
 }
 
 void Machine::reset(const StopOrigin& by) {
@@ -253,17 +253,17 @@ void Machine::reset(const StopOrigin& by) {
     report.releases = idle(state_);
     cancel();
     reset_wanted_ = rack_.stop_latch().trips();
-    tell_stop(report, status_.why, stop_listeners_);
+    tell_stop(report, status_.reason, stop_listeners_);
 }
 
 namespace {
 
 /// The axis refuses it, too, but only when the order is begun: who gave it has his answer then.
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
-    if (std::fabs(speed) <= axis.max_speed) return {};
+    if (std::fabs(speed) <= axis.max_velocity) return {};
     return fail(ErrorKind::refused,
                 fmt::format("Not jogged: the speed is {:g} {}/s, but may be up to {:g} for axis {}. Nothing was moved.",
-                            std::fabs(speed), axis.unit(), axis.max_speed, axis.letter));
+                            std::fabs(speed), axis.unit(), axis.max_velocity, axis.letter));
 }
 
 }  // namespace
@@ -275,7 +275,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
-    if (!std::isfinite(speed)) return fail(ErrorKind::bad_input, "Not jogged: the speed is not a number.");
+    if (!std::isfinite(speed)) return fail(ErrorKind::invalid_input, "Not jogged: the speed is not a number.");
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     jogs_.hold(axis, speed, origin.session);
     enter(MachineState::jogging);
@@ -288,10 +288,11 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
-        return fail(ErrorKind::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     const double travel = found->max_position - found->min_position;
-    if (trusted(*found) && std::fabs(distance) > travel)
+    if (position_valid(*found) && std::fabs(distance) > travel)
         return fail(ErrorKind::refused,
                     fmt::format("Not jogged: the distance is {:g} {}, but the whole travel of axis {} is {:g}. Nothing "
                                 "was moved.",
@@ -307,7 +308,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
     if (!stream_->has_room())
         return fail(ErrorKind::refused, "Not jogged: there is no room for another jog until others are driven.");
     if (!std::isfinite(speed) || !(speed > 0))
-        return fail(ErrorKind::bad_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
+        return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
     control::Move move;
     int moving = 0;
@@ -315,7 +316,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
         const double from = stream_->interpreter().position()[i], slack = control::gcode::limit_slack;
         if (target[i] == from) continue;
         if (!std::isfinite(target[i]) || !limits[i].present)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.",
                                     control::axis_letters[i], target[i]));
         if (target[i] < limits[i].min_position - slack || target[i] > limits[i].max_position + slack)
@@ -324,10 +325,10 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
                 fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.", control::axis_letters[i],
                             limits[i].min_position, limits[i].max_position, target[i]));
         ++moving;
-        move.rapid_override = std::min(move.rapid_override, speed / limits[i].max_speed);
+        move.rapid_override = std::min(move.rapid_override, speed / limits[i].max_velocity);
     }
     // Axes that position one by one cannot keep a speed along a line together.
-    move.kind = moving > 1 && rack_.config().point_to_point() ? control::MoveKind::traverse : control::MoveKind::feed;
+    move.kind = moving > 1 && rack_.config().point_to_point() ? control::MoveKind::rapid : control::MoveKind::feed;
     move.path = control::PathControl::continuous;
     move.tolerance_mm = rack_.config().controller.default_path_tolerance_mm;
     move.feed = speed;
@@ -353,11 +354,11 @@ Result<void> Machine::home(std::string axes) {
     return {};
 }
 
-Result<void> Machine::declare_position(char axis, double position) {
+Result<void> Machine::set_position(char axis, double position) {
     MOTIONRACK_CHECK(ready("The position was not declared"));
     MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not declared", axis));
     if (!std::isfinite(position))
-        return fail(ErrorKind::bad_input, "The position was not declared: it is not a number.");
+        return fail(ErrorKind::invalid_input, "The position was not declared: it is not a number.");
     positions_wanted_.push_back(trust_.declared(axis, position));
     return {};
 }

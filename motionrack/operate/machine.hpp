@@ -46,7 +46,7 @@ struct MachineSettings {
     std::function<Instant()> wall = {};  ///< the clock of the people, for leases of jogs; empty: the rack's own time
     Duration jog_lease = milliseconds(250);             ///< of that clock: a jog that was not renewed for so long ends
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
-    std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
+    std::function<void(const control::gcode::CanonCall&)> on_event = {};  ///< the machine passes an event of a program
     std::vector<InitialAxisState> standing = {};  ///< axes that do not begin where the rack's file says
     std::string alarm = {};                       ///< the machine begins with it, if there is one
     std::vector<LivePlace> live = {};             ///< cards for which real ones stand, in service only
@@ -111,7 +111,7 @@ class Machine {
     /// Homes these axes; empty: all that have a home switch.
     Result<void> home(std::string axes);
     /// Declares where an axis stands; it is trusted then. Refused while something moves.
-    Result<void> declare_position(char axis, double position);
+    Result<void> set_position(char axis, double position);
     void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
     void set_single_step(bool on) { stream_->set_single_step(single_step_ = on); }
     /// Switches the coolant, as M7, M8 and M9 do, but at once.
@@ -145,12 +145,12 @@ class Machine {
     /// A stop, a reset or a declared position is not carried out yet.
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
     /// Whether the positions of this axis mean places of the machine.
-    bool trusted(const rack::RackAxis& axis) const { return trust_.of(axis.letter); }
+    bool position_valid(const rack::RackAxis& axis) const { return trust_.of(axis.letter); }
     double feed_override() const { return feed_; }
     double rapid_override() const { return rapid_; }
     /// How the last homing went, if there was one.
-    const std::optional<rack::HomingOutcome>& homed() const { return homed_; }
-    const control::Stream& stream() const { return *stream_; }
+    const std::optional<rack::HomingOutcome>& last_homing() const { return homed_; }
+    const control::StreamExecutor& stream() const { return *stream_; }
     Jogs& jogs() { return jogs_; }
     /// Calls of a card's function library by hand.
     Service& service() { return service_; }
@@ -159,7 +159,7 @@ class Machine {
     /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if
     /// there is one.
     rack::WireTap& tap() { return tap_; }
-    rack::Probe& probe() { return probe_; }
+    rack::PeriodicSampler& probe() { return probe_; }
     const rack::FrameMonitor* frames() const { return frames_ ? &*frames_ : nullptr; }
     Instant now() const { return rack_.kernel().now(); }
 
@@ -186,18 +186,18 @@ class Machine {
     Result<void> ready(const char* what);
     Result<void> axes_may_move(const char* what, std::string_view axes) const;
     Result<void> ready_for_lines(const char* what);
-    void pass_event(const control::gcode::Step& step);
+    void pass_event(const control::gcode::CanonCall& step);
     void tools_off();
-    void tell();
+    void publish_status();
     void enter(MachineState state, std::string why = {});
 
     MachineSettings settings_;
     rack::Rack rack_;
     rack::WireAccess desk_;
     rack::WireTap tap_;
-    rack::Probe probe_;
+    rack::PeriodicSampler probe_;
     std::optional<rack::FrameMonitor> frames_;
-    std::unique_ptr<control::Stream> stream_;
+    std::unique_ptr<control::StreamExecutor> stream_;
     bool group_holds_ = false;  ///< the card's axes; else each by itself
     bool hands_over_ = false;   ///< a card is being set up for the other ones: its counters mean nothing
     Trust trust_;

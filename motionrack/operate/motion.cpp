@@ -31,7 +31,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
         const InitialAxisState here = standing_of(axis.config, settings_.standing, known);
-        if (here.trusted) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
+        if (here.position_valid) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
     }
     MOTIONRACK_TRY(control::AxisGroup * group, rack_.path_axes_here());
     control::StreamExecutorSettings settings;
@@ -39,14 +39,14 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.gcode.start = group->commanded_position();
     settings.accel_reserve = rack_.axes().front().card->accel_reserve();
     settings.jerk_limited = config.jerk_limited();
-    stream_ = std::make_unique<control::Stream>(*group, host_of(rack_), settings);
-    stream_->on_event([this](const control::gcode::Step& step) { pass_event(step); });
+    stream_ = std::make_unique<control::StreamExecutor>(*group, host_of(rack_), settings);
+    stream_->on_event([this](const control::gcode::CanonCall& step) { pass_event(step); });
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
     rack_.stop_latch().arm();
     if (!settings_.alarm.empty()) raise("last run", settings_.alarm);
-    tell();
+    publish_status();
     return {};
 }
 
@@ -71,14 +71,14 @@ Result<control::Axis*> Machine::take_axis(char letter) {
         hands_over_ = false;
         return taken;
     }
-    return fail(ErrorKind::bad_input, fmt::format("There is no axis {}.", letter));
+    return fail(ErrorKind::invalid_input, fmt::format("There is no axis {}.", letter));
 }
 
 // ---- the loop
 
 void Machine::run() {
     while (!quit_ || state_ == MachineState::stopping || !positions_wanted_.empty()) step();
-    tell();  // where it has come to rest
+    publish_status();  // where it has come to rest
 }
 
 /// Between two runs of the kernel, perhaps in the middle of a drive.
@@ -96,7 +96,7 @@ void Machine::slice() {
         if (hands_over_) continue;
         if (!is_stationary(state_))  // a move may take long
             for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
-        tell();
+        publish_status();
     }
 }
 
@@ -194,7 +194,7 @@ void Machine::wait_for_standstill() {
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // of what came later nobody knew
     const Result<void> reset = asked ? latch.reset() : Result<void>();
-    if (!reset) status_.why = reset.error().message;
+    if (!reset) status_.reason = reset.error().message;
     if (asked && reset) {
         stop_taken_ = false;
         ordered_by_.clear();
@@ -203,7 +203,7 @@ void Machine::wait_for_standstill() {
         for (Alarm& alarm : status_.alarms) alarm.active = alarm.stays;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
-    if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.why);
+    if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.reason);
     for (std::size_t i = 0; i < enabled_.size(); ++i)
         enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
     const bool any = std::find(enabled_.begin(), enabled_.end(), true) != enabled_.end();
@@ -263,9 +263,9 @@ void Machine::jog_all() {
     const auto take = [this](char letter) { return take_axis(letter); };
     const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
     for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
-        if (one.how || one.how.error().trouble == ErrorKind::stopped) continue;
-        status_.why = one.how.error().message;
-        if (one.trusted || !trust_.of(one.letter)) continue;
+        if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
+        status_.reason = one.how.error().message;
+        if (one.position_valid || !trust_.of(one.letter)) continue;
         trust_.lose(one.letter);  // it stopped without a ramp, or does not know its counts
         supersede(status_.alarms, {&one.letter, 1});
         jogs_.let_go();
@@ -274,7 +274,7 @@ void Machine::jog_all() {
     }
     if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
-    if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.why, {}));
+    if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.reason, {}));
 }
 
 void Machine::home_all() {
@@ -289,7 +289,7 @@ void Machine::home_all() {
     for (const rack::HomedAxis& axis : homed.axes)
         if (axis.begun && !axis.outcome.homed) trust_.lose(axis.letter);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
-    if (!homed.ended && homed.ended.error().trouble == ErrorKind::machine) return failed(homed.ended.error());
+    if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
 }
 
@@ -302,7 +302,7 @@ void Machine::change_positions() {
     }
     if (Result<void> taken = take_group(); done) done = taken;
     positions_wanted_.clear();
-    if (!done) status_.why = done.error().message;
+    if (!done) status_.reason = done.error().message;
 }
 
 // ---- what is told
@@ -340,10 +340,10 @@ void Machine::raise(std::string source, std::string text, char axis) {
 
 void Machine::enter(MachineState state, std::string why) {
     state_ = state;
-    status_.why = std::move(why);
+    status_.reason = std::move(why);
 }
 
-void Machine::pass_event(const control::gcode::Step& step) {
+void Machine::pass_event(const control::gcode::CanonCall& step) {
     using control::gcode::CanonCallKind;
     if (step.kind == CanonCallKind::spindle_speed || step.kind == CanonCallKind::spindle)
         status_.spindle_rpm = step.speed_rpm;
@@ -365,7 +365,7 @@ static AxisStatus look_at(rack::RunningAxis& axis, bool trusted, bool enabled, I
     AxisStatus out;
     out.letter = axis.config.letter;
     out.rotary = axis.config.index() >= 3;
-    out.trusted = trusted;
+    out.position_valid = trusted;
     out.enabled = enabled;
     out.pulses = axis.card->pulse_counter(axis.channel);
     out.counts = axis.card->encoder_counter(axis.channel);
@@ -373,19 +373,19 @@ static AxisStatus look_at(rack::RunningAxis& axis, bool trusted, bool enabled, I
     out.commanded = origin + static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
     const double counts = axis.config.counts_per_unit();
     out.actual = counts > 0 ? origin + static_cast<double>(out.counts) / counts : out.commanded;
-    out.place = axis.machine->position(now);
+    out.true_position = axis.machine->position(now);
     out.speed = axis.speed(now);
     return out;
 }
 
-void Machine::tell() {
+void Machine::publish_status() {
     status_.at = now();
     ++status_.sequence;
     status_.state = state_;
     status_.axes.clear();
     for (rack::RunningAxis& axis : rack_.axes())
         status_.axes.push_back(
-            look_at(axis, trusted(axis.config), enabled_[static_cast<std::size_t>(axis.config.index())], now()));
+            look_at(axis, position_valid(axis.config), enabled_[static_cast<std::size_t>(axis.config.index())], now()));
     status_.program = program_name_;
     status_.line = stream_->current_line();
     status_.lines = line_count_;

@@ -47,7 +47,7 @@ ClockPacer::ClockPacer(live::Clock& clock, ClockMode mode, double factor)
 
 Result<void> ClockPacer::set(ClockMode mode, double factor) {
     if (!(factor >= least_factor && factor <= greatest_factor))
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor,
                                 least_factor, greatest_factor));
     mode_ = mode;
@@ -64,7 +64,7 @@ Result<void> ClockPacer::step(Duration duration) {
             fmt::format("Time steps only while it is paused; its mode is '{}'. Pause it first.", name_of(mode_)));
     if (duration <= Duration{0} || duration > whole_seconds(3600))
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("A step of time is 100 ps to 3600 s, not {} s. Nothing was changed.", to_seconds(duration)));
     step_end_ = std::max(step_end_, last_) + duration;
     return {};

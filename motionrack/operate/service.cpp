@@ -133,7 +133,7 @@ void Service::take() {
     machine_.hands_over_ = false;
     if (!begun) {
         stop_ = true;
-        machine_.status_.why = begun.error().message;
+        machine_.status_.reason = begun.error().message;
         if (lost.empty())
             note_ = fmt::format(" The service of card {} was not begun. {}", card_, begun.error().message);
     }
@@ -232,7 +232,7 @@ void Service::finish() {
     if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())
         machine_.enter(any ? MachineState::standstill : MachineState::disabled, sentence);
     else if (machine_.state_ == MachineState::stopping)
-        machine_.status_.why += note_;
+        machine_.status_.reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
     if (const Told told = std::exchange(ended_, {})) told(sentence);
 }

@@ -47,14 +47,14 @@ struct Alarm {
 
 struct AxisStatus {
     char letter = 'X';
-    bool rotary = false;   ///< degrees instead of mm
-    bool trusted = false;  ///< the positions mean places of the machine
+    bool rotary = false;          ///< degrees instead of mm
+    bool position_valid = false;  ///< the positions mean places of the machine
     bool enabled = false;
-    double commanded = 0;     ///< what the card's pulses say
-    double actual = 0;        ///< what the encoder says; commanded without one
-    double place = 0;         ///< where the table really is, whatever any counter says
-    double speed = 0;         ///< a second, signed
-    std::int64_t pulses = 0;  ///< the card's counters
+    double commanded = 0;      ///< what the card's pulses say
+    double actual = 0;         ///< what the encoder says; commanded without one
+    double true_position = 0;  ///< where the table really is, whatever any counter says
+    double speed = 0;          ///< a second, signed
+    std::int64_t pulses = 0;   ///< the card's counters
     std::int64_t counts = 0;
 };
 
@@ -79,16 +79,16 @@ struct StopReport {
 /// Where an axis stands when a machine is made.
 struct InitialAxisState {
     char letter = 'X';
-    double place = 0;      ///< of the table
-    double commanded = 0;  ///< as the card's counter has it
-    bool trusted = false;
+    double true_position = 0;  ///< of the table
+    double commanded = 0;      ///< as the card's counter has it
+    bool position_valid = false;
 };
 
 struct Status {
     Instant at{};
     std::int64_t sequence = 0;  ///< of this picture, from 1
     MachineState state = MachineState::disabled;
-    std::string why;  ///< the sentence that stopped it last, or why it holds
+    std::string reason;  ///< the sentence that stopped it last, or why it holds
     std::vector<AxisStatus> axes;
     std::string program;    ///< name; empty: none was begun
     std::int32_t line = 0;  ///< being driven

@@ -19,8 +19,8 @@ Answer error_answer(const Error& error) {
         return refused_answer(status, trouble, error.message);
     };
     Answer answer;
-    switch (error.trouble) {
-        case ErrorKind::bad_input:
+    switch (error.kind) {
+        case ErrorKind::invalid_input:
             answer = make(400, "bad_input");
             break;
         case ErrorKind::refused:

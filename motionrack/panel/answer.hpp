@@ -12,7 +12,7 @@ namespace motionrack::panel {
 
 struct Caller {
     std::string user;
-    authority::Role role = authority::Role::nobody;
+    authority::Role role = authority::Role::none;
     std::string session;       ///< one connection or token: what holds the control lease
     std::string address = {};  ///< where it came from, for the journal
 };

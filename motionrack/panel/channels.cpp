@@ -132,7 +132,7 @@ const Channel* ChannelRegistry::find(std::string_view name) const {
 
 Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<std::string>& names) {
     if (names.size() > Panel::most_channels)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.",
                                 names.size(), Panel::most_channels));
     Held held;
@@ -140,7 +140,7 @@ Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<st
         const Channel* channel = find(name);
         if (channel == nullptr)
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format(
                     "There is no channel {}; the query channels lists those that there are. Nothing was changed.",
                     rack::in_quotes(name)));

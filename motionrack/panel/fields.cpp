@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 tl::unexpected<Error> wrong(const OperationSpec& row, std::string_view what) {
-    return fail(ErrorKind::bad_input, fmt::format("{} was not done: {}", row.name, what));
+    return fail(ErrorKind::invalid_input, fmt::format("{} was not done: {}", row.name, what));
 }
 
 /// Whether a text is one of "a|b|c".
@@ -27,7 +27,7 @@ bool one_of(std::string_view words, std::string_view text) {
 }
 
 std::string range_of(const FieldSpec& field) {
-    return fmt::format("{} to {}{}{}", field.least, field.greatest, field.unit.empty() ? "" : " ", field.unit);
+    return fmt::format("{} to {}{}{}", field.min, field.max, field.unit.empty() ? "" : " ", field.unit);
 }
 
 Result<void> check_number(const OperationSpec& row, const FieldSpec& field, const json& value) {
@@ -35,7 +35,7 @@ Result<void> check_number(const OperationSpec& row, const FieldSpec& field, cons
         return wrong(row,
                      fmt::format("{} must be a number ({}), not {}.", field.name, range_of(field), value.type_name()));
     const double number = value.get<double>();
-    if (!std::isfinite(number) || number < field.least || number > field.greatest)
+    if (!std::isfinite(number) || number < field.min || number > field.max)
         return wrong(row, fmt::format("{} is {}; {} is possible.", field.name, number, range_of(field)));
     if (field.type == FieldType::integer && number != std::floor(number))
         return wrong(row, fmt::format("{} is {}, but must be a whole number.", field.name, number));
@@ -45,9 +45,8 @@ Result<void> check_number(const OperationSpec& row, const FieldSpec& field, cons
 Result<void> check_text(const OperationSpec& row, const FieldSpec& field, const json& value) {
     if (!value.is_string()) return wrong(row, fmt::format("{} must be a text, not {}.", field.name, value.type_name()));
     const auto& text = value.get_ref<const std::string&>();
-    if (static_cast<double>(text.size()) > field.greatest)
-        return wrong(row,
-                     fmt::format("{} has {} characters; {} are the most.", field.name, text.size(), field.greatest));
+    if (static_cast<double>(text.size()) > field.max)
+        return wrong(row, fmt::format("{} has {} characters; {} are the most.", field.name, text.size(), field.max));
     return {};
 }
 
@@ -58,8 +57,8 @@ Result<void> check_numbers(const OperationSpec& row, const FieldSpec& field, con
     if (!value.is_object())
         return wrong(
             row, fmt::format("{} must be an object of whole numbers by name, not {}.", field.name, value.type_name()));
-    if (static_cast<double>(value.size()) > field.greatest)
-        return wrong(row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.greatest));
+    if (static_cast<double>(value.size()) > field.max)
+        return wrong(row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.max));
     for (const auto& [name, one] : value.items())
         if (!one.is_number() || one.get<double>() != std::floor(one.get<double>()) ||
             std::fabs(one.get<double>()) > max_whole)
@@ -89,9 +88,9 @@ Result<void> check_field(const OperationSpec& row, const FieldSpec& field, const
         case FieldType::texts:
             if (!value.is_array())
                 return wrong(row, fmt::format("{} must be a list of texts, not {}.", field.name, value.type_name()));
-            if (static_cast<double>(value.size()) > field.greatest)
-                return wrong(
-                    row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.greatest));
+            if (static_cast<double>(value.size()) > field.max)
+                return wrong(row,
+                             fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.max));
             for (const json& one : value)
                 if (!one.is_string())
                     return wrong(row, fmt::format("{} must be a list of texts; one of them is {}.", field.name,

@@ -27,12 +27,12 @@ json schema_of(const FieldSpec& field) {
         case FieldType::number:
         case FieldType::integer:
             schema["type"] = field.type == FieldType::number ? "number" : "integer";
-            schema["minimum"] = field.least;
-            schema["maximum"] = field.greatest;
+            schema["minimum"] = field.min;
+            schema["maximum"] = field.max;
             break;
         case FieldType::text:
             schema["type"] = "string";
-            schema["maxLength"] = static_cast<std::int64_t>(field.greatest);
+            schema["maxLength"] = static_cast<std::int64_t>(field.max);
             break;
         case FieldType::choice:
             schema["type"] = "string";
@@ -44,12 +44,12 @@ json schema_of(const FieldSpec& field) {
         case FieldType::texts:
             schema["type"] = "array";
             schema["items"] = {{"type", "string"}};
-            schema["maxItems"] = static_cast<std::int64_t>(field.greatest);
+            schema["maxItems"] = static_cast<std::int64_t>(field.max);
             break;
         case FieldType::numbers:
             schema["type"] = "object";
             schema["additionalProperties"] = {{"type", "integer"}};
-            schema["maxProperties"] = static_cast<std::int64_t>(field.greatest);
+            schema["maxProperties"] = static_cast<std::int64_t>(field.max);
             break;
     }
     if (field.or_null) schema["nullable"] = true;
@@ -57,7 +57,7 @@ json schema_of(const FieldSpec& field) {
 }
 
 std::string who_may(const OperationSpec& row) {
-    if (row.role == authority::Role::nobody) return "Anybody, without a token.";
+    if (row.role == authority::Role::none) return "Anybody, without a token.";
     return fmt::format("Needs the role {}{}.", authority::name_of(row.role), row.lease ? " and the control lease" : "");
 }
 
@@ -72,7 +72,7 @@ json operation_of(const OperationSpec& row) {
                       {"summary", row.text},
                       {"description", who_may(row)},
                       {"responses", std::move(answers)}};
-    if (row.role == authority::Role::nobody) operation["security"] = json::array();
+    if (row.role == authority::Role::none) operation["security"] = json::array();
     return operation;
 }
 
@@ -136,10 +136,10 @@ std::string kind_of(const FieldSpec& field) {
         case FieldType::number:
         case FieldType::integer:
             return fmt::format("{} {} .. {}{}{}{}", field.type == FieldType::number ? "number" : "whole number",
-                               field.least, field.greatest, field.unit.empty() ? "" : " ", field.unit,
+                               field.min, field.max, field.unit.empty() ? "" : " ", field.unit,
                                field.or_null ? ", or null" : "");
         case FieldType::text:
-            return fmt::format("text, {} characters at most", field.greatest);
+            return fmt::format("text, {} characters at most", field.max);
         case FieldType::choice: {
             std::string words(field.words);
             for (std::size_t at = 0; (at = words.find('|', at)) != std::string::npos; at += 2)
@@ -149,9 +149,9 @@ std::string kind_of(const FieldSpec& field) {
         case FieldType::flag:
             return "true or false";
         case FieldType::texts:
-            return fmt::format("list of texts, {} at most", field.greatest);
+            return fmt::format("list of texts, {} at most", field.max);
         case FieldType::numbers:
-            return fmt::format("object of whole numbers by name, {} at most", field.greatest);
+            return fmt::format("object of whole numbers by name, {} at most", field.max);
     }
     return {};
 }

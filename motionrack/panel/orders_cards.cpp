@@ -26,7 +26,7 @@ Result<json> set_wire(PanelContext& desk, const json& fields) {
     const auto& name = fields.at("name").get_ref<const std::string&>();
     const json& value = fields.at("value");
     MOTIONRACK_CHECK(check_virtual(desk, name, "The wire was not driven"));
-    return accepted(desk.machine.wires().set(
+    return accepted(desk.machine.wires().force(
         name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
 }
 
@@ -68,7 +68,7 @@ Result<json> set_clock(PanelContext& desk, const json& fields) {
          {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
         if (operate::name_of(mode) == name)
             return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
-    return fail(ErrorKind::bad_input, "There is no such mode of the clock.");
+    return fail(ErrorKind::invalid_input, "There is no such mode of the clock.");
 }
 
 Result<json> step_clock(PanelContext& desk, const json& fields) {
@@ -81,7 +81,7 @@ constexpr std::array card_rows = {
                      [](PanelContext& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
     OperationHandler{"press_estop",
                      [](PanelContext& desk, const Caller&, const json& fields) {
-                         return accepted(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1));
+                         return accepted(desk.machine.wires().force("estop", fields.at("pressed").get<bool>() ? 0 : 1));
                      }},
     OperationHandler{"inject_fault",
                      [](PanelContext& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},

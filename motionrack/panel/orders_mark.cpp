@@ -30,7 +30,7 @@ struct Lists {
 };
 
 /// The rack knows its optics, laser and belt better than the job.
-void as_the_rack_has_it(mark::Job& job, const rack::RackConfig& config, const std::string& card) {
+void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, const std::string& card) {
     for (const rack::RackScanner& scanner : config.scanners) {
         if (scanner.card != card) continue;
         job.optics.bits_per_mm = scanner.bits_per_mm;
@@ -53,7 +53,7 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
                        const std::string& drawing, bool on_parts) {
     mark::JobRead read = mark::read_job(text, "job");
     if (!read.job) return tl::unexpected<Error>(read.errors.front());
-    mark::Job& job = *read.job;
+    mark::MarkingJob& job = *read.job;
     if (job.parts)
         return fail(ErrorKind::refused,
                     "The job has a section [parts]: the rack's own belt brings the parts here. Leave it out and give "
@@ -118,7 +118,7 @@ Result<json> begin_marking(PanelContext& desk, const std::string& card, const Li
 Result<void> check_card(PanelContext& desk, const std::string& card) {
     MOTIONRACK_CHECK(rack::card_named(desk.machine.rack(), card));
     if (rack::rtc5_card_of(desk.machine.rack(), card) != nullptr) return {};
-    return fail(ErrorKind::bad_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
+    return fail(ErrorKind::invalid_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
 }
 
 void mark(PanelContext& desk, const json& fields, Ready ready) {

@@ -68,7 +68,7 @@ constexpr std::array motion = {
     OperationHandler{"declare_position",
                      [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-                         return accepted(desk.machine.declare_position(letter, fields.at("position").get<double>()));
+                         return accepted(desk.machine.set_position(letter, fields.at("position").get<double>()));
                      }},
 };
 
@@ -81,8 +81,8 @@ Result<char> axis_of(PanelContext& desk, const json& fields) {
         if (text.size() == 1 && text[0] == axis.letter) return axis.letter;
         known += axis.letter;
     }
-    return fail(ErrorKind::bad_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.",
-                                                  text_of(fields.at("axis")), known));
+    return fail(ErrorKind::invalid_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.",
+                                                      text_of(fields.at("axis")), known));
 }
 
 std::span<const OperationHandler> control_doers() {

@@ -91,7 +91,7 @@ constexpr std::array program = {
                          const auto number = fields.at("alarm").get<std::int64_t>();
                          if (desk.machine.acknowledge(number)) return json::object();
                          return fail(
-                             ErrorKind::bad_input,
+                             ErrorKind::invalid_input,
                              fmt::format("There is no alarm {} that is still there. Nothing was changed.", number));
                      }},
 };

@@ -46,7 +46,7 @@ class Panel::Inside {
               mark_doers(), looking_doers()})
             for (const OperationHandler& doer : table) doers_[doer.name] = &doer;
         for (const std::span<const OperationSpec> table : {commands(), queries()})
-            for (const OperationSpec& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
+            for (const OperationSpec& row : table) MOTIONRACK_ASSERT(row.external || doers_.count(row.name) == 1);
         machine.listen([this](const operate::Status& status) { look(status); },
                        [this](const operate::StopReport& report) { logbook_.stopped(report); });
         show(machine.status());
@@ -120,7 +120,7 @@ class Panel::Inside {
                 Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
         Answer answer = done(std::move(*result));
-        const bool told = row.role != authority::Role::observe && !row.passing && !answer.body.value("again", false);
+        const bool told = row.role != authority::Role::observe && !row.high_rate && !answer.body.value("again", false);
         answer.body.erase("again");
         if (!told) return reply(std::move(answer));
         taken_.push_back(
@@ -190,13 +190,13 @@ void Panel::ask(const Caller& caller, std::string_view name, const json& fields,
             refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));
     if (caller.role < row->role)
         return reply(
-            refused_answer(caller.role == authority::Role::nobody ? 401 : 403, "denied",
+            refused_answer(caller.role == authority::Role::none ? 401 : 403, "denied",
                            fmt::format("{} needs the role {}; {} has the role {}. Nothing was done.", row->name,
                                        authority::name_of(row->role), caller.user.empty() ? "the caller" : caller.user,
                                        authority::name_of(caller.role))));
     if (const Result<void> good = check_fields(*row, fields); !good) return reply(error_answer(good.error()));
-    if (row->elsewhere) {
-        const auto& handlers = inside_->desk().settings.elsewhere;
+    if (row->external) {
+        const auto& handlers = inside_->desk().settings.external;
         const auto found = handlers.find(row->name);
         if (found == handlers.end())
             return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));

@@ -39,7 +39,7 @@ struct PanelSettings {
     journal::Journal* journal =
         nullptr;  ///< orders and what the machine does are written to it, and orders are answered when they are safe
     std::function<nlohmann::json()> link = {};  ///< status' "link"; called on the motion thread, never waits
-    std::map<std::string, Handler, std::less<>> elsewhere = {};
+    std::map<std::string, Handler, std::less<>> external = {};
     std::chrono::microseconds picture_every{5'000};  ///< of real time; 0: every slice
 };
 

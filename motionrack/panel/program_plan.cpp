@@ -15,7 +15,7 @@ constexpr std::size_t most_points = 20'000, max_problems = 100;
 constexpr double radians_a_chord = 0.15;
 
 void add_move(Polyline& line, const control::PlannedMove& planned) {
-    const bool feed = planned.move.kind != control::MoveKind::traverse;
+    const bool feed = planned.move.kind != control::MoveKind::rapid;
     const control::Geometry path = control::geometry_of(planned.move, planned.start);
     const int chords = path.shape == control::PathShape::arc
                            ? std::clamp(static_cast<int>(std::fabs(path.sweep) / radians_a_chord) + 1, 1, 1000)
@@ -116,8 +116,8 @@ json to_json(const ProgramPlan& plan, const std::string& letters) {
                 {"axes", letters}};
     if (!plan.check.problems.empty()) return out;
     for (const char letter : letters) {
-        out["least"][std::string(1, letter)] = plan.check.least[axis_of(letter)];
-        out["greatest"][std::string(1, letter)] = plan.check.greatest[axis_of(letter)];
+        out["least"][std::string(1, letter)] = plan.check.min[axis_of(letter)];
+        out["greatest"][std::string(1, letter)] = plan.check.max[axis_of(letter)];
     }
     json path = json::array(), lines = json::array(), feeds = json::array();
     for (const PathPoint& point : plan.path) {

@@ -124,7 +124,7 @@ Result<json> control_of(PanelContext& desk) {
 }
 
 Result<json> homing_of(PanelContext& desk) {
-    const auto& homed = desk.machine.homed();
+    const auto& homed = desk.machine.last_homing();
     return json{{"homing", homed ? json::parse(rack::homing_json(*homed)) : json()}};
 }
 

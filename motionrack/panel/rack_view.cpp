@@ -22,7 +22,7 @@ json axes_of(const rack::RackConfig& config) {
                        {"channel", axis.channel},
                        {"min", axis.min_position},
                        {"max", axis.max_position},
-                       {"max_speed", axis.max_speed},
+                       {"max_speed", axis.max_velocity},
                        {"max_accel", axis.max_accel},
                        {"pulses_per_unit", axis.pulses_per_unit()},
                        {"counts_per_unit", axis.counts_per_unit()},
@@ -105,8 +105,8 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         std::string known;
         for (const rack::RunningScanner& one : machine.rack().scanners())
             known += (known.empty() ? "" : ", ") + one.config.name;
-        return fail(ErrorKind::bad_input, fmt::format("There is no scan head {}; the rack has: {}.",
-                                                      rack::in_quotes(name), known.empty() ? "none" : known));
+        return fail(ErrorKind::invalid_input, fmt::format("There is no scan head {}; the rack has: {}.",
+                                                          rack::in_quotes(name), known.empty() ? "none" : known));
     }
     const parts::MarkingStation& station = scanner->station();
     const std::span<const parts::MarkedPoint> points = station.workpiece().points();

@@ -51,17 +51,17 @@ Scope::~Scope() {
 
 Result<void> Scope::arm(const ScopeSettings& settings) {
     if (settings.channels.empty() || settings.channels.size() > most_channels)
-        return fail(ErrorKind::bad_input, fmt::format("{} channels cannot be looked at; 1 to {} can.",
-                                                      settings.channels.size(), most_channels));
+        return fail(ErrorKind::invalid_input, fmt::format("{} channels cannot be looked at; 1 to {} can.",
+                                                          settings.channels.size(), most_channels));
     if (settings.length <= Duration{0} || settings.pre < Duration{0} || settings.pre > settings.length)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     "The part before the trigger must lie within the length, which must be above 0.");
     std::vector<std::string> wires;
     std::vector<Number> numbers;
     for (std::size_t i = 0; i < settings.channels.size(); ++i) {
         const Channel* channel = book_.find(settings.channels[i]);
         if (channel == nullptr)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("There is no channel {}; the query channels lists those that there are.",
                                     rack::in_quotes(settings.channels[i])));
         if (channel->looks == ChannelReader::edges)
@@ -71,7 +71,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
     }
     const auto trigger = std::find(settings.channels.begin(), settings.channels.end(), settings.trigger);
     if (!settings.trigger.empty() && trigger == settings.channels.end())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The trigger {} is none of the channels.", rack::in_quotes(settings.trigger)));
     if (!numbers.empty() &&
         (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(most_samples)))

@@ -66,7 +66,7 @@ struct StatusWriter::Facts {
     struct Axis {
         std::string unit;
         bool can_home = false;
-        double least = 0, greatest = 0, max_speed = 0;
+        double min = 0, max = 0, max_velocity = 0;
         double near = 0;  // in position: so near to where the card wants it
         struct Led {
             std::string_view name;
@@ -102,7 +102,7 @@ StatusWriter::StatusWriter(operate::Machine& machine) {
                         config.can_home(axis),
                         axis.min_position,
                         axis.max_position,
-                        axis.max_speed,
+                        axis.max_velocity,
                         near_of(axis),
                         {}};
         const auto add = [&](const rack::Lamp& lamp, const std::string& before) {
@@ -138,15 +138,15 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
             const operate::AxisStatus& axis = status.axes[i];
             const Facts::Axis& fact = facts->axes[i];
             json leds = json::object();
-            if (axis.trusted) {
-                leds["soft_minus"] = axis.commanded <= fact.least;
-                leds["soft_plus"] = axis.commanded >= fact.greatest;
+            if (axis.position_valid) {
+                leds["soft_minus"] = axis.commanded <= fact.min;
+                leds["soft_plus"] = axis.commanded >= fact.max;
             }
             leds["in_position"] = stands && std::fabs(axis.commanded - axis.actual) <= fact.near;
             for (const auto& [name, on] : noted->leds[i]) leds[std::string(name)] = on;
             axes.push_back({{"letter", std::string(1, axis.letter)},
                             {"unit", fact.unit},
-                            {"trusted", axis.trusted},
+                            {"trusted", axis.position_valid},
                             {"enabled", axis.enabled},
                             {"can_home", fact.can_home},
                             {"commanded", axis.commanded},
@@ -155,16 +155,16 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
                             {"speed", axis.speed},
                             {"pulses", axis.pulses},
                             {"counts", axis.counts},
-                            {"min", fact.least},
-                            {"max", fact.greatest},
-                            {"max_speed", fact.max_speed},
+                            {"min", fact.min},
+                            {"max", fact.max},
+                            {"max_speed", fact.max_velocity},
                             {"leds", std::move(leds)}});
         }
         json out = {
             {"at", to_seconds(status.at)},
             {"sequence", status.sequence},
             {"state", operate::name_of(status.state)},
-            {"why", status.why},
+            {"why", status.reason},
             {"service", status.service},
             {"simulation", !status.real},
             {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},

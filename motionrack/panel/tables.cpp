@@ -132,7 +132,7 @@ constexpr std::array order_rows = {
     OperationSpec{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
     OperationSpec{
         "stop",
-        Role::nobody,
+        Role::none,
         false,
         {},
         "Stops whatever moves, puts out lasers, and forgets programs and lines; a reset ends it, and another's control "

@@ -26,11 +26,11 @@ struct FieldSpec {
     std::string_view name;
     FieldType type = FieldType::number;
     bool required = true;
-    double least = 0, greatest = 0;  ///< of numbers; of texts, lists and objects their greatest length
-    std::string_view unit;           ///< "mm or degrees", "s"
-    std::string_view words;          ///< choice: "real|free|paused"
-    std::string_view text;           ///< one line
-    bool or_null = false;            ///< JSON's null is taken, too
+    double min = 0, max = 0;  ///< of numbers; of texts, lists and objects their greatest length
+    std::string_view unit;    ///< "mm or degrees", "s"
+    std::string_view words;   ///< choice: "real|free|paused"
+    std::string_view text;    ///< one line
+    bool or_null = false;     ///< JSON's null is taken, too
 };
 
 /// An order or a query.
@@ -41,8 +41,8 @@ struct OperationSpec {
     std::span<const FieldSpec> fields;
     std::string_view text;        ///< one sentence
     std::string_view gives = {};  ///< members of the answer besides "done"
-    bool elsewhere = false;       ///< PanelSettings::elsewhere carries it out
-    bool passing = false;         ///< repeated many times a second: no event, no journal
+    bool external = false;        ///< PanelSettings::elsewhere carries it out
+    bool high_rate = false;       ///< repeated many times a second: no event, no journal
 };
 
 std::span<const OperationSpec> commands();

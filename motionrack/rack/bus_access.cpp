@@ -12,7 +12,7 @@ Result<Card*> card_named(Rack& rack, std::string_view name) {
     std::string known;
     for (const auto& card : rack.cards()) known += (known.empty() ? "" : ", ") + card->name();
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was done.", in_quotes(name), known));
 }
 

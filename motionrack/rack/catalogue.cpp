@@ -82,8 +82,10 @@ class Mcx314Card final : public MotionCard {
     int channel_number(std::string_view channel) const override {
         return static_cast<int>(std::string_view("xyzu").find(channel));
     }
-    sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
-    void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }
+    sim::PositionFunction& pulses(int channel) override { return chip_.pulses(channel); }
+    void connect_encoder(int channel, sim::PositionFunction& counts) override {
+        chip_.connect_encoder(channel, counts);
+    }
     void take_encoder(int channel, bool taken) override { chip_.take_encoder(channel, taken); }
     sim::VirtualHost& host() override { return port_; }
     sim::VirtualPort* port() override { return &port_; }
@@ -97,7 +99,7 @@ class Mcx314Card final : public MotionCard {
         MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
         for (int c = 0; c < mcx314::channel_count && !position; ++c)
             MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
-        group_trusted_ = stand.trusted;
+        group_trusted_ = stand.position_valid;
         if (position) group_trusted_.fill(true);
         return &*axes_;
     }
@@ -124,7 +126,7 @@ class Mcx314Card final : public MotionCard {
         one = std::make_unique<mcx314::SingleAxis>(driver_, settings);
         MOTIONRACK_CHECK(one->set_up());
         const auto c = static_cast<std::size_t>(settings.channel);
-        if (before_singles_.trusted[c])
+        if (before_singles_.position_valid[c])
             MOTIONRACK_CHECK(one->go_on(before_singles_.pulses[c], before_singles_.counts[c], true));
         return one.get();
     }
@@ -183,7 +185,7 @@ class Mcx314Card final : public MotionCard {
     /// Where the channels stand, and whether that means a place of the machine.
     struct Stand {
         std::array<std::int64_t, mcx314::channel_count> pulses = {}, counts = {};
-        std::array<bool, mcx314::channel_count> trusted = {};
+        std::array<bool, mcx314::channel_count> position_valid = {};
     };
     Stand stand_now() {
         // Channels that nobody took by themselves since the group had the card stand where it left them.
@@ -191,11 +193,11 @@ class Mcx314Card final : public MotionCard {
         const auto read = [&](std::size_t c, bool trusted) {
             out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
             out.counts[c] = driver_.ReadEPS(static_cast<int>(c));
-            out.trusted[c] = trusted;
+            out.position_valid[c] = trusted;
         };
         for (std::size_t c = 0; axes_ && c < out.pulses.size(); ++c) read(c, group_trusted_[c]);
         for (const auto& one : single_)
-            if (one) read(static_cast<std::size_t>(one->channel()), one->trusted());
+            if (one) read(static_cast<std::size_t>(one->channel()), one->position_valid());
         return out;
     }
     /// The chip's reset has cleared those of all channels, and the others stand where they stood.
@@ -276,8 +278,8 @@ tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std
     std::vector<std::string_view> known(more.begin(), more.end());
     for (const RegisterInfo& reg : card.map().registers)
         if (reg.access != Access::write && reg.bank.empty()) known.push_back(reg.name);
-    return fail(ErrorKind::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", card.name(),
-                                                  in_quotes(name), fmt::join(known, ", ")));
+    return fail(ErrorKind::invalid_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.",
+                                                      card.name(), in_quotes(name), fmt::join(known, ", ")));
 }
 
 std::span<const CardKind> card_kinds() {

@@ -109,8 +109,8 @@ class MotionCard : public Card {
     /// Number of a channel by its name in the rack file.
     virtual int channel_number(std::string_view channel) const = 0;
     /// Pulses of a channel, as a function of time.
-    virtual sim::Motion& pulses(int channel) = 0;
-    virtual void connect_encoder(int channel, sim::Motion& counts) = 0;
+    virtual sim::PositionFunction& pulses(int channel) = 0;
+    virtual void connect_encoder(int channel, sim::PositionFunction& counts) = 0;
     /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or
     /// releases them and puts it back. In between what the inputs are forced to counts.
     virtual void take_encoder(int channel, bool taken) = 0;

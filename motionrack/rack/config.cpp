@@ -32,7 +32,7 @@ double RackAxis::following_alarm() const {
     constexpr double usual = 1, min_counts = 4;  // a coarse encoder is off by a count while all is well
     if (following_error_alarm) return *following_error_alarm;
     const double counts = counts_per_unit();
-    const double of_servo = servo ? 0.1 * max_speed : 0;  // it lags, and its model is as good as the file
+    const double of_servo = servo ? 0.1 * max_velocity : 0;  // it lags, and its model is as good as the file
     return counts > 0 ? std::max({usual, min_counts / counts, of_servo}) : 0;
 }
 
@@ -81,10 +81,10 @@ control::MachineLimits RackConfig::limits() const {
         limits.present = true;
         limits.min_position = axis.min_position;
         limits.max_position = axis.max_position;
-        limits.max_speed = axis.max_speed;
+        limits.max_velocity = axis.max_velocity;
         limits.max_accel = axis.max_accel;
         limits.max_jerk = axis.max_jerk;
-        limits.start_speed = axis.start_speed;
+        limits.max_velocity_step = axis.max_velocity_step;
         limits.pulses_per_unit = axis.pulses_per_unit();
     }
     return out;

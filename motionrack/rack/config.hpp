@@ -180,10 +180,10 @@ struct RackAxis {
     std::int64_t microsteps = 16;  ///< pulses for one full step
     double lead_mm = 5;            ///< linear: travel for one motor turn
     double gear_ratio = 90;        ///< rotary: motor turns for one turn of the axis
-    double max_speed = 100;
+    double max_velocity = 100;
     double max_accel = 1000;
     double max_jerk = 20'000;  ///< 0: trapezoids
-    double start_speed = 2;
+    double max_velocity_step = 2;
     double min_position = 0;
     double max_position = 300;
     double start_position = 0;                   ///< where the machine stands when the rack starts
@@ -208,7 +208,7 @@ struct RackAxis {
     /// Encoder counts for one mm or degree; 0 without an encoder.
     double counts_per_unit() const;
     /// The pulse rate at max_speed.
-    double max_pulse_hz() const { return max_speed * pulses_per_unit(); }
+    double max_pulse_hz() const { return max_velocity * pulses_per_unit(); }
     /// By how much the encoder may be off from what drives the axis before the machine is stopped, and before it is
     /// told: mm or degrees; 0: by anything.
     double following_alarm() const;

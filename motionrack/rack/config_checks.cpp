@@ -169,8 +169,8 @@ class AxisCheck {
                              with_unit(key, axis_.unit()), axis_.letter, number_text(*value),
                              with_unit(limit, axis_.unit()), number_text(most)));
         };
-        above("speed_{u}_s", h.speed, axis_.max_speed, "max_speed_{u}_s");
-        above("slow_speed_{u}_s", h.slow_speed, axis_.start_speed, "start_speed_{u}_s");
+        above("speed_{u}_s", h.speed, axis_.max_velocity, "max_speed_{u}_s");
+        above("slow_speed_{u}_s", h.slow_speed, axis_.max_velocity_step, "start_speed_{u}_s");
         if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"home_type", "encoder_counts_per_rev"}))
             warn("home_type", "homing",
                  fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
@@ -189,10 +189,10 @@ class AxisCheck {
 
     void motor() {
         const std::string_view u = axis_.unit();
-        if (source_.sound({"start_speed_{u}_s", "max_speed_{u}_s"}) && axis_.start_speed > axis_.max_speed)
+        if (source_.sound({"start_speed_{u}_s", "max_speed_{u}_s"}) && axis_.max_velocity_step > axis_.max_velocity)
             error("start_speed_{u}_s", {},
                   fmt::format("start_speed_{0}_s of axis {1} is {2}, above its max_speed_{0}_s, which is {3}.", u,
-                              axis_.letter, number_text(axis_.start_speed), number_text(axis_.max_speed)));
+                              axis_.letter, number_text(axis_.max_velocity_step), number_text(axis_.max_velocity)));
         if (source_.sound({"max_jerk_{u}_s3"}) && axis_.max_jerk > 0 && axis_.max_jerk < 0.001) {
             error("max_jerk_{u}_s3", {},
                   fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it is 0 (trapezoids) or at least 0.001 {0}/s3.", u,
@@ -208,8 +208,8 @@ class AxisCheck {
                       "start_stop_hz must not be above it.",
                       axis_.letter, number_text(m.start_stop_hz), number_text(m.pull_out_hz)));
         } else if (pulses_known()) {
-            too_fast_for_motor("max_speed_{u}_s", axis_.max_speed, "pull_out_hz", m.pull_out_hz);
-            too_fast_for_motor("start_speed_{u}_s", axis_.start_speed, "start_stop_hz", m.start_stop_hz);
+            too_fast_for_motor("max_speed_{u}_s", axis_.max_velocity, "pull_out_hz", m.pull_out_hz);
+            too_fast_for_motor("start_speed_{u}_s", axis_.max_velocity_step, "start_stop_hz", m.start_stop_hz);
         }
     }
 
@@ -265,12 +265,12 @@ class AxisCheck {
                               "encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.fastest()), u, short_text(counts), u));
         const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
-        if (axis_.start_speed <= slowest)
+        if (axis_.max_velocity_step <= slowest)
             warn("start_speed_{u}_s", {},
                  fmt::format("start_speed_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s of every "
                              "speed: it would stop "
                              "short of its target.",
-                             u, axis_.letter, number_text(axis_.start_speed), short_text(slowest)));
+                             u, axis_.letter, number_text(axis_.max_velocity_step), short_text(slowest)));
         if (const double most = servo.top_accel / (1 + servo.load); axis_.max_accel > most)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
@@ -278,10 +278,10 @@ class AxisCheck {
                              "past its target.",
                              u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
         const double reach = std::min(servo.fastest(), (10 - servo.dead_band_v) * servo.speed_per_volt);
-        if (axis_.max_speed > reach * rounding)
+        if (axis_.max_velocity > reach * rounding)
             warn("max_speed_{u}_s", {},
                  fmt::format("max_speed_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.",
-                             u, axis_.letter, number_text(axis_.max_speed), short_text(reach)));
+                             u, axis_.letter, number_text(axis_.max_velocity), short_text(reach)));
     }
 
     void too_fast_for_motor(std::string_view key, double speed, const char* limit_key, double limit) {
@@ -297,14 +297,14 @@ class AxisCheck {
     void chip(const RackCard& card, const CardType& type) {
         if (!pulses_known()) return;
         const double fastest = type.max_pulse_hz(card);
-        too_fast_for_chip("max_speed_{u}_s", axis_.max_speed, "pulses/s", fastest, card);
+        too_fast_for_chip("max_speed_{u}_s", axis_.max_velocity, "pulses/s", fastest, card);
         too_fast_for_chip("max_accel_{u}_s2", axis_.max_accel, "pulses/s2", type.max_accel_hz_s(card), card);
         const std::string_view u = axis_.unit();
         if (source_.sound({"max_speed_{u}_s"}) && axis_.max_pulse_hz() < 1) {
             error("max_speed_{u}_s", {},
                   fmt::format(
                       "max_speed_{}_s of axis {} is {}, that is {} pulses/s; the slowest that card {} can do is 1.", u,
-                      axis_.letter, number_text(axis_.max_speed), short_text(axis_.max_pulse_hz()), card.name));
+                      axis_.letter, number_text(axis_.max_velocity), short_text(axis_.max_pulse_hz()), card.name));
         }
         counter_range(type);
         if (!source_.sound({"encoder_counts_per_rev", "max_speed_{u}_s"})) return;
@@ -353,12 +353,12 @@ class AxisCheck {
                               axis_.letter, axis_.encoder_counts_per_rev));
             return;
         }
-        const double rate = axis_.max_speed * axis_.counts_per_unit();
+        const double rate = axis_.max_velocity * axis_.counts_per_unit();
         if (rate <= limit * rounding) return;
         error("encoder_counts_per_rev", {},
               fmt::format(
                   "The encoder of axis {} gives {} counts/s at {} {}/s; the inputs of card {} follow {} counts/s.",
-                  axis_.letter, short_text(rate), number_text(axis_.max_speed), axis_.unit(), card.name,
+                  axis_.letter, short_text(rate), number_text(axis_.max_velocity), axis_.unit(), card.name,
                   short_text(limit)));
     }
 

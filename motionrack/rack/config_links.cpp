@@ -158,11 +158,13 @@ class LinkResolver {
             });
             int readers = lines;  // its edges as wires take one
             for (const EncoderLink& link : config_.encoder_links) {
-                if (link.axis != static_cast<int>(axis) || ++readers != sim::Motion::max_listeners + 1) continue;
+                if (link.axis != static_cast<int>(axis) || ++readers != sim::PositionFunction::max_listeners + 1)
+                    continue;
                 const std::string input = name(pin_of(link.card, link.channel, "enc_a"));
-                error({input}, fmt::format("{} would be input number {} of the encoder of axis {}; one encoder leads "
-                                           "to {} channels at most.",
-                                           input, readers, config_.axes[axis].letter, sim::Motion::max_listeners));
+                error({input},
+                      fmt::format("{} would be input number {} of the encoder of axis {}; one encoder leads "
+                                  "to {} channels at most.",
+                                  input, readers, config_.axes[axis].letter, sim::PositionFunction::max_listeners));
             }
         }
     }

@@ -254,7 +254,7 @@ class RackReader {
             axis.lead_mm = 1;
             axis.gear_ratio = 360;
             axis.encoder_counts_per_rev = axis.pulses_per_rev();
-            axis.max_speed = fastest / axis.pulses_per_unit();
+            axis.max_velocity = fastest / axis.pulses_per_unit();
             axis.max_accel = 100'000;
             axis.max_jerk = 0;
             axis.min_position = -2'000'000;
@@ -304,14 +304,14 @@ RackReading read_rack_file(const std::filesystem::path& path) {
         return fail_io(fmt::format("The rack file cannot be reached: {}.", code.message()));
     if (std::filesystem::is_directory(status)) return fail_io("This is a folder, not a rack file.");
     const Result<std::string> text = read_whole_file(name, {max_toml_bytes, "a rack file"});
-    if (!text) return only_error(Error{text.error().trouble, text.error().message, name, {}});
+    if (!text) return only_error(Error{text.error().kind, text.error().message, name, {}});
     return read_rack_text(*text, name);
 }
 
 RackReading read_rack(std::string_view path_or_text) {
     if (path_or_text.find_first_of("\n=") != std::string_view::npos) return read_rack_text(path_or_text);
     if (path_or_text.empty()) {
-        return only_error(Error{ErrorKind::bad_input,
+        return only_error(Error{ErrorKind::invalid_input,
                                 "No rack file was named; give a path, or text such as card.c1 = \"mcx314\".",
                                 {},
                                 {}});

@@ -150,8 +150,8 @@ class Databoard4002Card final : public MotionCard {
 
     std::vector<CardCounter> counters() const override { return {{"position", 0, true}}; }
     int channel_number(std::string_view) const override { return 0; }
-    sim::Motion& pulses(int) override { return card_.pulses(); }
-    void connect_encoder(int, sim::Motion& counts) override { card_.connect_encoder(counts); }
+    sim::PositionFunction& pulses(int) override { return card_.pulses(); }
+    void connect_encoder(int, sim::PositionFunction& counts) override { card_.connect_encoder(counts); }
     void take_encoder(int, bool taken) override { card_.take_encoder(taken); }
     void connect_ideal_machine() override {
         card_.connect_encoder(card_.pulses());

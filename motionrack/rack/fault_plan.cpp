@@ -16,7 +16,7 @@ Result<std::vector<ScheduledText>> read_faults(const std::vector<std::string>& t
         std::optional<ScheduledText> timed = read_timed_text(text);
         if (!timed)
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format(
                     "The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
                     "X.encoder.broken_a@20ms. Nothing was moved.",
@@ -55,7 +55,7 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
         fault.name = name;
         fault.value = number_of(value);
         if (std::isnan(fault.value) && value != "release")
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
                                     "moved.",
                                     in_quotes(text), in_quotes(value)));
@@ -63,16 +63,16 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
     }
     const std::size_t dot = action.find('.');
     if (dot == std::string_view::npos)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The fault {} names neither a wire (X.limit_plus, estop) nor a fault of an axis "
                                 "(X.encoder.broken_a). Nothing was moved.",
                                 in_quotes(text)));
     fault.target = action.substr(0, dot);
     fault.name = action.substr(dot + 1);
     const Result<void> known = check_fault(rack_, fault.name, fault.target);
-    if (!known && known.error().trouble == ErrorKind::bad_input)
-        return fail(ErrorKind::bad_input, fmt::format("The fault {}: {} {}", in_quotes(text),
-                                                      desk_.check(name, 1).error().message, known.error().message));
+    if (!known && known.error().kind == ErrorKind::invalid_input)
+        return fail(ErrorKind::invalid_input, fmt::format("The fault {}: {} {}", in_quotes(text),
+                                                          desk_.check(name, 1).error().message, known.error().message));
     return known;
 }
 
@@ -80,7 +80,7 @@ void FaultSchedule::begin() {
     if (!faults_.empty()) rack_.kernel().schedule(id_, std::max(faults_.front().at, rack_.kernel().now()));
 }
 
-void FaultSchedule::act(Instant now) {
+void FaultSchedule::on_scheduled(Instant now) {
     rack_.kernel().break_run();
     for (const ScheduledFault& fault : faults_)
         if (fault.at > now) return rack_.kernel().schedule(id_, fault.at);
@@ -91,7 +91,7 @@ void FaultSchedule::apply_due() {
         if (fault.done || fault.at > rack_.kernel().now()) continue;
         fault.done = true;
         const Result<void> done =
-            fault.target.empty() ? desk_.set(fault.name, fault.value) : inject_fault(rack_, fault.name, fault.target);
+            fault.target.empty() ? desk_.force(fault.name, fault.value) : inject_fault(rack_, fault.name, fault.target);
         if (!done) fault.refused = done.error().message;  // only the part itself knows which values it can have
     }
 }

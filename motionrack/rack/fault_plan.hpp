@@ -43,7 +43,7 @@ class FaultSchedule final : public sim::Device {
     /// What was done is what `other` has done, a plan of the same texts whose rack's state was copied.
     void copy_from(const FaultSchedule& other);
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
 
   private:
     explicit FaultSchedule(Rack& rack) : rack_(rack), desk_(rack) {}

@@ -84,15 +84,15 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         add(track.config.name);
     }
     if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr && found.track == nullptr)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
                                 in_quotes(target), targets.empty() ? "there are none" : targets));
     const std::size_t equals = fault.find('=');
     found.name = fault.substr(0, equals);
     const auto names = names_of(found);
     if (std::find(names.begin(), names.end(), found.name) == names.end())
-        return fail(ErrorKind::bad_input, fmt::format("There is no fault {}; there are: {}. Nothing was done.",
-                                                      in_quotes(found.name), fmt::join(names, ", ")));
+        return fail(ErrorKind::invalid_input, fmt::format("There is no fault {}; there are: {}. Nothing was done.",
+                                                          in_quotes(found.name), fmt::join(names, ", ")));
     if (equals != std::string_view::npos) {
         const std::string_view text = fault.substr(equals + 1);
         found.value = number_of(text);

@@ -126,7 +126,7 @@ void FollowingWatch::follow_servo(std::size_t i, std::int64_t turned, Instant no
     own.behind *= std::max(0.0, 1 - seconds / fades_within_s);
 }
 
-void FollowingWatch::act(Instant now) {
+void FollowingWatch::on_scheduled(Instant now) {
     kernel_.schedule(id_, later(now, look_at_following_every));
     look(now);
 }

@@ -54,7 +54,7 @@ class FollowingWatch final : public sim::Device {
     /// "The following error of X was 1.004 mm, above its limit of 1 mm".
     std::string alarm_text(std::size_t axis) const;
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:

@@ -17,15 +17,16 @@ Result<std::unique_ptr<FrameStepper>> FrameStepper::create(Rack& rack, std::stri
         if (!found && (name.empty() ? card->is_host() : each->name() == name)) found = card;
     }
     if (known.empty())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");
     if (!found && name.empty())
-        return fail(ErrorKind::bad_input, fmt::format("No card of the rack's grating bus is its host; name the card "
-                                                      "whose frames are wanted: {}. Nothing was done.",
-                                                      known));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("No card of the rack's grating bus is its host; name the card "
+                                "whose frames are wanted: {}. Nothing was done.",
+                                known));
     if (!found)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("The rack's grating bus has no card '{}'; its cards are: {}. Nothing was done.", name, known));
     std::unique_ptr<FrameStepper> out(new FrameStepper(rack, *found));
     found->add_listener(*out);

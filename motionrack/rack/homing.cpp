@@ -76,7 +76,7 @@ class Homing {
         StopLatch& latch = rack_.stop_latch();
         latch.settle();
         if (!latch.latched() || latch.is_ordered()) return;
-        if (out_.ended || out_.ended.error().trouble != ErrorKind::stopped) return;
+        if (out_.ended || out_.ended.error().kind != ErrorKind::stopped) return;
         out_.ended = fail(ErrorKind::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
                                                           latch.position_sentence(), latch.advice()));
     }
@@ -84,7 +84,7 @@ class Homing {
     struct Work {
         RunningAxis* running = nullptr;
         control::Axis* axis = nullptr;
-        control::HomeOrder order;
+        control::HomingRequest order;
         bool begun = false;
         bool ended = false;
         Instant at{};
@@ -200,7 +200,7 @@ class Homing {
     }
 
     void note_end(Work& work) {
-        const control::HomeOutcome found = work.axis->home_outcome();
+        const control::HomingResult found = work.axis->home_outcome();
         if (found.homed && settings_.on_homed)
             settings_.on_homed(
                 work.running->config.letter,
@@ -230,7 +230,7 @@ class Homing {
         p.seconds = to_seconds(rack_.kernel().now() - began_);
         p.axes = static_cast<int>(works_.size());
         p.homed = static_cast<int>(
-            std::count_if(works_.begin(), works_.end(), [](const Work& work) { return work.axis->trusted(); }));
+            std::count_if(works_.begin(), works_.end(), [](const Work& work) { return work.axis->position_valid(); }));
         for (const Work* work : group) {
             if (!p.states.empty()) p.states += ", ";
             p.states += fmt::format("{} {}", work->running->config.letter, work->axis->home_state());
@@ -271,7 +271,7 @@ class Homing {
 
 }  // namespace
 
-Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& axis) {
+Result<control::HomingRequest> home_order(const RackConfig& config, const RackAxis& axis) {
     const RackHoming& h = axis.homing;
     const auto refuse = [&](const std::string& why) {
         return fail(ErrorKind::refused,
@@ -290,11 +290,12 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
         return refuse(
             "its home switch is active at and below its place, so its edge is searched in - direction; give it a cam, "
             "or the other direction");
-    control::HomeOrder order;
-    order.type = static_cast<control::HomeType>(h.type);
+    control::HomingRequest order;
+    order.type = static_cast<control::HomingMethod>(h.type);
     order.towards_plus = plus;
-    order.speed = h.speed.value_or(std::max(axis.max_speed / 4, std::min(axis.start_speed, axis.max_speed)));
-    const double slow = std::min(axis.start_speed, order.speed);
+    order.speed =
+        h.speed.value_or(std::max(axis.max_velocity / 4, std::min(axis.max_velocity_step, axis.max_velocity)));
+    const double slow = std::min(axis.max_velocity_step, order.speed);
     order.slow_speed = h.slow_speed.value_or(axis.servo ? slow : slow / 4);
     // The switch is active at and below its place: upwards it is its release that is searched.
     const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)

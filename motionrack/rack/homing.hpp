@@ -16,7 +16,7 @@ namespace motionrack::rack {
 
 /// The order for an axis as its rack file has it. Errors: refused, it has no home switch, or that is not wired to a
 /// stop input of its own channel; the same for the index, where the type needs it.
-Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& axis);
+Result<control::HomingRequest> home_order(const RackConfig& config, const RackAxis& axis);
 
 struct HomingProgress {
     double seconds = 0;  ///< virtual time since the homing began
@@ -49,13 +49,13 @@ struct HomingSamples {
 struct HomedAxis {
     char letter = 'X';
     std::string unit;
-    control::HomeOrder order;
+    control::HomingRequest order;
     bool begun = false;
-    control::HomeOutcome outcome;  ///< where it was begun
-    double began_s = 0;            ///< seconds from the start of the whole homing
-    double counter_position = 0;   ///< where the card says the axis is
-    double measured_position = 0;  ///< and the encoder, 0 without one
-    double machine_position = 0;   ///< and where it is, which only a simulated machine can tell
+    control::HomingResult outcome;  ///< where it was begun
+    double began_s = 0;             ///< seconds from the start of the whole homing
+    double counter_position = 0;    ///< where the card says the axis is
+    double measured_position = 0;   ///< and the encoder, 0 without one
+    double machine_position = 0;    ///< and where it is, which only a simulated machine can tell
     std::int64_t lost_pulses = 0;
     HomingSamples samples;
 };

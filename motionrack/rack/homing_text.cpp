@@ -11,7 +11,7 @@ namespace motionrack::rack {
 namespace {
 
 /// States in which time passes, or that end: what people want to see.
-bool shown(const control::HomeStay& stay) {
+bool shown(const control::HomingStateVisit& stay) {
     return stay.state.size() < 6 || stay.state.compare(stay.state.size() - 6, 6, "_START") != 0;
 }
 
@@ -26,7 +26,7 @@ double rounded(double value) {
 }
 
 std::string head_line(const HomedAxis& axis) {
-    const control::HomeOutcome& o = axis.outcome;
+    const control::HomingResult& o = axis.outcome;
     std::string out = fmt::format("axis {}  type {}, {} direction, {:.4g} {}/s, slowly {:.4g} {}/s\n", axis.letter,
                                   static_cast<int>(axis.order.type), axis.order.towards_plus ? "+" : "-",
                                   axis.order.speed, axis.unit, axis.order.slow_speed, axis.unit);
@@ -36,19 +36,19 @@ std::string head_line(const HomedAxis& axis) {
 }
 
 std::string axis_text(const HomedAxis& axis) {
-    const control::HomeOutcome& o = axis.outcome;
+    const control::HomingResult& o = axis.outcome;
     std::string out = head_line(axis);
     if (!axis.begun) return out;
     out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}\n", "state", "from s", "took s", "from " + axis.unit,
                        "to " + axis.unit);
-    for (const control::HomeStay& stay : o.stays)
+    for (const control::HomingStateVisit& stay : o.stays)
         if (shown(stay))
             out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:12.4f}\n", stay.state, stay.from_s, stay.took_s,
                                plain(stay.from), plain(stay.to));
     if (!o.edges.empty())
         out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}   {}\n", "found", "at s", axis.unit + "/s",
                            "at " + axis.unit, "or before", "in");
-    for (const control::HomeEdge& edge : o.edges)
+    for (const control::HomingEdge& edge : o.edges)
         out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:>12}   {}\n", edge.what, edge.seconds, edge.speed,
                            plain(edge.position), edge.within > 0 ? fmt::format("{:.4f}", edge.within) : "exact",
                            edge.state);
@@ -65,7 +65,7 @@ std::string axis_text(const HomedAxis& axis) {
 }
 
 nlohmann::ordered_json axis_json(const HomedAxis& axis) {
-    const control::HomeOutcome& o = axis.outcome;
+    const control::HomingResult& o = axis.outcome;
     nlohmann::ordered_json j = {{"axis", std::string(1, axis.letter)},
                                 {"unit", axis.unit},
                                 {"type", static_cast<int>(axis.order.type)},
@@ -77,14 +77,14 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
                                 {"seconds", rounded(o.took_s)},
                                 {"sentence", o.sentence}};
     j["states"] = nlohmann::ordered_json::array();
-    for (const control::HomeStay& stay : o.stays)
+    for (const control::HomingStateVisit& stay : o.stays)
         j["states"].push_back({{"state", stay.state},
                                {"from_s", rounded(stay.from_s)},
                                {"took_s", rounded(stay.took_s)},
                                {"from", rounded(stay.from)},
                                {"to", rounded(stay.to)}});
     j["edges"] = nlohmann::ordered_json::array();
-    for (const control::HomeEdge& edge : o.edges)
+    for (const control::HomingEdge& edge : o.edges)
         j["edges"].push_back({{"what", edge.what},
                               {"state", edge.state},
                               {"seconds", rounded(edge.seconds)},
@@ -129,7 +129,7 @@ std::string homing_picture(const HomedAxis& axis) {
         {fmt::format("speed, {}/s", axis.unit), {{"", "y", s.seconds, s.speed}}, {}},
     };
     std::vector<trace::SvgSpan> spans;
-    for (const control::HomeStay& stay : axis.outcome.stays) {
+    for (const control::HomingStateVisit& stay : axis.outcome.stays) {
         if (!shown(stay) || !(stay.took_s > 0)) continue;
         const std::string name = stay.state.substr(0, stay.state.find("_WAIT"));
         spans.push_back({fmt::format("{} {:.3f} s", name, stay.took_s), stay.from_s, stay.from_s + stay.took_s});

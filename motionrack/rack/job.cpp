@@ -49,7 +49,7 @@ std::vector<WatchedAxis> watched_axes(Rack& rack) {
         if (rack.config().point_to_point() || rack.config().positions_alone(axis.config))
             one.start_hz = 0;
         else
-            one.start_hz = axis.config.start_speed * one.pulses_per_unit;
+            one.start_hz = axis.config.max_velocity_step * one.pulses_per_unit;
         watched.push_back(one);
     }
     return watched;
@@ -133,7 +133,7 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     stream_settings.accel_reserve = settings.accel_reserve;
     stream_settings.jerk_limited = settings.jerk_limited;
     Interrupt& host = rack_.axes().front().card->host();
-    control::Stream stream(watch, host, stream_settings);
+    control::StreamExecutor stream(watch, host, stream_settings);
     rack_.set_stop_flag(stream.stop_flag());
     rack_.on_slice(slice, [&] { listen(watch.heard()); });
     settings_.orders->attach(&stream);
@@ -200,7 +200,7 @@ JobOutcome Job::run() {
     rack_.stop_latch().arm();
     out.ended = drive(**axes, out);
     tell_stop(out);
-    if (!out.ended && out.ended.error().trouble == ErrorKind::machine) {
+    if (!out.ended && out.ended.error().kind == ErrorKind::machine) {
         out.ended.error().file = settings_.program_name;
         rack_.axes().front().card->host().pass(shows_after);
     }
@@ -277,11 +277,11 @@ void Job::tell_stop(JobOutcome& out) {
     latch.settle();
     latch.look();
     const auto lost = [&](const RunningAxis& axis) { return !latch.keeps_position(axis.config.index()); };
-    if (!out.ended && out.ended.error().trouble == ErrorKind::machine &&
+    if (!out.ended && out.ended.error().kind == ErrorKind::machine &&
         std::any_of(rack_.axes().begin(), rack_.axes().end(), lost))
         out.ended.error().message += ' ' + latch.position_sentence();
     const bool asked = latch.is_ordered();
-    if (asked || (!out.ended && out.ended.error().trouble != ErrorKind::stopped)) return;
+    if (asked || (!out.ended && out.ended.error().kind != ErrorKind::stopped)) return;
     out.ended = fail(ErrorKind::machine,
                      fmt::format("{} The program was stopped in line {} and nothing after it was driven. {} {}",
                                  latch.sentence(), line_, latch.position_sentence(), "Mend the cause and start again."),
@@ -323,7 +323,7 @@ void Job::tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) cons
 
 /// What the machine itself stopped, by a switch, an alarm or a motor that could not follow, is told as that.
 void Job::collect_breaches(JobOutcome& out) {
-    if (!out.ended && out.ended.error().trouble == ErrorKind::machine) {
+    if (!out.ended && out.ended.error().kind == ErrorKind::machine) {
         out.breaches = {};
         return;
     }

@@ -69,7 +69,7 @@ struct JobOutcome {
     Duration time{};     ///< virtual time of the job
     double path_mm = 0;  ///< planned XYZ path
     std::vector<AxisOutcome> axes;
-    Deviation worst;
+    PathDeviation worst;
     double tolerance_mm = 0;  ///< greatest deviation that the program allows somewhere
     std::vector<JobWarning> warnings;
     std::int64_t chip_segments = 0;

@@ -25,10 +25,10 @@ std::string wire_path(const std::string& name) {
 
 }  // namespace
 
-class JobRecorder::Ear final : public sim::EdgeListener {
+class JobRecorder::Observer final : public sim::EdgeListener {
   public:
     /// `counts`: the value is the count after the edge, else its direction.
-    Ear(JobRecorder& recorder, std::uint32_t signal, bool counts)
+    Observer(JobRecorder& recorder, std::uint32_t signal, bool counts)
         : recorder_(recorder), signal_(signal), counts_(counts) {}
 
     void edges(const sim::EdgeBatch& batch) override {
@@ -82,18 +82,18 @@ void JobRecorder::add_axes() {
         const std::string name(1, config.letter);
         head_.axes.push_back({name, std::string(config.unit()), axis.servo != nullptr, config.pulses_per_unit(),
                               config.counts_per_unit(), config.start_position, limit.min_position, limit.max_position,
-                              limit.max_speed, limit.max_accel});
+                              limit.max_velocity, limit.max_accel});
         axis_indexes_.push_back(config.index());
         const std::string folder = "axes/" + lower_letter(config.letter);
         if (!axis.servo) {
             const std::uint32_t steps = add({name + ".steps", folder + "/steps", trace::SignalKind::steps, "step", 0});
-            ears_.emplace_back(axis.pulse_ears.get(), std::make_unique<Ear>(*this, steps, false));
+            ears_.emplace_back(axis.pulse_ears.get(), std::make_unique<Observer>(*this, steps, false));
         }
         if (axis.machine->has_encoder()) {
             const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
             const std::uint32_t counts =
                 add({name + ".encoder", folder + "/encoder", trace::SignalKind::counts, "count", count});
-            ears_.emplace_back(axis.encoder_ears.get(), std::make_unique<Ear>(*this, counts, true));
+            ears_.emplace_back(axis.encoder_ears.get(), std::make_unique<Observer>(*this, counts, true));
         }
     }
     sampled_.resize(head_.axes.size());
@@ -154,7 +154,7 @@ void JobRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
     if (signal >= 0) push(now, static_cast<std::uint32_t>(signal), level);
 }
 
-void JobRecorder::act(Instant now) {
+void JobRecorder::on_scheduled(Instant now) {
     for (const Counter& one : counters_) push(now, one.signal, one.card->counter(one.counter));
     rack_.kernel().schedule(id_, now + counter_period);
 }

@@ -33,7 +33,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     Result<void> finish(const JobOutcome& outcome, trace::ReportData report);
 
     std::uint64_t events() const { return writer_.events(); }
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void wire_changed(sim::WireId wire, int level, Instant now) override;
 
   private:
@@ -43,7 +43,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
         std::uint32_t signal = 0;
     };
     /// Hears pulses, or counts, of one axis.
-    class Ear;
+    class Observer;
     /// LP (or EP) of a channel.
     struct Counter {
         Card* card = nullptr;
@@ -67,7 +67,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     trace::RecordingHead head_;
     sim::DeviceId id_{};
     trace::RecordingWriter writer_;
-    std::vector<std::pair<EdgeFanout*, std::unique_ptr<Ear>>> ears_;
+    std::vector<std::pair<EdgeFanout*, std::unique_ptr<Observer>>> ears_;
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;

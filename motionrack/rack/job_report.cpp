@@ -17,7 +17,7 @@ constexpr std::size_t most_segments = 20'000;
 
 const char* kind_text(control::MoveKind kind) {
     switch (kind) {
-        case control::MoveKind::traverse:
+        case control::MoveKind::rapid:
             return "traverse";
         case control::MoveKind::feed:
             return "line";
@@ -62,7 +62,7 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
         out.servo = axis.servo;
         out.min_position = axis.limits.min_position;
         out.max_position = axis.limits.max_position;
-        out.max_speed = axis.limits.max_speed;
+        out.max_velocity = axis.limits.max_velocity;
         out.max_accel = axis.limits.max_accel;
         out.pulses_sent = axis.pulses_sent;
         out.pulses_net = axis.pulses_net;
@@ -70,9 +70,9 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
         out.counts_read = axis.counts_read;
         out.counts_expected = axis.counts_expected;
         out.lost_steps = axis.lost_pulses;
-        out.top_speed = axis.top.top_speed;
-        out.top_accel = axis.top.top_accel;
-        out.top_jump = axis.top.top_jump;
+        out.peak_velocity = axis.top.peak_velocity;
+        out.peak_accel = axis.top.peak_accel;
+        out.peak_velocity_step = axis.top.peak_velocity_step;
         out.planned_end = axis.planned_end;
         out.real_end = axis.real_end;
         for (std::size_t s = 0; s < samples.size(); ++s) {
@@ -140,8 +140,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     const LineIndex lines(program);
     for (const ExecutedMove& block : job.monitor().blocks())
         data.blocks.push_back({block.line, lines[block.line], kind_text(block.kind), block.length, "mm",
-                               to_seconds(block.start - began), to_seconds(block.end - block.start), block.entry,
-                               block.cruise, block.exit, block.deviation_mm});
+                               to_seconds(block.start - began), to_seconds(block.end - block.start),
+                               block.entry_velocity, block.cruise_velocity, block.exit_velocity, block.deviation_mm});
     for (const JobWarning& warning : outcome.warnings)
         data.warnings.push_back({to_seconds(warning.at - began), warning.line, warning.text});
     data.notes = {
@@ -189,8 +189,8 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
         out += fmt::format("  {:<5}{:>12}{:>12}{:>12}{:>8}{:>10.4f} {:<3}{:>13.3f} /{:>7.4g}{:>15.1f} /{:>7.4g}\n",
                            control::axis_letters[static_cast<std::size_t>(axis.index)],
                            of_pulses(axis, axis.pulses_sent), axis.counts_read, axis.counts_expected,
-                           of_pulses(axis, axis.lost_pulses), axis.real_end, axis.unit, axis.top.top_speed,
-                           axis.limits.max_speed, axis.top.top_accel, axis.limits.max_accel);
+                           of_pulses(axis, axis.lost_pulses), axis.real_end, axis.unit, axis.top.peak_velocity,
+                           axis.limits.max_velocity, axis.top.peak_accel, axis.limits.max_accel);
     return out;
 }
 
@@ -239,11 +239,11 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
                                 {"lost_pulses", axis.lost_pulses},
                                 {"servo", axis.servo},
                                 {"end", axis.real_end},
-                                {"top_speed", axis.top.top_speed},
-                                {"max_speed", axis.limits.max_speed},
-                                {"top_accel", axis.top.top_accel},
+                                {"top_speed", axis.top.peak_velocity},
+                                {"max_speed", axis.limits.max_velocity},
+                                {"top_accel", axis.top.peak_accel},
                                 {"max_accel", axis.limits.max_accel},
-                                {"top_jump", axis.top.top_jump}});
+                                {"top_jump", axis.top.peak_velocity_step}});
     json["warnings"] = nlohmann::ordered_json::array();
     for (const JobWarning& warning : outcome.warnings)
         json["warnings"].push_back(

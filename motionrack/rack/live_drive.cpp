@@ -58,7 +58,7 @@ class Feeder {
            control::ProgramResult& run)
         : walk_(text, settings, file), run_(run) {}
 
-    void feed(control::Stream& stream) {
+    void feed(control::StreamExecutor& stream) {
         std::string_view text;
         while (more_ && stream.has_room()) {
             if (!walk_.next(text)) {
@@ -92,7 +92,7 @@ class Feeder {
     std::optional<Error> problem_;
 };
 
-Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedule& orders, Feeder& feeder,
+Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders, Feeder& feeder,
                    const std::string& file, control::ProgramResult& run) {
     using control::ExecutionState;
     std::int64_t probes = stream.last_probe().count;
@@ -138,9 +138,9 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const CommandSchedu
 
 }  // namespace
 
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const CommandSchedule& orders, std::string_view text,
-                        const control::gcode::Settings& settings, const std::string& file, control::ProgramResult& run,
-                        const OnProgrammedMove& on_move) {
+Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders,
+                        std::string_view text, const control::gcode::Settings& settings, const std::string& file,
+                        control::ProgramResult& run, const OnProgrammedMove& on_move) {
     // What is left of a move after a hold is planned again: what was programmed counts.
     double path_mm = 0;
     stream.on_move([&](const control::Move& move, const control::Point& start) {

@@ -49,8 +49,8 @@ using OnProgrammedMove = std::function<void(const control::Move& move, const con
 /// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as ProgramExecutor::run.
 /// The stream's stop flag must be the axes', and `orders` be attached to it. `on_move`: hears of each move as it was
 /// read.
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const CommandSchedule& orders, std::string_view text,
-                        const control::gcode::Settings& settings, const std::string& file, control::ProgramResult& run,
-                        const OnProgrammedMove& on_move);
+Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders,
+                        std::string_view text, const control::gcode::Settings& settings, const std::string& file,
+                        control::ProgramResult& run, const OnProgrammedMove& on_move);
 
 }  // namespace motionrack::rack

@@ -15,7 +15,7 @@ constexpr double most_rounding = 2;
 constexpr double accel_reserve = 1.03;
 }  // namespace
 
-void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
+void Monitor::Observer::rate_changed(double before, double rate, Instant now) {
     speed.changed(before, rate, now);
     const bool ramp = std::fabs(rate - before) <= jump_hz;
     if (pending) {
@@ -55,7 +55,7 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
     }
 }
 
-void Monitor::Ear::settle() {
+void Monitor::Observer::settle() {
     if (!pending) return;
     jump = std::max(jump, std::min(std::fabs(present - good), std::fabs(present - follower)) - rounding);
     good = present;
@@ -63,7 +63,7 @@ void Monitor::Ear::settle() {
     ++jumps;
 }
 
-void Monitor::Ear::restart(const TopSpeed& fresh, double rate, Instant now) {
+void Monitor::Observer::restart(const TopSpeed& fresh, double rate, Instant now) {
     speed = fresh;
     good = follower = present = rate;
     away = rounding = explained = jump = 0;
@@ -93,7 +93,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
         ears_.emplace_back(axes_[i].jump_hz, period);
         ears_[i].full_step = axes_[i].full_step;
         ears_[i].accel_hz = axes_[i].accel_hz;
-        axes_[i].commanded->listen(ears_[i]);
+        axes_[i].commanded->add_listener(ears_[i]);
     }
 }
 
@@ -123,12 +123,12 @@ void Monitor::finish() {
         ears_[i].settle();
         AxisStatistics& out = seen_.statistics[static_cast<std::size_t>(axes_[i].index)];
         ears_[i].speed.finish();
-        out.top_speed = ears_[i].speed.hz() / axes_[i].pulses_per_unit;
-        out.top_jump = ears_[i].jump / axes_[i].pulses_per_unit;
+        out.peak_velocity = ears_[i].speed.hz() / axes_[i].pulses_per_unit;
+        out.peak_velocity_step = ears_[i].jump / axes_[i].pulses_per_unit;
     }
 }
 
-void Monitor::act(Instant now) {
+void Monitor::on_scheduled(Instant now) {
     take(now);
     for (std::size_t i = 0; i < axes_.size(); ++i)
         ears_[i].speed.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
@@ -189,9 +189,9 @@ void Monitor::work_off(const RawSample& raw) {
                                 planned.move.move.line,
                                 planned.move.move.kind,
                                 planned.move.length,
-                                planned.move.entry,
-                                planned.move.cruise,
-                                planned.move.exit,
+                                planned.move.entry_velocity,
+                                planned.move.cruise_velocity,
+                                planned.move.exit_velocity,
                                 start.at,
                                 start.at,
                                 0};
@@ -236,7 +236,7 @@ void Monitor::accelerations(const RawSample& raw, Sample& sample) {
         const bool jumped = raw.jumps[i] != seen_.last[4].jumps[i];
         sample.accel[axis] = jumped ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(accel);
         if (jumped) continue;
-        seen_.statistics[axis].top_accel = std::max(seen_.statistics[axis].top_accel, std::fabs(accel));
+        seen_.statistics[axis].peak_accel = std::max(seen_.statistics[axis].peak_accel, std::fabs(accel));
         const double limit = axes_[i].accel_hz / axes_[i].pulses_per_unit;
         if (axes_[i].start_hz <= 0 || std::fabs(accel) <= accel_reserve * limit) continue;
         Breach breach = breach_here(sample);

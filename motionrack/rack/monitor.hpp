@@ -23,10 +23,10 @@ namespace motionrack::rack {
 
 /// One axis as the monitor sees it. Position in mm or degrees = origin + count / pulses_per_unit.
 struct WatchedAxis {
-    int index = 0;                          ///< 0 .. 5: control::axis_letters
-    sim::Motion* commanded = nullptr;       ///< the card's pulses
-    const sim::Motion* real = nullptr;      ///< the rotor, in pulses
-    const parts::DcMotor* servo = nullptr;  ///< what turns it, if no pulses do
+    int index = 0;                                ///< 0 .. 5: control::axis_letters
+    sim::PositionFunction* commanded = nullptr;   ///< the card's pulses
+    const sim::PositionFunction* real = nullptr;  ///< the rotor, in pulses
+    const parts::DcMotor* servo = nullptr;        ///< what turns it, if no pulses do
     double pulses_per_unit = 1;
     double origin = 0;            ///< mm or degrees where the real count is 0
     double commanded_beyond = 0;  ///< and how much more where the commanded one is
@@ -47,9 +47,9 @@ struct Sample {
 };
 
 struct AxisStatistics {
-    double top_speed = 0;  ///< per second; that lasted, see TopSpeed
-    double top_accel = 0;  ///< per second squared, over 4 samples without a jump
-    double top_jump =
+    double peak_velocity = 0;  ///< per second; that lasted, see TopSpeed
+    double peak_accel = 0;     ///< per second squared, over 4 samples without a jump
+    double peak_velocity_step =
         0;  ///< greatest change of speed at once (start, joint, stop), less what whole pulses make of it; per second
 };
 
@@ -58,17 +58,17 @@ struct ExecutedMove {
     std::int64_t block = 0;
     int line = 0;
     control::MoveKind kind = control::MoveKind::feed;
-    double length = 0;  ///< mm or degrees
-    double entry = 0;   ///< planned speeds, per second
-    double cruise = 0;
-    double exit = 0;
+    double length = 0;          ///< mm or degrees
+    double entry_velocity = 0;  ///< planned speeds, per second
+    double cruise_velocity = 0;
+    double exit_velocity = 0;
     Instant start{};
     Instant end{};
     double deviation_mm = 0;  ///< worst in it
 };
 
 /// Where the machine was farthest from the programmed path.
-struct Deviation {
+struct PathDeviation {
     double mm = 0;
     Instant at{};
     int line = 0;
@@ -105,7 +105,7 @@ class Monitor final : public sim::Device {
     const std::vector<Sample>& samples() const { return seen_.kept.samples(); }
     const std::vector<double>& deviations() const { return seen_.kept.deviations(); }  ///< mm, one a sample
     const AxisStatistics& statistics(int index) const { return seen_.statistics[static_cast<std::size_t>(index)]; }
-    const Deviation& worst() const { return seen_.worst; }
+    const PathDeviation& worst() const { return seen_.worst; }
     /// What the axes were asked for and must not have been.
     const std::vector<Breach>& breaches() const { return seen_.breaches.all(); }
     /// Before begin(): how far beyond the program's own tolerance pulses may lead, mm; 0, as at first: however far.
@@ -117,13 +117,13 @@ class Monitor final : public sim::Device {
     std::int64_t samples_taken() const { return seen_.taken; }
     Duration period() const { return period_; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
 
   private:
     /// Hears of each change of one axis' pulse rate.
-    class Ear final : public sim::PositionListener {
+    class Observer final : public sim::PositionListener {
       public:
-        Ear(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
+        Observer(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
         /// Whoever drove it before does not matter: it has this rate since now.
@@ -179,7 +179,7 @@ class Monitor final : public sim::Device {
         bool block_open = false;
         std::vector<ExecutedMove> blocks;
         std::int64_t blocks_left_out = 0;
-        Deviation worst;
+        PathDeviation worst;
         std::vector<JumpWatch> jump_watches;  ///< of axes whose pulses move them; one an axis
         Breaches breaches;
         bool beside = false;  ///< the pulses lead too far from the program
@@ -199,7 +199,7 @@ class Monitor final : public sim::Device {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     std::vector<WatchedAxis> axes_;
-    std::vector<Ear> ears_;
+    std::vector<Observer> ears_;
     Duration period_;
     std::size_t most_samples_;
     std::vector<RawSample> ring_;

@@ -9,9 +9,9 @@ void InvertedPosition::watch(int slot, std::int64_t below, std::int64_t above) {
               below == sim::unwatched_below ? sim::unwatched_above : -below);
 }
 
-int InvertedPosition::listen(sim::PositionListener& listener) {
-    ears_.push_back(std::make_unique<Ear>(listener));
-    return of_.listen(*ears_.back());
+int InvertedPosition::add_listener(sim::PositionListener& listener) {
+    ears_.push_back(std::make_unique<Observer>(listener));
+    return of_.add_listener(*ears_.back());
 }
 
 void InvertedPosition::set_edge_listener(sim::EdgeListener* listener) {

@@ -39,7 +39,7 @@ Result<CommandSchedule::Order> CommandSchedule::read(const ScheduledText& text) 
                       (name == "resume" && plain(Kind::resume)) || (name == "feed" && part(Kind::feed, 2)) ||
                       (name == "rapid" && part(Kind::rapid, 1));
     if (good) return out;
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("The order {} is none: orders are hold, resume, stop, feed=PART (0.01 "
                             ".. 2) and rapid=PART (0.01 .. 1), each with its "
                             "time, such as feed=0.5@1.5s. Nothing was moved.",
@@ -85,7 +85,7 @@ void CommandSchedule::aim() {
     rack_.kernel().schedule(id_, never);
 }
 
-void CommandSchedule::act(Instant now) {
+void CommandSchedule::on_scheduled(Instant now) {
     rack_.kernel().break_run();
     for (const Order& order : orders_)
         if (order.at > now) return rack_.kernel().schedule(id_, order.at);

@@ -32,7 +32,7 @@ class CommandSchedule final : public sim::Device {
     /// Whether a Stream must drive: there are others than stops.
     bool needs_stream() const { return needs_stream_; }
     /// Who drives; nullptr: nobody who could hold.
-    void attach(control::Stream* stream) { stream_ = stream; }
+    void attach(control::StreamExecutor* stream) { stream_ = stream; }
     /// For those who drive without a Stream.
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
 
@@ -51,7 +51,7 @@ class CommandSchedule final : public sim::Device {
     /// Sentences about what was not done because the run ended before.
     std::vector<std::string> not_done() const;
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
 
   private:
     enum class Kind : std::uint8_t { stop, hold, resume, feed, rapid };
@@ -71,7 +71,7 @@ class CommandSchedule final : public sim::Device {
     Rack& rack_;
     sim::DeviceId id_{};
     std::vector<Order> orders_;  // in the order of time
-    control::Stream* stream_ = nullptr;
+    control::StreamExecutor* stream_ = nullptr;
     std::atomic<bool> stop_flag_{false};
     bool needs_stream_ = false, asked_ = false, holds_ = false;
     double feed_ = 1, rapid_ = 1;

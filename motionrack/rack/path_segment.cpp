@@ -8,7 +8,7 @@ namespace motionrack::rack {
 trace::ReportSegment path_segment(const control::Move& move, const control::Point& start) {
     trace::ReportSegment segment;
     segment.line = move.line;
-    segment.traverse = move.kind == control::MoveKind::traverse;
+    segment.rapid = move.kind == control::MoveKind::rapid;
     const control::Geometry path = control::geometry_of(move, start);
     const double pieces =
         path.shape == control::PathShape::arc ? std::clamp(std::ceil(std::fabs(path.sweep) / 0.06), 2.0, 2000.0) : 1;

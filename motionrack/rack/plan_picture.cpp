@@ -131,7 +131,8 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
             if (planned.move.kind == control::MoveKind::dwell) {
                 out.add(begin, 0);
             } else if (planned.jerk > 0) {
-                const control::SCurveProfile curve(planned.length, planned.cruise, planned.accel, planned.jerk);
+                const control::SCurveProfile curve(planned.length, planned.cruise_velocity, planned.accel,
+                                                   planned.jerk);
                 double from = 0;
                 for (const double end : curve.phase_ends()) {
                     for (int i = 0; i <= 5; ++i)
@@ -139,9 +140,10 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                     from = end;
                 }
             } else {
-                const control::TrapezoidalProfile trapezoid(planned.length, planned.entry, planned.exit, planned.cruise,
+                const control::TrapezoidalProfile trapezoid(planned.length, planned.entry_velocity,
+                                                            planned.exit_velocity, planned.cruise_velocity,
                                                             planned.accel);
-                out.add(begin, planned.entry);
+                out.add(begin, planned.entry_velocity);
                 for (const double end : trapezoid.phase_ends()) out.add(begin + end, trapezoid.sample(end).speed);
             }
             begin += control::seconds_of(planned);

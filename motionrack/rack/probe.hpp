@@ -6,10 +6,11 @@
 
 namespace motionrack::rack {
 
-class Probe final : public sim::Device {
+class PeriodicSampler final : public sim::Device {
   public:
     /// Before the rack is started.
-    explicit Probe(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "probe")) {}
+    explicit PeriodicSampler(sim::Kernel& kernel)
+        : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "probe")) {}
     /// Calls `look` every `period` (> 0) from now on, within the kernel's run: it must neither allocate nor change
     /// anything. Between runs.
     void begin(Duration period, std::function<void(Instant now)> look) {
@@ -21,7 +22,7 @@ class Probe final : public sim::Device {
         kernel_.schedule(id_, never);
         look_ = nullptr;
     }
-    void act(Instant now) override {
+    void on_scheduled(Instant now) override {
         look_(now);
         kernel_.schedule(id_, now + period_);
     }

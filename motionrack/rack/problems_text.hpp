@@ -13,7 +13,7 @@ namespace motionrack::rack {
 /// Whether the disk is among the causes: a subprogram that cannot be read.
 inline bool has_unreadable(const control::gcode::ProgramCheck& check) {
     return std::any_of(check.problems.begin(), check.problems.end(),
-                       [](const control::gcode::Problem& problem) { return problem.trouble == ErrorKind::io; });
+                       [](const control::gcode::Problem& problem) { return problem.kind == ErrorKind::io; });
 }
 
 /// "part.ngc has 3 problems; nothing was moved."

@@ -89,8 +89,8 @@ Result<const QuantityRow<Part>*> find_row(const Part& part, std::string_view nam
         known.push_back(std::move(its_name));
     });
     if (found != nullptr) return found;
-    return fail(ErrorKind::bad_input, fmt::format("{} has no quantity {}; it has: {}. Nothing was done.", said_of(part),
-                                                  in_quotes(name), fmt::join(known, ", ")));
+    return fail(ErrorKind::invalid_input, fmt::format("{} has no quantity {}; it has: {}. Nothing was done.",
+                                                      said_of(part), in_quotes(name), fmt::join(known, ", ")));
 }
 
 template <class Part>
@@ -112,7 +112,7 @@ struct Name {
 tl::unexpected<Error> no_such_part(Rack& rack, std::string_view name) {
     std::vector<std::string> parts;
     each_part(rack, [&](const auto& part) { parts.push_back(name_of(part)); });
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("There is no quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
                             "this rack are: {}. Nothing was done.",
                             in_quotes(name), parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "))));
@@ -121,7 +121,7 @@ tl::unexpected<Error> no_such_part(Rack& rack, std::string_view name) {
 Result<double> quantity_of_card(const Card& card, std::string_view name) {
     if (const std::optional<double> value = card.quantity(name)) return *value;
     const auto known = card.quantity_names();
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("Card {} has no quantity {}{}. Nothing was done.", card.name(), in_quotes(name),
                             known.empty() ? "" : fmt::format("; it has: {}", fmt::join(known, ", "))));
 }

@@ -126,7 +126,7 @@ void Rack::build_axis(const RackAxis& axis) {
 }
 
 void Rack::join_links() {
-    std::vector<sim::Motion*> pulses(axes_.size(), &still_);
+    std::vector<sim::PositionFunction*> pulses(axes_.size(), &still_);
     for (const PulseLink& link : config_.pulse_links)
         pulses[static_cast<std::size_t>(link.axis)] =
             &cards_[static_cast<std::size_t>(link.card)]->motion()->pulses(link.channel);
@@ -140,7 +140,7 @@ void Rack::join_links() {
             rotor_at(axis.config, *switches.cam_from), rotor_at(axis.config, *switches.cam_to), 0);
     }
     for (const EncoderLink& link : config_.encoder_links) {
-        sim::Motion* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
+        sim::PositionFunction* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
         if (link.swapped) {
             mirrored_.push_back(std::make_unique<InvertedPosition>(*counts));
             counts = mirrored_.back().get();
@@ -313,7 +313,7 @@ Result<control::AxisGroup*> Rack::positioning_axes(const std::optional<control::
         MOTIONRACK_TRY(one, axis.card->axis(config_, axis.config.letter));
         if (!position) continue;
         const double here = (*position)[static_cast<std::size_t>(axis.config.index())];
-        if (one->trusted())
+        if (one->position_valid())
             MOTIONRACK_CHECK(check_agrees(axis, here));
         else
             MOTIONRACK_CHECK(one->set_position(here));

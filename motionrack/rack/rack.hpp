@@ -49,7 +49,9 @@ struct RunningAxis {
         encoder_ears;  ///< who hears the edges of the card's pulses and of the encoder
 
     /// What turns the machine: the card's pulses or the servo.
-    sim::Motion& turned_by() const { return servo ? static_cast<sim::Motion&>(*servo) : card->pulses(channel); }
+    sim::PositionFunction& turned_by() const {
+        return servo ? static_cast<sim::PositionFunction&>(*servo) : card->pulses(channel);
+    }
     /// How fast the rotor moves the table at `now`, mm/s or degrees/s, signed.
     double speed(Instant now) const { return servo ? servo->rate(now) * machine->units_per_pulse() : machine->speed(); }
 };

@@ -12,7 +12,7 @@ RampWatch::RampWatch(Rack& rack)
         const RackAxis& axis = rack_.axes()[a].config;
         if (rack_.axes()[a].servo || rack_.config().positions_alone(axis)) continue;
         const double units = axis.pulses_per_unit();
-        const JumpLaw law(axis.start_speed * units, axis.max_accel * units, period);
+        const JumpLaw law(axis.max_velocity_step * units, axis.max_accel * units, period);
         if (law.looks > 0) watched_.push_back({a, law});
     }
 }
@@ -46,7 +46,7 @@ void RampWatch::judge(std::size_t i) {
         state_.jumped |= 1u << rack_.axes()[watched_[i].axis].config.index();
 }
 
-void RampWatch::act(Instant now) {
+void RampWatch::on_scheduled(Instant now) {
     kernel_.schedule(id_, later(now, period));
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         keep(i, count_of(i, now));

@@ -37,7 +37,7 @@ class RampWatch final : public sim::Device {
     /// `axis`: 0 .. 5.
     bool has_jumped(int axis) const { return (state_.jumped & 1u << axis) != 0; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:

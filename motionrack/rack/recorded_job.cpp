@@ -41,9 +41,9 @@ Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& t
     for (const std::string& text : texts) {
         std::optional<ScheduledText> timed = read_timed_text(text);
         if (!timed)
-            return fail(ErrorKind::bad_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, "
-                                                          "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
-                                                          in_quotes(text), most_planned_seconds));
+            return fail(ErrorKind::invalid_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, "
+                                                              "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
+                                                              in_quotes(text), most_planned_seconds));
         out.push_back(std::move(*timed));
     }
     return out;
@@ -55,7 +55,7 @@ control::gcode::Settings reading_of(const JobRequest& request) {
     out.subprogram = [texts = request.subprograms](const std::string& name) -> Result<std::string> {
         const auto found = texts.find(name);
         if (found == texts.end())
-            return fail(ErrorKind::bad_input, fmt::format("no text of {} came with it", in_quotes(name)));
+            return fail(ErrorKind::invalid_input, fmt::format("no text of {} came with it", in_quotes(name)));
         return found->second;
     };
     return out;
@@ -66,7 +66,7 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     RackReading reading = read_rack_text(head.rack, head.rack_file);
     if (!reading.config)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("The rack of the recording cannot be read by this version: {}", reading.errors.front().text()),
             {}, recording.path());
     JobRequest out;

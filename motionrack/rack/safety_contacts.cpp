@@ -32,7 +32,7 @@ void SafetyContacts::on_wire(int pin, int changed, Instant now) {
     kernel_.schedule(id_, alike ? never : later(now, from_seconds(settings_.estop_discrepancy_ms * 1e-3)));
 }
 
-void SafetyContacts::act(Instant now) {
+void SafetyContacts::on_scheduled(Instant now) {
     if (level(0) == level(1)) return;
     state_.differs = 1;
     state_.differs_at = now;

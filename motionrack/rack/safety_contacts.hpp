@@ -33,7 +33,7 @@ class SafetyContacts final : public sim::Device {
     /// "The two channels of the emergency stop have differed for 500 ms at 1.700 s: ...", each once.
     std::vector<std::string> take_alarms();
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 

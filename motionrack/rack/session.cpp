@@ -144,7 +144,7 @@ Result<void> Session::set_part(std::string_view part_dot_quantity, double value)
 }
 
 Result<void> Session::set_wire(std::string_view name, double value) {
-    Result<void> done = desk_.set(name, value);
+    Result<void> done = desk_.force(name, value);
     tell_conditions();
     return done;
 }

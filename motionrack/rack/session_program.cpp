@@ -84,7 +84,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     const control::gcode::ProgramCheck check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
         report.place = check.problems.front().place;
-        return fail(has_unreadable(check) ? ErrorKind::io : ErrorKind::bad_input, problems_text(check, name));
+        return fail(has_unreadable(check) ? ErrorKind::io : ErrorKind::invalid_input, problems_text(check, name));
     }
     const RaisedFlag driving(driving_);
     stop_ = false;

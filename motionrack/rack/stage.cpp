@@ -169,7 +169,7 @@ void CardProcessor::published(const gb::Card&, const gb::Frame& frame, Instant n
     schedule();
 }
 
-void CardProcessor::act(Instant now) {
+void CardProcessor::on_scheduled(Instant now) {
     if (now >= state_.stale_at) {
         for (std::size_t n = 0; n < plans_.size(); ++n) {
             const bool closed = state_.loops[n].closed();

@@ -68,7 +68,7 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     /// All stand, or are at least not driven.
     bool stopped() const { return state_.rate == 0; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:

@@ -42,7 +42,7 @@ const SourceWords& words_of(StopSource source) {
 
 bool moves(const RunningAxis& axis, Instant now) {
     const double speed = std::fabs(axis.speed(now));
-    return axis.servo ? speed > trembles * axis.config.max_speed : speed > 0;
+    return axis.servo ? speed > trembles * axis.config.max_velocity : speed > 0;
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
         }
         if (rack_.config().positions_alone(axis.config)) continue;
         const double speed = std::fabs(axis.speed(now));
-        const bool without_ramp = source == StopSource::emergency_stop && speed > axis.config.start_speed;
+        const bool without_ramp = source == StopSource::emergency_stop && speed > axis.config.max_velocity_step;
         const bool drive_gave_up = source == StopSource::drive_alarm && input->axis == static_cast<int>(a) && speed > 0;
         if (without_ramp || drive_gave_up) state_.lost |= 1u << axis.config.index();
     }

@@ -90,7 +90,7 @@ class StopLatch final : public sim::Device {
     /// "Release it, then reset."
     std::string_view advice() const;
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 

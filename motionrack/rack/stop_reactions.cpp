@@ -144,7 +144,7 @@ Result<void> start_part(Rack& rack, std::string_view name) {
     }
     const RunningStage* stage = rack.stage(name);
     if (stage == nullptr || stage->processor == nullptr)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("There is no belt, table or stage with a loop called {}. Nothing was started.", name));
     std::array<std::int64_t, grating_bus::output_count> counts{};
     for (const RunningStage& one : rack.stages())

@@ -33,7 +33,7 @@ RackConfig router() {
     out.name = "three-axis router with a rotary table";
     out.axes = {linear_axis('X', 'x', 300), linear_axis('Y', 'y', 200), linear_axis('Z', 'z', 80), default_axis('A')};
     RackAxis& z = out.axes[2];
-    z.max_speed = 50;
+    z.max_velocity = 50;
     z.max_accel = 500;
     z.start_position = 80;  // the tool stands above the work
     RackAxis& a = out.axes[3];
@@ -51,8 +51,8 @@ RackConfig stage() {
     out.axes = {linear_axis('X', 'x', 100), linear_axis('Y', 'y', 100)};
     for (RackAxis& axis : out.axes) {
         axis.lead_mm = 1;
-        axis.max_speed = 20;
-        axis.start_speed = 0.5;
+        axis.max_velocity = 20;
+        axis.max_velocity_step = 0.5;
     }
     return out;
 }
@@ -71,7 +71,7 @@ RackConfig carriage() {
     axis.card = "motion";
     axis.lead_mm = 10;
     axis.encoder_counts_per_rev = 1000;
-    axis.max_speed = 500;
+    axis.max_velocity = 500;
     axis.min_position = -200;
     axis.max_position = 2900;
     axis.switches.limit_minus = -300;
@@ -227,7 +227,7 @@ Result<std::string> rack_template(std::string_view variant) {
     std::vector<std::string_view> names;
     for (const TemplateVariant& known : variants) names.push_back(known.name);
     const std::string hint = did_you_mean(variant, names);
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("There is no rack template {}: the templates are {}{} Nothing was written.",
                             in_quotes(variant), fmt::join(names, ", "), hint.empty() ? "." : hint));
 }

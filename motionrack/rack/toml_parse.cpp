@@ -83,7 +83,7 @@ class Scanner {
         const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
         const auto bytes_more = std::count_if(before.begin(), before.end(), continues);
         const int column = static_cast<int>(before.size()) - static_cast<int>(bytes_more) + 1;
-        return {ErrorKind::bad_input, std::move(what), {}, {line_, column}};
+        return {ErrorKind::invalid_input, std::move(what), {}, {line_, column}};
     }
 
     /// At a quote: does a text or a quoted key begin here?
@@ -231,7 +231,7 @@ toml::table parse_twice(std::string_view text) {
 
 Result<TomlNode> parse_toml(std::string_view text, std::string_view file) {
     if (text.size() > max_toml_bytes) {
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The text has {} bytes; a rack file has at most {}. Nothing was read.", text.size(),
                                 max_toml_bytes),
                     {}, std::string(file));
@@ -247,7 +247,7 @@ Result<TomlNode> parse_toml(std::string_view text, std::string_view file) {
         convert_table(table, root);
         return root;
     } catch (const toml::parse_error& error) {
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("This is not TOML: {}. Nothing was read.", printable(error.description(), 300)),
                     to_place(error.source().begin), std::string(file));
     }

@@ -28,7 +28,7 @@ std::string_view type_name(TomlType type) {
 }
 
 void Problems::add(std::vector<Error>& list, Place place, std::string message) {
-    list.push_back(Error{ErrorKind::bad_input, std::move(message), file_, place});
+    list.push_back(Error{ErrorKind::invalid_input, std::move(message), file_, place});
 }
 
 std::vector<Error> Problems::take(std::vector<Error>& list) {
@@ -39,8 +39,8 @@ std::vector<Error> Problems::take(std::vector<Error>& list) {
         const std::size_t more = list.size() - max_listed;
         list.resize(max_listed);
         const Place last = list.back().place;
-        list.push_back(Error{ErrorKind::bad_input, fmt::format("and {} more; mend the first ones and try again.", more),
-                             file_, last});
+        list.push_back(Error{ErrorKind::invalid_input,
+                             fmt::format("and {} more; mend the first ones and try again.", more), file_, last});
     }
     return std::exchange(list, {});
 }

@@ -105,7 +105,7 @@ bool TrustWatch::knows_itself(std::size_t axis) {
     RunningAxis& running = rack_.axes()[axis];
     if (!rack_.config().positions_alone(running.config)) return true;
     const Result<control::Axis*> one = running.card->axis(rack_.config(), running.config.letter);
-    return one && (*one)->trusted();
+    return one && (*one)->position_valid();
 }
 
 /// A servo has no pulses to lose.

@@ -105,7 +105,7 @@ WireTap::WireTap(sim::Kernel& kernel)
 
 void WireTap::follow(sim::WireId wire, bool wanted) {
     followers_[sim::Kernel::index(wire)] += wanted ? 1 : -1;
-    kernel_.want(wire, id_, followers_[sim::Kernel::index(wire)] > 0);
+    kernel_.subscribe(wire, id_, followers_[sim::Kernel::index(wire)] > 0);
 }
 
 WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
@@ -124,7 +124,7 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
     out->choose_wires();
     out->choose_counters();
     if (out->signals_.empty())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
                                 "motion.xlmtp; * and ? stand for anything.",
                                 fmt::join(settings.signals, "', '")));
@@ -250,7 +250,7 @@ void WaveRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
     if (signal >= 0) push(now, static_cast<std::size_t>(signal), level);
 }
 
-void WaveRecorder::act(Instant now) {
+void WaveRecorder::on_scheduled(Instant now) {
     look_at_cards(now);
     rack_.kernel().schedule(id_, now + register_period_);
 }

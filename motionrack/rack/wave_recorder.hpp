@@ -26,7 +26,7 @@ class WireTap final : public sim::Device {
     explicit WireTap(sim::Kernel& kernel);
     /// Counted: a wire is wanted until each of its followers has left it.
     void follow(sim::WireId wire, bool wanted);
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
 
   private:
     sim::Kernel& kernel_;
@@ -75,7 +75,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::uint64_t changes() const { return changes_; }
     Duration register_period() const { return register_period_; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void wire_changed(sim::WireId wire, int level, Instant now) override;
 
   private:

@@ -118,7 +118,7 @@ tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
     for (const auto& [known, wire] : wires_) names.push_back(known);
     const std::string hint = did_you_mean(name, names);
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
                     "file lists them. Nothing was done.",
                     in_quotes(name), hint.empty() ? "." : hint));
@@ -202,7 +202,7 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
     return {};
 }
 
-Result<void> WireAccess::set(std::string_view name, double value) {
+Result<void> WireAccess::force(std::string_view name, double value) {
     MOTIONRACK_CHECK(check(name, value));
     const Wire& wire = *find(name);
     const bool released = std::isnan(value);

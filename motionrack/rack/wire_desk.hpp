@@ -24,7 +24,7 @@ class WireAccess {
     /// Drives a wire from now on: 0 or 1; NaN releases it. The two inputs of an encoder are taken over together: the
     /// other one holds the level that it had, and the encoder is connected again when both are released. In a started
     /// rack, between runs. Errors: bad_input (no such wire), refused (an output, another value).
-    Result<void> set(std::string_view name, double value);
+    Result<void> force(std::string_view name, double value);
     /// What set would say.
     Result<void> check(std::string_view name, double value) const;
     bool knows(std::string_view name) const { return wires_.find(name) != wires_.end(); }

@@ -19,7 +19,7 @@ class Device {
   public:
     virtual ~Device() = default;
     /// Called when the scheduled instant has come.
-    virtual void act(Instant now) = 0;
+    virtual void on_scheduled(Instant now) = 0;
     /// A wire this device listens to has a new level. `pin` is the number given to Kernel::listen.
     virtual void on_wire(int pin, int level, Instant now) { (void)pin, (void)level, (void)now; }
     /// The level of a wire that this device drives lazily (Kernel::drive_lazily), at `now`.

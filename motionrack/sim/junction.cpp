@@ -18,26 +18,26 @@ void WireConnections::join(WireId from, WireId to, bool inverted) {
         kernel_.schedule(id_, Instant{0});
 }
 
-void WireConnections::act(Instant) {
-    for (const Joint& joint : joints_)
+void WireConnections::on_scheduled(Instant) {
+    for (const Connection& joint : joints_)
         if (!joint.lazy) kernel_.set_wire(joint.to, joint.level(kernel_.level(joint.from)));
 }
 
 void WireConnections::on_wire(int pin, int level, Instant) {
-    const Joint& joint = joints_[static_cast<std::size_t>(pin)];
+    const Connection& joint = joints_[static_cast<std::size_t>(pin)];
     if (!joint.lazy || kernel_.wanted(joint.to)) kernel_.set_wire(joint.to, joint.level(level));
 }
 
 int WireConnections::level_at(int pin, Instant) const {
-    const Joint& joint = joints_[static_cast<std::size_t>(pin)];
+    const Connection& joint = joints_[static_cast<std::size_t>(pin)];
     return joint.level(kernel_.level(joint.from));
 }
 
 void WireConnections::wanted_changed(int pin, bool, Instant) {
     const WireId from = joints_[static_cast<std::size_t>(pin)].from;
     bool any = false;
-    for (const Joint& joint : joints_) any = any || (joint.from == from && kernel_.wanted(joint.to));
-    kernel_.want(from, id_, any);
+    for (const Connection& joint : joints_) any = any || (joint.from == from && kernel_.wanted(joint.to));
+    kernel_.subscribe(from, id_, any);
 }
 
 }  // namespace motionrack::sim

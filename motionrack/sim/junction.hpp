@@ -20,13 +20,13 @@ class WireConnections final : public Device {
     /// owner has said whether it drives it lazily. A `to` at another level than `from` changes at instant 0.
     void join(WireId from, WireId to, bool inverted = false);
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
 
   private:
-    struct Joint {
+    struct Connection {
         WireId from{};
         WireId to{};
         bool inverted = false;
@@ -36,7 +36,7 @@ class WireConnections final : public Device {
 
     Kernel& kernel_;
     DeviceId id_;
-    std::vector<Joint> joints_;
+    std::vector<Connection> joints_;
 };
 
 }  // namespace motionrack::sim

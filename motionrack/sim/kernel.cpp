@@ -74,7 +74,7 @@ RunEnd Kernel::run_until(Instant until, RunBreak at) {
         next.at = never;
         knows_earliest_ = false;
         ++state_.events;
-        devices_[earliest_].device->act(state_.now);
+        devices_[earliest_].device->on_scheduled(state_.now);
         deliver();
         if (at == RunBreak::conditions && state_.condition_count != reported) break_ = true;
     }
@@ -157,7 +157,7 @@ int Kernel::level(WireId wire) const {
     return s.level;
 }
 
-void Kernel::want(WireId wire, DeviceId device, bool wanted) {
+void Kernel::subscribe(WireId wire, DeviceId device, bool wanted) {
     const Wire& w = wires_[index(wire)];
     WireState& s = wire_state_[index(wire)];
     const std::uint32_t before = s.wants;

@@ -84,7 +84,7 @@ class Kernel {
     int level(WireId wire) const;
     /// A listener begins or ceases to want changes (listeners want them from the start unless the wire is driven
     /// lazily).
-    void want(WireId wire, DeviceId device, bool wanted);
+    void subscribe(WireId wire, DeviceId device, bool wanted);
     bool wanted(WireId wire) const;
     /// Whether drive_lazily was called for it.
     bool lazy(WireId wire) const { return wires_[index(wire)].lazy_pin >= 0; }

@@ -15,11 +15,11 @@ namespace motionrack::sim {
 class Listeners {
   public:
     /// What each slot watches; open at both ends if nothing.
-    using Watches = std::array<Range, Motion::max_listeners>;
+    using Watches = std::array<Range, PositionFunction::max_listeners>;
 
     /// Before the kernel starts; the listener's slot.
     int add(PositionListener& listener) {
-        MOTIONRACK_ASSERT(size_ < Motion::max_listeners);
+        MOTIONRACK_ASSERT(size_ < PositionFunction::max_listeners);
         all_[static_cast<std::size_t>(size_)] = &listener;
         return size_++;
     }
@@ -39,14 +39,14 @@ class Listeners {
         }
     }
     /// The range in which nobody has anything to hear.
-    static Range quiet(const Watches& watches) {
+    static Range unwatched_range(const Watches& watches) {
         Range all;
         for (const Range& watch : watches) all = all.within(watch);
         return all;
     }
 
   private:
-    std::array<PositionListener*, Motion::max_listeners> all_{};
+    std::array<PositionListener*, PositionFunction::max_listeners> all_{};
     int size_ = 0;
 };
 

@@ -48,9 +48,9 @@ class PositionListener {
 inline constexpr std::int64_t unwatched_below = std::numeric_limits<std::int64_t>::min();
 inline constexpr std::int64_t unwatched_above = std::numeric_limits<std::int64_t>::max();
 
-class Motion {
+class PositionFunction {
   public:
-    virtual ~Motion() = default;
+    virtual ~PositionFunction() = default;
     /// The count at `t`: not before the last event of the owner, not after the present instant of the kernel.
     virtual std::int64_t count(Instant t) const = 0;
     /// Mean rate of the present law at `t`, counts a second, signed.
@@ -59,7 +59,7 @@ class Motion {
     /// the next instant).
     virtual void watch(int slot, std::int64_t below, std::int64_t above) = 0;
     /// Adds a listener before the kernel starts; returns its slot (at most max_listeners).
-    virtual int listen(PositionListener& listener) = 0;
+    virtual int add_listener(PositionListener& listener) = 0;
     /// Before the start: listeners are also to hear rate_changed when |rate| passes `rate` (counts a second, >= 0)
     /// along a curve; at most max_listeners marks. A motion whose rate changes in steps has nothing to do for it.
     virtual void watch_rate(double rate) { (void)rate; }

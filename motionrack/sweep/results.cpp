@@ -147,7 +147,7 @@ Result<Rows> read_rows_csv(const std::string& path) {
     std::vector<std::string> fields;
     while (true) {
         const Result<bool> next = csv.next(fields);
-        if (!next && next.error().trouble == ErrorKind::io) return tl::unexpected<Error>(next.error());
+        if (!next && next.error().kind == ErrorKind::io) return tl::unexpected<Error>(next.error());
         // A row that was cut off is made again.
         if (!next || !*next || csv.cut()) return out;
         Row row;

@@ -21,8 +21,8 @@ struct AxisColumn {
     double (*value)(const rack::AxisOutcome& axis);
 };
 constexpr std::array<AxisColumn, 4> axis_columns = {{
-    {"top_speed_{u}_s", "{u}/s", [](const rack::AxisOutcome& axis) { return axis.top.top_speed; }},
-    {"top_accel_{u}_s2", "{u}/s2", [](const rack::AxisOutcome& axis) { return axis.top.top_accel; }},
+    {"top_speed_{u}_s", "{u}/s", [](const rack::AxisOutcome& axis) { return axis.top.peak_velocity; }},
+    {"top_accel_{u}_s2", "{u}/s2", [](const rack::AxisOutcome& axis) { return axis.top.peak_accel; }},
     {"lost_pulses", "", [](const rack::AxisOutcome& axis) { return static_cast<double>(axis.lost_pulses); }},
     {"rest_error_{u}", "{u}", [](const rack::AxisOutcome& axis) { return axis.real_end - axis.planned_end; }},
 }};
@@ -41,8 +41,8 @@ std::string axis_column_name(std::size_t axis, const AxisColumn& column) {
 
 std::string ended_text(const rack::JobOutcome& outcome) {
     if (outcome.ended) return outcome.good() ? "ok" : outcome.position_trusted ? "limits_broken" : "lost_steps";
-    switch (outcome.ended.error().trouble) {
-        case ErrorKind::bad_input:
+    switch (outcome.ended.error().kind) {
+        case ErrorKind::invalid_input:
             return "bad_input";
         case ErrorKind::refused:
             return "refused";
@@ -112,7 +112,7 @@ Result<Row> run_point(std::string_view text, const std::atomic<bool>* stop) {
     auto job = rack::RecordedJob::create(request, {});
     if (!job) return refused(job.error());
     const rack::JobOutcome& outcome = (*job)->run(stop, {});
-    if (!outcome.ended && outcome.ended.error().trouble == ErrorKind::stopped)
+    if (!outcome.ended && outcome.ended.error().kind == ErrorKind::stopped)
         return tl::unexpected<Error>(outcome.ended.error());
     return row_of(outcome);
 }

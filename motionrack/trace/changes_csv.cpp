@@ -37,7 +37,7 @@ class CsvChanges final : public ChangeSource {
         MOTIONRACK_TRY(const bool any, rows_.next(fields_));
         if (!any) return false;
         const auto refuse = [&](const char* what) {
-            return fail(ErrorKind::bad_input, what, {rows_.line(), 0}, path_);
+            return fail(ErrorKind::invalid_input, what, {rows_.line(), 0}, path_);
         };
         if (!read_ps(fields_[0], change.at_ps)) return refuse("The time is no number of seconds, 0 to 8640000.");
         if (change.at_ps < last_) return refuse("The time lies before that of the line above.");
@@ -62,7 +62,7 @@ class CsvChanges final : public ChangeSource {
 Result<std::unique_ptr<ChangeSource>> open_csv_changes(const std::string& path, SignalNames& names) {
     MOTIONRACK_TRY(CsvRows rows, CsvRows::open(path));
     if (rows.head() != std::vector<std::string>{"time_s", "signal", "value"})
-        return fail(ErrorKind::bad_input, "The file is no table of changes: its head is not time_s,signal,value.",
+        return fail(ErrorKind::invalid_input, "The file is no table of changes: its head is not time_s,signal,value.",
                     {1, 0}, path);
     return std::make_unique<CsvChanges>(std::move(rows), path, names);
 }

@@ -31,7 +31,7 @@ class VcdChanges final : public ChangeSource {
     Result<void> time();
     Result<bool> changed(const std::string& code, std::string value, Change& change);
     tl::unexpected<Error> refuse(const std::string& message) const {
-        return fail(ErrorKind::bad_input, message, {line_, 0}, bytes_.path());
+        return fail(ErrorKind::invalid_input, message, {line_, 0}, bytes_.path());
     }
 
     FileBytes bytes_;

@@ -18,12 +18,12 @@ Result<CsvRows> CsvRows::open(const std::string& path) {
     for (const int mark : {0xEF, 0xBB, 0xBF})
         if (out.bytes_.peek() == mark) out.bytes_.get();
     MOTIONRACK_TRY(const bool any, out.read(out.head_));
-    if (!any) return fail(ErrorKind::bad_input, "The file is empty.", {}, path);
+    if (!any) return fail(ErrorKind::invalid_input, "The file is empty.", {}, path);
     return out;
 }
 
 tl::unexpected<Error> CsvRows::refuse(const std::string& message) const {
-    return fail(ErrorKind::bad_input, message, {line_, 0}, bytes_.path());
+    return fail(ErrorKind::invalid_input, message, {line_, 0}, bytes_.path());
 }
 
 Result<bool> CsvRows::next(std::vector<std::string>& fields) {

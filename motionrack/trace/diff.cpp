@@ -34,12 +34,12 @@ bool is_table_of_changes(const CsvRows& rows) {
 Result<FileKind> kind_of_file(const std::string& path) {
     MOTIONRACK_TRY(FileBytes bytes, FileBytes::open(path));
     int first = bytes.get();
-    if (first < 0) return fail(ErrorKind::bad_input, "The file is empty.", {}, path);
+    if (first < 0) return fail(ErrorKind::invalid_input, "The file is empty.", {}, path);
     if (first == 0x89) return FileKind::hdf5;
     while (first == ' ' || first == '\t' || first == '\r' || first == '\n') first = bytes.get();
     if (first == '$') return FileKind::vcd;
     if (first >= 0x20 && first < 0x7F) return FileKind::csv;
-    return fail(ErrorKind::bad_input, "The file is none that is read here: HDF5, VCD or CSV.", {}, path);
+    return fail(ErrorKind::invalid_input, "The file is none that is read here: HDF5, VCD or CSV.", {}, path);
 }
 
 void sort_differences(Diff& diff) {
@@ -51,8 +51,9 @@ Result<Diff> diff_files(const std::string& a, const std::string& b, const DiffSe
     MOTIONRACK_TRY(const FileKind kind, kind_of_file(a));
     MOTIONRACK_TRY(const FileKind other, kind_of_file(b));
     if (kind != other)
-        return fail(ErrorKind::bad_input, fmt::format("{} is {}, {} is {}; only two of the same kind can be compared.",
-                                                      a, name_of_kind(kind), b, name_of_kind(other)));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("{} is {}, {} is {}; only two of the same kind can be compared.", a, name_of_kind(kind),
+                                b, name_of_kind(other)));
     if (kind == FileKind::hdf5) {
         MOTIONRACK_TRY(const RecordingReader of_a, RecordingReader::open(a));
         MOTIONRACK_TRY(const RecordingReader of_b, RecordingReader::open(b));

@@ -293,7 +293,7 @@ Result<void> check_signature(const std::string& path) {
         return fail(ErrorKind::io,
                     fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)), {}, path);
     if (got == sizeof begin && std::memcmp(begin, signature, sizeof begin) == 0) return {};
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 got == 0 ? "The file is empty." : "The file is no recording: it does not begin as an HDF5 file does.",
                 {}, path);
 }
@@ -316,7 +316,7 @@ Result<File> File::open(const std::string& path) {
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()), H5Fclose);
     out.unfinished_ = true;
     if (out.file_) return out;
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("The recording is damaged, or was cut off before anything was in it: {}.", first), {},
                 path);
 }

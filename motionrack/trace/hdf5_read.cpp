@@ -38,7 +38,8 @@ Result<std::string> Reader::text(std::uint64_t at) const {
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
     if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
         bytes > most_text || at >= size_)
-        return fail(ErrorKind::bad_input, fmt::format("The recording is damaged: {} is no text.", path_), {}, file_);
+        return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} is no text.", path_), {},
+                    file_);
     const hsize_t begin = at, one = 1;
     const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
     std::string out(bytes, '\0');
@@ -52,7 +53,7 @@ Result<std::string> Reader::text(std::uint64_t at) const {
 
 Result<Reader> File::column(const std::string& path) const {
     const auto refuse = [&](const std::string& what) {
-        return fail(ErrorKind::bad_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
+        return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
     };
     if (!has(path)) return refuse("is not there");
     Reader out;

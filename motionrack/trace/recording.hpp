@@ -52,7 +52,7 @@ struct RecordedAxis {
     bool servo = false;
     double pulses_per_unit = 1, counts_per_unit = 0;  ///< counts: 0, there is no encoder
     double origin = 0;                                ///< where both counts are 0, mm or degrees
-    double min_position = 0, max_position = 0, max_speed = 0, max_accel = 0;  ///< as ReportAxis has them
+    double min_position = 0, max_position = 0, max_velocity = 0, max_accel = 0;  ///< as ReportAxis has them
     friend bool operator==(const RecordedAxis&, const RecordedAxis&) = default;
 };
 

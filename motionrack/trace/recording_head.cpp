@@ -132,7 +132,7 @@ Result<RecordingHead> head_from_json(std::string_view text) {
     } catch (const std::bad_alloc&) {
         throw;  // the recording is not to blame
     } catch (const std::exception&) {
-        return fail(ErrorKind::bad_input, "The recording is damaged: what it says of its run cannot be read.");
+        return fail(ErrorKind::invalid_input, "The recording is damaged: what it says of its run cannot be read.");
     }
     return head;
 }

@@ -37,10 +37,10 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
     MOTIONRACK_TRY(out.file_, hdf5::File::open(path));
     const hdf5::File& file = out.file_;
     if (file.attribute_text("format") != "motionrack recording")
-        return fail(ErrorKind::bad_input, "The file is an HDF5 file, but no recording of motionrack.", {}, path);
+        return fail(ErrorKind::invalid_input, "The file is an HDF5 file, but no recording of motionrack.", {}, path);
     const std::int64_t version = file.attribute_number("format_version");
     if (version < 1 || version > recording_format)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The recording has format {}, this program reads up to {}; take the program that wrote "
                                 "it, or a later one.",
                                 version, recording_format),
@@ -131,7 +131,7 @@ Result<RecordingReader::Columns> RecordingReader::columns(const RecordedSeries& 
     MOTIONRACK_TRY(out.value, file_.column(series.value));
     out.size = std::min(out.time.size(), out.value.size());
     if (whole_ && out.time.size() != out.value.size())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The recording is damaged: {} has {} times, but {} values.", series.name,
                                 out.time.size(), out.value.size()),
                     {}, path());
@@ -256,7 +256,7 @@ ReportData RecordingReader::report_of_cut() const {
         one.servo = axis.servo;
         one.min_position = axis.min_position;
         one.max_position = axis.max_position;
-        one.max_speed = axis.max_speed;
+        one.max_velocity = axis.max_velocity;
         one.max_accel = axis.max_accel;
         data.axes.push_back(std::move(one));
     }
@@ -271,8 +271,8 @@ Result<ReportData> RecordingReader::report() const {
     if (whole_) {
         MOTIONRACK_TRY(data, report_from_json(report_));
         if (data.axes.size() != head_.axes.size())
-            return fail(ErrorKind::bad_input, "The recording is damaged: its report has other axes than its run.", {},
-                        path());
+            return fail(ErrorKind::invalid_input, "The recording is damaged: its report has other axes than its run.",
+                        {}, path());
     }
     MOTIONRACK_CHECK(read_samples(data));
     return data;

@@ -33,7 +33,7 @@ struct ReportAxis {
     bool servo = false;       ///< it follows a voltage: no pulses are sent, and none can be lost
     double min_position = 0;  ///< travel; min >= max: the travel is not limited
     double max_position = 0;
-    double max_speed = 0;              ///< limit; 0: none
+    double max_velocity = 0;           ///< limit; 0: none
     double max_accel = 0;              ///< limit; 0: none
     std::int64_t pulses_sent = 0;      ///< counted on the wire, both directions
     std::int64_t pulses_net = 0;       ///< counted on the wire, forward less backward
@@ -41,11 +41,11 @@ struct ReportAxis {
     std::int64_t counts_read = 0;      ///< encoder counts the card read back
     std::int64_t counts_expected = 0;  ///< encoder counts that the pulses sent should give
     std::int64_t lost_steps = 0;
-    double top_speed = 0;    ///< greatest absolute value measured
-    double top_accel = 0;    ///< greatest absolute value measured
-    double top_jump = 0;     ///< greatest change of speed at once (from standstill or at a corner), unit/s
-    double planned_end = 0;  ///< where the program ends
-    double real_end = 0;     ///< where the motor really is
+    double peak_velocity = 0;       ///< greatest absolute value measured
+    double peak_accel = 0;          ///< greatest absolute value measured
+    double peak_velocity_step = 0;  ///< greatest change of speed at once (from standstill or at a corner), unit/s
+    double planned_end = 0;         ///< where the program ends
+    double real_end = 0;            ///< where the motor really is
     /// Series over ReportData::seconds: each is empty or as long as it. Values that are not finite are left out.
     std::vector<float> position;
     std::vector<float> speed;
@@ -56,8 +56,8 @@ struct ReportAxis {
 /// A piece of the programmed path, from its start to its end; arcs come as the points of a polyline.
 struct ReportSegment {
     std::vector<Xyz> points;
-    bool traverse = false;  ///< drawn dashed
-    int line = 0;           ///< line of the part program, 0: none
+    bool rapid = false;  ///< drawn dashed
+    int line = 0;        ///< line of the part program, 0: none
 };
 
 /// The place where the machine was farthest from the programmed path.
@@ -86,7 +86,7 @@ struct ReportMove {
     double start = 0;         ///< s
     double duration = 0;      ///< s
     double entry_speed = 0;
-    double top_speed = 0;
+    double peak_velocity = 0;
     double exit_speed = 0;
     double deviation_mm = 0;  ///< greatest distance from the programmed path
 };

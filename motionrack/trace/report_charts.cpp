@@ -116,7 +116,7 @@ std::string planned_json(const ReportData& data) {
     for (std::size_t i = 0; i < path.points.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(path.points[i][c]);
         lines.push_back(path.line[i]);
-        kinds.push_back(path.starts[i] ? 2 : path.traverse[i] ? 1 : 0);
+        kinds.push_back(path.starts[i] ? 2 : path.rapid[i] ? 1 : 0);
     }
     const double step = tolerance / 5;
     return fmt::format("{{\"within\":{},\"x\":{},\"y\":{},\"z\":{},\"line\":{},\"kind\":{}}}", json_number(path.within),
@@ -149,7 +149,7 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
     }
     if (!axis.speed.empty()) {
         SvgChart out = chart("Speed, " + axis.unit + "/s", look, data, axis.speed);
-        if (axis.max_speed > 0) out.limits = {{axis.max_speed, ""}, {-axis.max_speed, ""}};
+        if (axis.max_velocity > 0) out.limits = {{axis.max_velocity, ""}, {-axis.max_velocity, ""}};
         charts.push_back({number_of, std::move(out)});
     }
     if (!axis.accel.empty()) {

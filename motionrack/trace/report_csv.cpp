@@ -72,7 +72,7 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
         }
     }
     if (timed && !out.others.empty()) return out;
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_speed_mm_s "
                 "or deviation_mm.",
                 {1, 0}, path);
@@ -81,9 +81,10 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
 /// What the samples themselves tell of an axis.
 void add_tops(ReportAxis& axis) {
     for (const float speed : axis.speed)
-        if (std::isfinite(speed)) axis.top_speed = std::max(axis.top_speed, std::fabs(static_cast<double>(speed)));
+        if (std::isfinite(speed))
+            axis.peak_velocity = std::max(axis.peak_velocity, std::fabs(static_cast<double>(speed)));
     for (const float accel : axis.accel)
-        if (std::isfinite(accel)) axis.top_accel = std::max(axis.top_accel, std::fabs(static_cast<double>(accel)));
+        if (std::isfinite(accel)) axis.peak_accel = std::max(axis.peak_accel, std::fabs(static_cast<double>(accel)));
     if (!axis.position.empty()) axis.planned_end = axis.real_end = axis.position.back();
 }
 
@@ -104,7 +105,7 @@ Result<ReportData> report_from_csv(const std::string& path) {
         }
         const double seconds = number_of(row[columns.time]);
         if (!std::isfinite(seconds) || (!data.seconds.empty() && seconds < data.seconds.back()))
-            return fail(ErrorKind::bad_input, "The time is no number, or lies before that of the row above.",
+            return fail(ErrorKind::invalid_input, "The time is no number, or lies before that of the row above.",
                         {rows.line(), 0}, path);
         data.seconds.push_back(seconds);
         if (columns.driven) data.driven.push_back({});

@@ -106,14 +106,14 @@ void fields_of(ReportNumber& v, Fields& f) {
 }
 void fields_of(ReportAxis& v, Fields& f) {
     f("name", v.name)("unit", v.unit)("servo", v.servo)("min_position", v.min_position)("max_position", v.max_position);
-    f("max_speed", v.max_speed)("max_accel", v.max_accel)("pulses_sent", v.pulses_sent)("pulses_net", v.pulses_net);
+    f("max_speed", v.max_velocity)("max_accel", v.max_accel)("pulses_sent", v.pulses_sent)("pulses_net", v.pulses_net);
     f("pulse_counter", v.pulse_counter)("counts_read", v.counts_read)("counts_expected", v.counts_expected)(
         "lost_steps", v.lost_steps);
-    f("top_speed", v.top_speed)("top_accel", v.top_accel)("top_jump", v.top_jump)("planned_end", v.planned_end)(
-        "real_end", v.real_end);
+    f("top_speed", v.peak_velocity)("top_accel", v.peak_accel)("top_jump", v.peak_velocity_step)(
+        "planned_end", v.planned_end)("real_end", v.real_end);
 }
 void fields_of(ReportSegment& v, Fields& f) {
-    f("points", v.points)("traverse", v.traverse)("line", v.line);
+    f("points", v.points)("traverse", v.rapid)("line", v.line);
 }
 void fields_of(ReportMaxDeviation& v, Fields& f) {
     f("mm", v.mm)("seconds", v.seconds)("line", v.line)("at", v.at);
@@ -124,8 +124,8 @@ void fields_of(ReportStop& v, Fields& f) {
 void fields_of(ReportMove& v, Fields& f) {
     f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration",
                                                                                                             v.duration);
-    f("entry_speed", v.entry_speed)("top_speed", v.top_speed)("exit_speed", v.exit_speed)("deviation_mm",
-                                                                                          v.deviation_mm);
+    f("entry_speed", v.entry_speed)("top_speed", v.peak_velocity)("exit_speed", v.exit_speed)("deviation_mm",
+                                                                                              v.deviation_mm);
 }
 void fields_of(ReportWarning& v, Fields& f) {
     f("seconds", v.seconds)("line", v.line)("text", v.text);
@@ -171,7 +171,7 @@ Result<ReportData> report_from_json(std::string_view text) {
     } catch (const std::bad_alloc&) {
         throw;  // the recording is not to blame
     } catch (const std::exception&) {
-        return fail(ErrorKind::bad_input, "The recording is damaged: what its report says cannot be read.");
+        return fail(ErrorKind::invalid_input, "The recording is damaged: what its report says cannot be read.");
     }
     return data;
 }

@@ -54,9 +54,9 @@ std::string axis_row(const ReportAxis& axis) {
                                                    : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) +
                                                          ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
     out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(axis.servo ? "-" : lost);
-    out += cell(against(axis.top_speed, axis.max_speed, unit + "/s")) +
-           cell(against(axis.top_accel, axis.max_accel, unit + "/s\xC2\xB2"));
-    out += cell(number(axis.top_jump) + " <small>" + unit + "/s</small>");
+    out += cell(against(axis.peak_velocity, axis.max_velocity, unit + "/s")) +
+           cell(against(axis.peak_accel, axis.max_accel, unit + "/s\xC2\xB2"));
+    out += cell(number(axis.peak_velocity_step) + " <small>" + unit + "/s</small>");
     out += cell(number(axis.real_end, 4) + " <small>" + unit + "</small><br><small>planned " +
                 number(axis.planned_end, 4) + "</small>");
     return out + "</tr>\n";
@@ -69,7 +69,8 @@ std::string block_row(const ReportMove& block, std::size_t index) {
     out += cell("<code>" + shown(block.text, 100) + "</code>", "t") + cell(shown(block.kind, 40), "t");
     out += cell(number(block.length, 3) + " <small>" + unit + "</small>");
     out += cell(number(block.start, 3)) + cell(number(block.duration, 3));
-    out += cell(number(block.entry_speed, 2)) + cell(number(block.top_speed, 2)) + cell(number(block.exit_speed, 2));
+    out +=
+        cell(number(block.entry_speed, 2)) + cell(number(block.peak_velocity, 2)) + cell(number(block.exit_speed, 2));
     return out + cell(number(block.deviation_mm, 4)) + "</tr>\n";
 }
 

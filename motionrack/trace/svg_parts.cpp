@@ -121,7 +121,7 @@ PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolera
             if (joined) continue;
             all.points.push_back(point);
             all.line.push_back(segment.line);
-            all.traverse.push_back(segment.traverse);
+            all.rapid.push_back(segment.rapid);
             all.starts.push_back(i == 0);
             corner.push_back(i == 0);
         }
@@ -138,7 +138,7 @@ PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolera
         for (std::size_t k = before + 1; k < i && !thin.points.empty(); ++k) starts = starts && !all.starts[k];
         thin.points.push_back(all.points[i]);
         thin.line.push_back(all.line[i]);
-        thin.traverse.push_back(all.traverse[i]);
+        thin.rapid.push_back(all.rapid[i]);
         thin.starts.push_back(starts || thin.points.size() == 1);
         before = i;
     }

@@ -31,7 +31,7 @@ std::string series_names(const SvgChart& chart, double right, double baseline);
 struct PlannedPath {
     std::vector<Xyz> points;
     std::vector<int> line;
-    std::vector<bool> traverse;
+    std::vector<bool> rapid;
     std::vector<bool> starts;  ///< the path begins anew here: no edge ends in this point
     double within = 0;         ///< what was left out lies no farther than this from the edges, mm; < 0: not known
 };

@@ -222,16 +222,16 @@ std::string planned_lines(const ReportData& data, const Projection& at) {
     std::vector<Flat> flat;
     for (std::size_t i = 0; i < path.points.size(); ++i) {
         if (i > 0 && path.starts[i]) {
-            out += line_through(flat, path.traverse[i - 1] ? "planned traverse" : "planned");
+            out += line_through(flat, path.rapid[i - 1] ? "planned traverse" : "planned");
             flat.clear();
-        } else if (i > 1 && path.traverse[i] != path.traverse[i - 1]) {
+        } else if (i > 1 && path.rapid[i] != path.rapid[i - 1]) {
             const Flat joint = flat.back();
-            out += line_through(flat, path.traverse[i - 1] ? "planned traverse" : "planned");
+            out += line_through(flat, path.rapid[i - 1] ? "planned traverse" : "planned");
             flat = {joint};
         }
         flat.push_back(at(path.points[i]));
     }
-    if (!flat.empty()) out += line_through(flat, path.traverse.back() ? "planned traverse" : "planned");
+    if (!flat.empty()) out += line_through(flat, path.rapid.back() ? "planned traverse" : "planned");
     return out;
 }
 

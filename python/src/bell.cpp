@@ -11,7 +11,7 @@ RunBreaker::RunBreaker(sim::Kernel& kernel) : kernel_(kernel) {
 }
 
 void RunBreaker::begin() {
-    for (std::size_t i = 0; i < kernel_.wire_count(); ++i) kernel_.want(static_cast<sim::WireId>(i), id_, false);
+    for (std::size_t i = 0; i < kernel_.wire_count(); ++i) kernel_.subscribe(static_cast<sim::WireId>(i), id_, false);
 }
 
 void RunBreaker::break_every(Duration period) {
@@ -34,15 +34,15 @@ void RunBreaker::break_on_wire(sim::WireId wire, int level) {
     wire_ = wire;
     level_ = level;
     heard_ = kernel_.level(wire) == level;
-    kernel_.want(wire, id_, true);
+    kernel_.subscribe(wire, id_, true);
 }
 
 void RunBreaker::listen_no_more() {
-    if (wire_ != sim::WireId::none) kernel_.want(wire_, id_, false);
+    if (wire_ != sim::WireId::none) kernel_.subscribe(wire_, id_, false);
     wire_ = sim::WireId::none;
 }
 
-void RunBreaker::act(Instant now) {
+void RunBreaker::on_scheduled(Instant now) {
     if (period_ == Duration{}) return;  // of a world that was copied while it rang
     rung_ = now;
     kernel_.schedule(id_, later(now, period_));

@@ -25,7 +25,7 @@ class RunBreaker final : public sim::Device {
     void listen_no_more();
     bool heard() const { return heard_; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
 
   private:

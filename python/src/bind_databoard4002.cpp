@@ -219,7 +219,7 @@ void bind_databoard4002(py::module_& m) {
         "The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card, double counts_per_mm,
                       int select) {
-              const RackLock turn(*world, RackLock::For::moving);
+              const RackLock turn(*world, RackLock::Access::run);
               sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
               if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
                   refuse(fmt::format("There are {} counts a mm; it is more than 0. Nothing was made.", counts_per_mm));

@@ -8,8 +8,8 @@ namespace {
 
 const char* class_of(const PythonError& raised) {
     if (raised.timeout) return "Timeout";
-    switch (raised.error.trouble) {
-        case ErrorKind::bad_input:
+    switch (raised.error.kind) {
+        case ErrorKind::invalid_input:
             return "BadInput";
         case ErrorKind::refused:
             return "Refused";

@@ -55,7 +55,7 @@ void bind_card(py::module_& m) {
     py::class_<Grating>(m, "GratingCard",
                         "The function library of a motion card on a grating bus: the positions of one instant.")
         .def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
-                 const RackLock turn(*world, RackLock::For::moving);
+                 const RackLock turn(*world, RackLock::Access::run);
                  sim::VirtualPort& port = *card_of_type(*world, card, "grating_bus").port();
                  return Grating{world, std::make_unique<gb::GratingCard>(port, port)};
              }),
@@ -75,7 +75,7 @@ void bind_card(py::module_& m) {
                 try {
                     return told(run_exclusive(*self.world, [&] { return self.driver->wait(time); }));
                 } catch (PythonError& raised) {
-                    raised.timeout = raised.error.trouble == ErrorKind::refused && self.world->now() - began >= time;
+                    raised.timeout = raised.error.kind == ErrorKind::refused && self.world->now() - began >= time;
                     throw;
                 }
             },

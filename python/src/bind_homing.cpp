@@ -14,9 +14,9 @@ py::tuple told(const rack::HomingOutcome& outcome) {
     py::object error = py::none();
     if (!outcome.ended) {
         const Error& why = outcome.ended.error();
-        const char* name = why.trouble == ErrorKind::stopped   ? "Stopped"
-                           : why.trouble == ErrorKind::machine ? "MachineFault"
-                                                               : "Refused";
+        const char* name = why.kind == ErrorKind::stopped   ? "Stopped"
+                           : why.kind == ErrorKind::machine ? "MachineFault"
+                                                            : "Refused";
         error = py::module_::import("motionrack.errors")
                     .attr(name)(why.message, why.file, why.place.line, why.place.column);
     }

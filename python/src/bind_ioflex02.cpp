@@ -240,7 +240,7 @@ void bind_ioflex02(py::module_& m) {
                 "The IOFLEX02's unit uFlex2Pos under its source's names, and one layer up. Before Init has succeeded "
                 "every read gives 0.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
-              const RackLock turn(*world, RackLock::For::moving);
+              const RackLock turn(*world, RackLock::Access::run);
               sim::VirtualPort& port = *card_of_type(*world, card, "ioflex02").port();
               return Flex{world, std::make_unique<Flex2Pos>(port, port)};
           }),

@@ -67,7 +67,7 @@ py::dict dict_of(const rack::AxisOutcome& axis) {
     out["servo"] = axis.servo;
     out["min_position"] = axis.limits.min_position;
     out["max_position"] = axis.limits.max_position;
-    out["max_speed"] = axis.limits.max_speed;
+    out["max_speed"] = axis.limits.max_velocity;
     out["max_accel"] = axis.limits.max_accel;
     out["pulses_sent"] = axis.pulses_sent;
     out["pulses_net"] = axis.pulses_net;
@@ -78,9 +78,9 @@ py::dict dict_of(const rack::AxisOutcome& axis) {
     out["lost_pulses"] = axis.lost_pulses;
     out["planned_end"] = axis.planned_end;
     out["real_end"] = axis.real_end;
-    out["top_speed"] = axis.top.top_speed;
-    out["top_accel"] = axis.top.top_accel;
-    out["top_jump"] = axis.top.top_jump;
+    out["top_speed"] = axis.top.peak_velocity;
+    out["top_accel"] = axis.top.peak_accel;
+    out["top_jump"] = axis.top.peak_velocity_step;
     return out;
 }
 
@@ -93,9 +93,9 @@ py::list blocks_of(const rack::Monitor& monitor) {
         one["line"] = block.line;
         one["kind"] = kinds[static_cast<std::size_t>(block.kind)];
         one["length"] = block.length;
-        one["entry_speed"] = block.entry;
-        one["cruise_speed"] = block.cruise;
-        one["exit_speed"] = block.exit;
+        one["entry_speed"] = block.entry_velocity;
+        one["cruise_speed"] = block.cruise_velocity;
+        one["exit_speed"] = block.exit_velocity;
         one["start"] = to_seconds(block.start);
         one["end"] = to_seconds(block.end);
         one["deviation_mm"] = block.deviation_mm;
@@ -109,7 +109,7 @@ void add_plan(py::dict& out, const rack::JobOutcome& outcome) {
     out["moves"] = outcome.run.plan.moves;
     out["dwells"] = outcome.run.plan.dwells;
     out["stops"] = outcome.run.plan.stops;
-    out["top_path_speed"] = outcome.run.plan.top_speed;
+    out["top_path_speed"] = outcome.run.plan.peak_velocity;
     out["lines"] = outcome.run.lines;
     out["moves_read"] = outcome.run.moves;
     out["program_ended"] = outcome.run.ended;
@@ -178,7 +178,7 @@ std::shared_ptr<Ran> run(const std::shared_ptr<RackHandle>& world, const Program
                          const std::vector<std::string>& faults, const py::object& progress) {
     control::gcode::Settings reading;
     {
-        const RackLock turn(*world, RackLock::For::moving);
+        const RackLock turn(*world, RackLock::Access::run);
         reading = check_program(*world, program);
         value_of(world->plan_faults(faults));
         value_of(world->set_sample_period(ticks(sample_ticks)));
@@ -209,8 +209,8 @@ void bind_job(py::module_& m) {
                  static constexpr const char* names[] = {"BadInput", "Refused", "MachineFault", "FileTrouble",
                                                          "Stopped"};
                  return py::module_::import("motionrack.errors")
-                     .attr(names[static_cast<std::size_t>(error.trouble)])(error.message, error.file, error.place.line,
-                                                                           error.place.column);
+                     .attr(names[static_cast<std::size_t>(error.kind)])(error.message, error.file, error.place.line,
+                                                                        error.place.column);
              })
         .def("data", [](const Ran& ran) { return inspect_rack(*ran.world, [&] { return dict_of(ran); }); })
         .def("samples", [](const Ran& ran) { return inspect_rack(*ran.world, [&] { return samples_of(ran); }); })

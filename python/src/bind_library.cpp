@@ -30,7 +30,7 @@ std::int64_t whole(const FunctionInfo& function, const ArgumentInfo* argument, p
     int beyond = 0;
     const long long out = PyLong_AsLongLongAndOverflow(number.ptr(), &beyond);
     if (beyond != 0)
-        raise({ErrorKind::bad_input,
+        raise({ErrorKind::invalid_input,
                fmt::format("{}: {} is {}, but must be {}. Nothing was done.", function.name,
                            argument == nullptr ? std::string_view("an argument") : argument->name,
                            py::cast<std::string>(py::str(py::handle(number))),
@@ -55,7 +55,7 @@ Arguments arguments_of(const FunctionInfo& function, const py::args& places, con
     for (const auto& [key, value] : names) {
         const auto name = py::cast<std::string>(key);
         if (out.count(name) != 0)
-            raise({ErrorKind::bad_input,
+            raise({ErrorKind::invalid_input,
                    fmt::format("{}: {} was given twice, by its place and by its name. Nothing was done.", function.name,
                                name)});
         out[name] = whole(function, argument_named(function, name), value);
@@ -112,7 +112,7 @@ void bind_library(py::module_& m) {
         "alarm or the emergency input stopped an axis. FileTrouble: the computer refuses an access to a real card. "
         "The first two are raised before anything is written.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
-              const RackLock turn(*world, RackLock::For::moving);
+              const RackLock turn(*world, RackLock::Access::run);
               sim::VirtualPort& port = *card_of_type(*world, card, "mcx314").port();
               return Called{world, std::make_unique<Library>(port, port)};
           }),

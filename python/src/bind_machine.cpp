@@ -50,11 +50,11 @@ void advance(SteppedMachine& self, std::int64_t time) {
 py::dict dict_of(const operate::AxisStatus& axis) {
     py::dict out;
     out["unit"] = axis.rotary ? "deg" : "mm";
-    out["trusted"] = axis.trusted;
+    out["trusted"] = axis.position_valid;
     out["enabled"] = axis.enabled;
     out["commanded"] = axis.commanded;
     out["actual"] = axis.actual;
-    out["place"] = axis.place;
+    out["place"] = axis.true_position;
     out["speed"] = axis.speed;
     out["pulses"] = axis.pulses;
     out["counts"] = axis.counts;
@@ -71,7 +71,7 @@ py::dict dict_of(const operate::Status& status) {
     out["seconds"] = to_seconds(status.at);
     out["ticks"] = status.at.count();
     out["state"] = std::string(operate::name_of(status.state));
-    out["why"] = status.why;
+    out["why"] = status.reason;
     out["axes"] = axes;
     out["program"] = status.program;
     out["line"] = status.line;
@@ -129,9 +129,8 @@ void bind_orders(Class& c) {
     c.def(
         "declare_position",
         [](SteppedMachine& self, const std::string& axis, double position) {
-            ordered(self, [&, which = only_letter(axis)](Machine& machine) {
-                return machine.declare_position(which, position);
-            });
+            ordered(self,
+                    [&, which = only_letter(axis)](Machine& machine) { return machine.set_position(which, position); });
         },
         py::arg("axis"), py::arg("position"));
     c.def(
@@ -173,7 +172,7 @@ void bind_rest(Class& c) {
         "set_wire",
         [](SteppedMachine& self, const std::string& name, std::optional<double> value) {
             ordered(self, [&](Machine& machine) {
-                return machine.wires().set(name, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+                return machine.wires().force(name, value.value_or(std::numeric_limits<double>::quiet_NaN()));
             });
         },
         py::arg("name"), py::arg("value"));
@@ -196,7 +195,7 @@ void bind_rest(Class& c) {
 void bind_machine(py::module_& m) {
     Class c(m, "SteppedMachine", "A machine; motionrack.Machine is what people use.");
     c.def(py::init([](RackHandle& world) {
-              const RackLock turn(world, RackLock::For::moving);
+              const RackLock turn(world, RackLock::Access::run);
               return value_of(SteppedMachine::make(world.config()));
           }),
           py::arg("world"));

@@ -214,7 +214,7 @@ void bind_mcx314(py::module_& m) {
                   "The MCX314's function library, under its source's names and in its register units. `axes` is a "
                   "mask: X 1, Y 2, Z 4, U 8 and their sums; `axis` is a channel: 0 X, 1 Y, 2 Z, 3 U.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
-              const RackLock turn(*world, RackLock::For::moving);
+              const RackLock turn(*world, RackLock::Access::run);
               sim::VirtualPort& port = *card_of_type(*world, card, "mcx314").port();
               return Mcx314{world, std::make_unique<Driver>(port, port)};
           }),

@@ -25,7 +25,7 @@ std::string doc_of(const rtc5::ListCommandInfo& command) {
         const rtc5::ParamInfo& param = command.params[static_cast<std::size_t>(i)];
         const rtc5::KindInfo kind = rtc5::kind_info(param.kind);
         parameters.push_back(fmt::format("{}: float", param.name));
-        ranges += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, kind.least, kind.greatest,
+        ranges += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, kind.min, kind.max,
                               kind.unit.empty() ? "" : " ", kind.unit);
     }
     return fmt::format("{}\n\nList command: {}.{}", signature(command.name, parameters, "None"), command.meaning,
@@ -270,7 +270,7 @@ void bind_rtc5(py::module_& m) {
                 "Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words "
                 "the RTC5 manual 1.10 d (German), page 198.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
-              const RackLock turn(*world, RackLock::For::moving);
+              const RackLock turn(*world, RackLock::Access::run);
               card_of_type(*world, card, "rtc5");
               return Rtc5{world, rack::rtc5_card_of(world->running(), card)};
           }),

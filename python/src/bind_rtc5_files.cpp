@@ -26,7 +26,7 @@ std::vector<rtc5::Card*> cards_of(RackHandle& world) {
 }
 
 std::uint32_t select_rtc(Rtc5& self, std::uint32_t number) {
-    const RackLock turn(*self.world, RackLock::For::moving);
+    const RackLock turn(*self.world, RackLock::Access::run);
     const std::vector<rtc5::Card*> cards = cards_of(*self.world);
     if (number < 1 || number > cards.size())
         refuse(fmt::format("select_rtc: there is no card {}; the rack has {} of type rtc5. Nothing was done.", number,
@@ -102,7 +102,7 @@ void bind_cards(Rtc5Class& c) {
     c.def(
         "rtc5_count_cards",
         [](Rtc5& self) {
-            const RackLock turn(*self.world, RackLock::For::moving);
+            const RackLock turn(*self.world, RackLock::Access::run);
             return cards_of(*self.world).size();
         },
         "Cards of type rtc5 in the rack. Source: the maker's header of the RTC5 of 2013.");

@@ -133,7 +133,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
     world
         .def("close",
              [](RackHandle& w) {
-                 const RackLock turn(w, RackLock::For::moving);
+                 const RackLock turn(w, RackLock::Access::run);
                  w.close();
              })
         .def("start", [](RackHandle& w) { run_exclusive(w, [&] { w.running(); }); })
@@ -174,14 +174,14 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
         .def(
             "plan_faults",
             [](RackHandle& w, const std::vector<std::string>& texts) {
-                const RackLock turn(w, RackLock::For::moving);
+                const RackLock turn(w, RackLock::Access::run);
                 value_of(w.plan_faults(texts));
             },
             py::arg("texts"))
         .def(
             "set_card",
             [](RackHandle& w, const std::string& card, const std::string& key, double value) {
-                const RackLock turn(w, RackLock::For::moving);
+                const RackLock turn(w, RackLock::Access::run);
                 value_of(w.set_card(card, key, value));
             },
             py::arg("card"), py::arg("key"), py::arg("value"))
@@ -193,7 +193,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
             py::arg("names"), py::arg("period"), py::arg("most"))
         .def("end_samples",
              [](RackHandle& w) {
-                 const RackLock turn(w, RackLock::For::moving);
+                 const RackLock turn(w, RackLock::Access::run);
                  return samples_of(value_of(w.end_samples()));
              })
         .def(
@@ -219,7 +219,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
             "copy_from",
             [](RackHandle& w, RackHandle& other) {
                 if (&w == &other) return;
-                const RackLock turn(other, RackLock::For::moving);
+                const RackLock turn(other, RackLock::Access::run);
                 run_exclusive(w, [&] { w.copy_from(other); });
             },
             py::arg("other"));

@@ -20,7 +20,7 @@ const CardMap& map_of(const std::string& type) {
     std::string known;
     for (const rack::CardKind& each : rack::card_kinds())
         if (each.view != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
-    raise({ErrorKind::bad_input,
+    raise({ErrorKind::invalid_input,
            kind == nullptr
                ? fmt::format("There is no type of card {}; a real card is one of: {}. Nothing was opened.", type, known)
                : fmt::format("A real {} cannot be opened: its registers are not known as its maker has them, or live "
@@ -70,7 +70,7 @@ void LiveCard::quick_stop() {
     if (closed()) return;
     stop();
     if (owner.load() == std::this_thread::get_id()) return;  // in a handler of a signal: the call ends with the stop
-    const RackLock turn(*this, RackLock::For::stopping);
+    const RackLock turn(*this, RackLock::Access::stop);
     if (closed()) return;
     stops_.stop();
     check_trouble();
@@ -82,7 +82,7 @@ void LiveCard::close() {
         refuse(fmt::format("The card at {} is in the middle of a call. Nothing was closed. Stop it by quick_stop().",
                            place_));
     stop();
-    const RackLock turn(*this, RackLock::For::stopping);
+    const RackLock turn(*this, RackLock::Access::stop);
     if (closed()) return;
     stops_.stop();
     const std::optional<Error> trouble = port_->trouble();
@@ -129,13 +129,13 @@ void LiveCard::check_offset(std::uint32_t offset, bool written) const {
         if (reg.offset == offset) return;
         known += fmt::format("{}{} {:02X}h", known.empty() ? "" : ", ", reg.name, reg.offset);
     }
-    raise(
-        {ErrorKind::bad_input, fmt::format("The {} has no register that is {} at {:02X}h; it has {}. Nothing was done.",
-                                           map_.name, written ? "written" : "read", offset, known)});
+    raise({ErrorKind::invalid_input,
+           fmt::format("The {} has no register that is {} at {:02X}h; it has {}. Nothing was done.", map_.name,
+                       written ? "written" : "read", offset, known)});
 }
 
 std::uint16_t LiveCard::read(std::uint32_t offset) {
-    const RackLock turn(*this, RackLock::For::moving);
+    const RackLock turn(*this, RackLock::Access::run);
     live::CardPort& port = open_port();
     check_offset(offset, false);
     const std::uint16_t word = port.read(offset);
@@ -154,7 +154,7 @@ void LiveCard::write(std::uint32_t offset, std::int64_t value) {
 }
 
 std::string LiveCard::view(bool clearing) {
-    const RackLock turn(*this, RackLock::For::moving);
+    const RackLock turn(*this, RackLock::Access::run);
     const rack::RegisterView seen = rack::find_card_kind(map_.name)->view(open_port(), clearing);
     check_trouble();
     return rack::view_text(seen, false);

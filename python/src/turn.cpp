@@ -19,19 +19,19 @@ std::vector<std::pair<const Host*, py::error_already_set>>& raised_meanwhile() {
 
 }  // namespace
 
-RackLock::RackLock(Host& host, For what) : host_(host) {
+RackLock::RackLock(Host& host, Access what) : host_(host) {
     const std::thread::id me = std::this_thread::get_id();
     std::thread::id now{};
     if (host_.owner.compare_exchange_strong(now, me)) {
         mine_ = true;
         return;
     }
-    if (what == For::stopping) {
+    if (what == Access::stop) {
         wait(me);
         return;
     }
     if (now != me) refuse("Another thread is using this rack or card. Nothing was done. One thread at a time.");
-    if (what == For::moving)
+    if (what == Access::run)
         refuse("The rack or card is in the middle of a run. Nothing was done. A progress call may look, not move.");
 }
 

@@ -20,8 +20,8 @@ namespace py = pybind11;
 class RackLock {
   public:
     /// stopping: waits for the call of another thread, which the stop ends; not from within a call of this thread.
-    enum class For : std::uint8_t { looking, moving, stopping };
-    RackLock(Host& host, For what);
+    enum class Access : std::uint8_t { read, run, stop };
+    RackLock(Host& host, Access what);
     ~RackLock();
     RackLock(const RackLock&) = delete;
     RackLock& operator=(const RackLock&) = delete;
@@ -41,7 +41,7 @@ auto run_exclusive(Host& host, Call call, Duration timeout = never);
 /// The same for what only looks: it keeps Python's lock and may be called from a progress call.
 template <class Call>
 auto inspect_rack(RackHandle& world, Call call) {
-    const RackLock turn(world, RackLock::For::looking);
+    const RackLock turn(world, RackLock::Access::read);
     world.rack();
     return call();
 }
@@ -79,7 +79,7 @@ struct is_result<Result<T>> : std::true_type {};
 template <class Call>
 auto run_exclusive(Host& host, Call call, Duration timeout) {
     using Value = decltype(call());
-    const RackLock turn(host, RackLock::For::moving);
+    const RackLock turn(host, RackLock::Access::run);
     host.check_call();
     const Instant began = host.now();
     if constexpr (std::is_void_v<Value>) {
@@ -96,7 +96,7 @@ auto run_exclusive(Host& host, Call call, Duration timeout) {
         end_call(host);
         if constexpr (detail::is_result<Value>::value) {
             if (!result) {
-                const bool machine = result.error().trouble == ErrorKind::machine;
+                const bool machine = result.error().kind == ErrorKind::machine;
                 raise(std::move(result).error(), machine && timeout != never && host.now() - began >= timeout);
             }
             if constexpr (!std::is_void_v<typename Value::value_type>) return *std::move(result);

@@ -126,7 +126,7 @@ Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration 
     if (wire == sim::WireId::none) {
         MOTIONRACK_CHECK(desk_->get(name));
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format(
                 "{} has no edges of its own to wait for; nothing was run. Wait for the pin of a card that it leads to.",
                 name));
@@ -146,7 +146,7 @@ Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration 
 
 Result<void> RackHandle::set_wire(const std::string& name, double value) {
     running();
-    return desk_->set(name, value);
+    return desk_->force(name, value);
 }
 
 rack::HomingOutcome RackHandle::home(rack::HomingSettings settings) {

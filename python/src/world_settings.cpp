@@ -60,7 +60,7 @@ Result<void> RackHandle::set_card(const std::string& name, const std::string& ke
     const auto card = std::find_if(config_.cards.begin(), config_.cards.end(),
                                    [&](const rack::RackCard& each) { return each.name == name; });
     if (card == config_.cards.end())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("There is no card {} in this rack. Nothing was changed.", rack::in_quotes(name)));
     const rack::CardType& type = *rack::find_card_type(card->type);
     rack::RackCard changed = *card;
@@ -81,8 +81,8 @@ Result<void> RackHandle::set_card(const std::string& name, const std::string& ke
         build();
         return {};
     }
-    return fail(ErrorKind::bad_input, fmt::format("Card {} has no number {}; it has: {}. Nothing was changed.", name,
-                                                  rack::in_quotes(key), known.empty() ? "none" : known));
+    return fail(ErrorKind::invalid_input, fmt::format("Card {} has no number {}; it has: {}. Nothing was changed.",
+                                                      name, rack::in_quotes(key), known.empty() ? "none" : known));
 }
 
 }  // namespace motionrack::python

@@ -100,16 +100,16 @@ Result<Fault> fault_of(const TomlNode& node, const Setup& of_group) {
     out.setup = of_group;
     for (const TomlNode& entry : node.children)
         if (!take(out, entry) && !take(out.setup, entry))
-            return fail(ErrorKind::bad_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
+            return fail(ErrorKind::invalid_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
                         entry.key_place);
     for (const std::string* needed : {&out.name, &out.does, &out.stops, &out.keeps})
         if (needed->empty())
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("The fault {} needs name, does, stops and keeps.", rack::in_quotes(out.name)),
                         node.key_place);
     const auto& points = out.setup.points;
     if (points.size() != 2 || points[0].name == points[1].name || points[0].name.empty() || points[1].name.empty())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The fault {} has {} operating points; it needs two, with names.",
                                 rack::in_quotes(out.name), points.size()),
                     node.key_place);
@@ -153,7 +153,7 @@ Result<std::vector<Group>> read_catalogue(const std::filesystem::path& file) {
     MOTIONRACK_TRY(const TomlNode all, rack::parse_toml(text, file.string()));
     std::vector<Group> out;
     const TomlNode* groups = all.find("group");
-    if (groups == nullptr) return fail(ErrorKind::bad_input, fmt::format("{} has no [[group]].", file.string()));
+    if (groups == nullptr) return fail(ErrorKind::invalid_input, fmt::format("{} has no [[group]].", file.string()));
     for (const TomlNode& node : groups->children) {
         Group group;
         for (const TomlNode& entry : node.children) {
@@ -162,7 +162,7 @@ Result<std::vector<Group>> read_catalogue(const std::filesystem::path& file) {
             else if (entry.key == "about")
                 group.about = entry.text;
             else if (entry.key != "fault" && !take(group.setup, entry))
-                return fail(ErrorKind::bad_input, fmt::format("A group has no key {}.", rack::in_quotes(entry.key)),
+                return fail(ErrorKind::invalid_input, fmt::format("A group has no key {}.", rack::in_quotes(entry.key)),
                             entry.key_place, file.string());
         }
         if (const TomlNode* faults = node.find("fault"))

@@ -29,13 +29,13 @@ Result<CoveredFault> covered_fault(const rack::TomlNode& node) {
         else if (entry.key == "missing")
             out.missing = entry.text;
         else
-            return fail(ErrorKind::bad_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
+            return fail(ErrorKind::invalid_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
                         entry.key_place);
     }
     if (out.id.empty() || out.about.empty())
-        return fail(ErrorKind::bad_input, "A fault needs id and about.", node.key_place);
+        return fail(ErrorKind::invalid_input, "A fault needs id and about.", node.key_place);
     if (out.rows.empty() && out.tests.empty() && out.reason.empty() && out.missing.empty())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("{} has neither rows nor tests, nor a reason, nor what is missing.", out.id),
                     node.key_place);
     return out;
@@ -80,7 +80,8 @@ Result<std::vector<CoverageSection>> read_coverage(const std::filesystem::path& 
     if (text.empty()) return fail(ErrorKind::io, fmt::format("{} cannot be read.", file.string()));
     MOTIONRACK_TRY(const rack::TomlNode all, rack::parse_toml(text, file.string()));
     const rack::TomlNode* sections = all.find("section");
-    if (sections == nullptr) return fail(ErrorKind::bad_input, fmt::format("{} has no [[section]].", file.string()));
+    if (sections == nullptr)
+        return fail(ErrorKind::invalid_input, fmt::format("{} has no [[section]].", file.string()));
     std::vector<CoverageSection> out;
     for (const rack::TomlNode& node : sections->children) {
         CoverageSection& section = out.emplace_back();

@@ -45,7 +45,7 @@ struct Breaking {
             const std::size_t dot = name.find('.');
             const Result<void> done =
                 machine.wires().knows(name)
-                    ? machine.wires().set(name, std::stod(action.substr(action.find('=') + 1)))
+                    ? machine.wires().force(name, std::stod(action.substr(action.find('=') + 1)))
                     : rack::inject_fault(machine.rack(), action.substr(dot + 1), action.substr(0, dot));
             EXPECT_TRUE(done) << done.error().message;
             return true;
@@ -94,8 +94,8 @@ class Served {
         }
         if (now >= milliseconds(100) && !std::exchange(declared_, true))
             for (const rack::RackAxis& axis : machine->rack().config().axes)
-                if (!machine->trusted(axis)) {
-                    EXPECT_TRUE(machine->declare_position(axis.letter, axis.start_position));
+                if (!machine->position_valid(axis)) {
+                    EXPECT_TRUE(machine->set_position(axis.letter, axis.start_position));
                 }
         if (now < milliseconds(200)) return;
         if (begun_ == never) {
@@ -133,7 +133,7 @@ TEST_P(AServedFault, EndsAsItDoesInARun) {
     const operate::Status& status = served.machine->status();
     std::vector<std::string> alarms;
     for (const operate::Alarm& alarm : status.alarms) alarms.push_back(alarm.text);
-    EXPECT_EQ(name_of(served.state), fault.state_when_served()) << status.why;
+    EXPECT_EQ(name_of(served.state), fault.state_when_served()) << status.reason;
     const bool lost = lost_steps(served.machine->rack());
     std::vector<testing::Matcher<std::string>> expected;
     for (const std::string& words : fault.alarms_when_served()) expected.push_back(HasSubstr(GetParam().text(words)));
@@ -148,7 +148,7 @@ TEST_P(AServedFault, EndsAsItDoesInARun) {
     }
     if (!fault.trusted || fault.setup.by == "frames") return;
     const bool trusted =
-        std::all_of(status.axes.begin(), status.axes.end(), [](const auto& axis) { return axis.trusted; });
+        std::all_of(status.axes.begin(), status.axes.end(), [](const auto& axis) { return axis.position_valid; });
     EXPECT_EQ(trusted, *fault.trusted && !lost);
     if (!trusted) {
         EXPECT_THAT(alarms, Contains(HasSubstr("trusted")));

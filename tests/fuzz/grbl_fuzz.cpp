@@ -32,7 +32,7 @@ class Played {
             if (session_) session_->tick();
         };
         machine_ = *operate::Machine::make(machine(homes), std::move(settings));
-        session_ = std::make_unique<grbl::Session>(*machine_, grbl::SessionSettings{});
+        session_ = std::make_unique<grbl::GrblSession>(*machine_, grbl::SessionSettings{});
     }
     void run() {
         machine_->run();
@@ -76,7 +76,7 @@ class Played {
 
     std::string_view bytes_;
     std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<grbl::Session> session_;
+    std::unique_ptr<grbl::GrblSession> session_;
     std::string said_;
     Instant next_{};
     int ending_ = 0;

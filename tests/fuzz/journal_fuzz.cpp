@@ -121,9 +121,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         go_on(std::move(*journal));
         return 0;
     }
-    require(
-        journal.error().message.find(file().path()) != std::string::npos && journal.error().trouble == ErrorKind::io,
-        "a refusal names the file", journal.error().text());
+    require(journal.error().message.find(file().path()) != std::string::npos && journal.error().kind == ErrorKind::io,
+            "a refusal names the file", journal.error().text());
     require(file().bytes() == bytes, "a journal that is refused is left as it is", journal.error().text());
     return 0;
 }

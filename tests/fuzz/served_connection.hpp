@@ -45,7 +45,7 @@ class ServedConnection {
         token_ = door_->pair(door_->start_code(), "anna", "127.0.0.1", now())->token;
         users_ = door_->users().size();
         panel::PanelSettings panel;
-        panel.elsewhere = server::door_orders(*door_);
+        panel.external = server::door_orders(*door_);
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(panel));
         post_ = std::make_shared<server::Post>(
             [this](std::function<void()> work) { boost::asio::post(*io_, std::move(work)); });
@@ -111,7 +111,7 @@ class ServedConnection {
         out.clock = [this] { return now(); };
         return out;
     }
-    authority::Now now() const {
+    authority::Timestamps now() const {
         return {authority::WallTime(passed_), std::chrono::steady_clock::time_point(passed_)};
     }
     void connect() {

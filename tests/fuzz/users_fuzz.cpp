@@ -44,11 +44,11 @@ WallTime at(std::int64_t seconds) {
 
 void check_user(const Authenticator& door, const Identity& user) {
     require(name_problem(user.user).empty(), "a user has a name", user.user);
-    require(user.role != Role::nobody, "a user has a role", user.user);
+    require(user.role != Role::none, "a user has a role", user.user);
     require(user.id.size() == 16 && user.id.find_first_not_of("0123456789abcdef") == std::string::npos,
             "a token has an id", user.id);
     require(user.expires >= at(0) && user.expires <= at(9'000'000'000), "a token expires at a time that there is");
-    require(door.role_of(user.id, user.expires) == Role::nobody, "a token that has expired gives no role", user.user);
+    require(door.role_of(user.id, user.expires) == Role::none, "a token that has expired gives no role", user.user);
 }
 
 /// Nobody knows a token that gives one of the other hashes, nor one whose hash is another's text.
@@ -77,7 +77,7 @@ void check_again(const std::vector<Identity>& users) {
 
 /// Changes the file: a user goes, another one comes.
 void change(Authenticator& door) {
-    const Now now{at(1'000'000), std::chrono::steady_clock::time_point{}};
+    const Timestamps now{at(1'000'000), std::chrono::steady_clock::time_point{}};
     const std::vector<Identity> before = door.users();
     if (!before.empty()) {
         require(door.forget(before.front().id).has_value(), "a token that is there can be forgotten");

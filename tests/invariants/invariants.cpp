@@ -76,7 +76,7 @@ void Invariants::see(const Sight& now) {
     if (std::exchange(first_, false)) {
         base_at_ = now.at;
         for (std::size_t i = 0; i < own_.size(); ++i)
-            own_[i].base = now.axes[i].sent, own_[i].offset = now.axes[i].place - now.axes[i].commanded;
+            own_[i].base = now.axes[i].sent, own_[i].offset = now.axes[i].true_position - now.axes[i].commanded;
         last_ = now;
         last_.alarms = nullptr;
         return see_alarms(now);
@@ -142,7 +142,7 @@ void Invariants::see_counters(const Sight& now) {
     const bool by_order = searches_ || searched_ || (operate::idle(now.state) && (!knows_orders_ || may_declare_)) ||
                           (operate::idle(last_.state) && (!knows_orders_ || may_declare_));
     for (std::size_t i = 0; i < facts_.size() && !by_order; ++i) {
-        if (facts_[i].servo || !now.axes[i].trusted) continue;
+        if (facts_[i].servo || !now.axes[i].position_valid) continue;
         const auto sent = now.axes[i].sent - last_.axes[i].sent, counted = now.axes[i].counter - last_.axes[i].counter;
         if (static_cast<std::int32_t>(sent - counted) == 0) continue;  // counters have 32 bits
         found(Rule::counters_are_pulses, now.at,
@@ -157,25 +157,25 @@ void Invariants::see_positions(const Sight& now) {
     for (std::size_t i = 0; i < facts_.size(); ++i) {
         Own& own = own_[i];
         const AxisSight &axis = now.axes[i], &before = last_.axes[i];
-        const double off = axis.place - axis.commanded;
+        const double off = axis.true_position - axis.commanded;
         // Declared: so it is what the person says, also where a motion begins with the next order. Homed: it is the
         // place of the machine from the edge of the switch on, also where others still search, or a stop comes.
         const auto by_pulses = static_cast<std::int32_t>(axis.sent - before.sent);  // counters have 32 bits
         const bool counts_anew = static_cast<std::int32_t>(axis.counter - before.counter) != by_pulses;
-        const bool becomes_trusted = axis.trusted && !before.trusted;
+        const bool becomes_trusted = axis.position_valid && !before.position_valid;
         const bool homed = (searches_ || searched_) && (counts_anew || becomes_trusted);
         const bool declared = becomes_trusted && !homed;
         const bool stood = operate::idle(now.state) || operate::idle(last_.state);
         const bool again = stood && (knows_orders_ ? may_declare_ : !moved(i, now)) && counts_anew;
-        if (homed || declared || again || !axis.trusted) own.offset = off;
+        if (homed || declared || again || !axis.position_valid) own.offset = off;
         if (becomes_trusted) alarm_texts_.clear();  // what took its trust may do so again
         if (homed && becomes_trusted && std::fabs(off) > home_tolerance)
             found(Rule::position_is_true, now.at,
                   fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
-                              axis.place));
+                              axis.true_position));
         const double tolerance = (facts_[i].servo ? 3 : 1.5) / facts_[i].pulses_per_unit;
         const double error = std::fabs(off - own.offset);
-        const bool wrong = axis.trusted && error > tolerance && now.state != MachineState::homing;
+        const bool wrong = axis.position_valid && error > tolerance && now.state != MachineState::homing;
         if (!wrong) {
             own.off = false;
             continue;
@@ -198,7 +198,7 @@ void Invariants::see_travel(const Sight& now) {
     if (searches_) return;
     for (std::size_t i = 0; i < facts_.size(); ++i) {
         const AxisSight &axis = now.axes[i], &before = last_.axes[i];
-        if (!axis.trusted || !before.trusted || facts_[i].servo || !moved(i, now)) continue;
+        if (!axis.position_valid || !before.position_valid || facts_[i].servo || !moved(i, now)) continue;
         const double slack = 1 / facts_[i].pulses_per_unit + control::gcode::limit_slack;
         const double out = std::max(axis.commanded - facts_[i].max_position, facts_[i].min_position - axis.commanded);
         const double was =
@@ -351,7 +351,7 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
 /// A card may have to end its pulses without a ramp in a stop; then the axis is not trusted once the machine stands.
 void Invariants::see_jumps(const Sight& now) {
     for (std::size_t i = 0; i < facts_.size(); ++i) {
-        if (!now.axes[i].trusted) own_[i].jumped.clear();
+        if (!now.axes[i].position_valid) own_[i].jumped.clear();
         if (own_[i].jumped.empty() || (now.latched && now.state != MachineState::error_stop)) continue;
         found(Rule::limits_kept, now.at, std::exchange(own_[i].jumped, {}) + ", and it is trusted");
     }

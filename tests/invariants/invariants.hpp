@@ -41,11 +41,11 @@ std::string_view name_of(Rule rule);
 
 /// One axis at one instant.
 struct AxisSight {
-    bool enabled = true, trusted = false;
-    std::int64_t sent = 0;            ///< pulses on the wires since the start; of a servo what its motor has turned
-    std::int64_t counter = 0;         ///< of the card
-    bool driven = false;              ///< its card makes pulses, however slowly; of a servo: false
-    double commanded = 0, place = 0;  ///< by the counter; of the table
+    bool enabled = true, position_valid = false;
+    std::int64_t sent = 0;     ///< pulses on the wires since the start; of a servo what its motor has turned
+    std::int64_t counter = 0;  ///< of the card
+    bool driven = false;       ///< its card makes pulses, however slowly; of a servo: false
+    double commanded = 0, true_position = 0;  ///< by the counter; of the table
 };
 
 struct Sight {

@@ -16,7 +16,7 @@ class History {
     History() : invariants_({{'X', false, 100, 100, 1000, 2, 0, 300, 1}}, {}, {}) {
         invariants_.ordered(Invariants::Order::enable);
         now_.axes.resize(1);
-        now_.axes[0].trusted = true;
+        now_.axes[0].position_valid = true;
         now_.alarms = &alarms;
         place_ = 100;
         pass(0.02);
@@ -69,7 +69,7 @@ class History {
         axis.sent = std::llround(place_ * 100);
         axis.counter = axis.sent + counter_off;
         axis.commanded = static_cast<double>(axis.counter) / 100;
-        axis.place = static_cast<double>(axis.sent) / 100 + place_off;
+        axis.true_position = static_cast<double>(axis.sent) / 100 + place_off;
         invariants_.see(now_);
     }
     Invariants invariants_;
@@ -279,7 +279,7 @@ TEST(AGoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
     h.begin();
     h.latch(true, true);
     h.jump(0);
-    h.now().axes[0].trusted = false;
+    h.now().axes[0].position_valid = false;
     h.to(MachineState::error_stop);
     h.pass(0.3);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
@@ -292,7 +292,7 @@ TEST(AGoodHistory, MayEndPulsesAtOnceIfThatTakesTheTrust) {
     h.jump(0);
     h.to(MachineState::stopping);
     h.pass(0.02);
-    h.now().axes[0].trusted = false;
+    h.now().axes[0].position_valid = false;
     h.to(MachineState::error_stop);
     h.pass(0.3);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
@@ -333,7 +333,7 @@ TEST(AGoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
         h.order(Invariants::Order::reset);
         h.pass(within);
         h.jump(0);
-        h.now().axes[0].trusted = false;
+        h.now().axes[0].position_valid = false;
         h.latch(false);
         h.to(MachineState::standstill);
         h.pass(0.3);

@@ -15,8 +15,8 @@ std::vector<AxisFacts> facts_of(rack::Rack& rack) {
     std::vector<AxisFacts> out;
     for (const rack::RunningAxis& axis : rack.axes()) {
         const rack::RackAxis& config = axis.config;
-        out.push_back({config.letter, axis.servo != nullptr, config.pulses_per_unit(), config.max_speed,
-                       config.max_accel, config.start_speed, config.min_position, config.max_position,
+        out.push_back({config.letter, axis.servo != nullptr, config.pulses_per_unit(), config.max_velocity,
+                       config.max_accel, config.max_velocity_step, config.min_position, config.max_position,
                        config.following_alarm()});
     }
     return out;
@@ -62,7 +62,7 @@ Sight RackWatch::sight() {
         one.driven = axis.servo == nullptr && axis.turned_by().rate(now) != 0;
         one.counter = axis.card->pulse_counter(axis.channel);
         one.commanded = static_cast<double>(one.counter) / axis.config.pulses_per_unit();
-        one.place = axis.machine->position(now);
+        one.true_position = axis.machine->position(now);
     }
     return out;
 }
@@ -87,9 +87,9 @@ void MachineWatch::see(const operate::Status& status) {
     now.alarms = &status.alarms;
     for (std::size_t i = 0; i < now.axes.size(); ++i) {
         now.axes[i].enabled = status.axes[i].enabled;
-        now.axes[i].trusted = status.axes[i].trusted;
+        now.axes[i].position_valid = status.axes[i].position_valid;
         now.axes[i].commanded = status.axes[i].commanded;
-        now.axes[i].place = status.axes[i].place;
+        now.axes[i].true_position = status.axes[i].true_position;
         now.axes[i].counter = status.axes[i].pulses;
     }
     invariants_.see(now);

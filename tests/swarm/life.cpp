@@ -145,7 +145,7 @@ class Lives {
         laws.ordered(Order::enable);
         if (draws_.one_in(4)) return;
         for (const InitialAxisState& axis : truth_.empty() ? places() : truth_) {
-            static_cast<void>(machine_->declare_position(axis.letter, axis.place));
+            static_cast<void>(machine_->set_position(axis.letter, axis.true_position));
             laws.ordered(Order::position);
         }
     }
@@ -153,7 +153,7 @@ class Lives {
     std::vector<InitialAxisState> places() const {
         std::vector<InitialAxisState> out;
         for (const operate::AxisStatus& axis : machine_->status().axes)
-            out.push_back({axis.letter, axis.place, axis.place, false});
+            out.push_back({axis.letter, axis.true_position, axis.true_position, false});
         return out;
     }
 
@@ -176,18 +176,18 @@ class Lives {
         for (const InitialAxisState& kept : operate::read_last(*journal_->before(), config_).axes) {
             const auto real = std::find_if(out.begin(), out.end(),
                                            [&](const InitialAxisState& one) { return one.letter == kept.letter; });
-            if (real == out.end() || !kept.trusted) continue;
+            if (real == out.end() || !kept.position_valid) continue;
             if (cut_off_)
                 found({Rule::position_is_true,
                        {},
                        fmt::format("axis {} is trusted after a run that did not end by itself", kept.letter)});
-            if (std::fabs(kept.place - real->place) > tolerance() && !lost_at_end_)
+            if (std::fabs(kept.true_position - real->true_position) > tolerance() && !lost_at_end_)
                 found({Rule::position_is_true,
                        {},
-                       fmt::format("the record has axis {} at {:.4f}, it stands at {:.4f}", kept.letter, kept.place,
-                                   real->place)});
+                       fmt::format("the record has axis {} at {:.4f}, it stands at {:.4f}", kept.letter,
+                                   kept.true_position, real->true_position)});
             real->commanded = kept.commanded;
-            real->trusted = true;
+            real->position_valid = true;
         }
         return out;
     }
@@ -259,8 +259,8 @@ class Lives {
         if (std::getenv("SWARM_SAY"))
             fmt::print(stderr, "   {:.4f} {} {} [{}] x {:.4f} place {:.4f} trusted {}\n", to_seconds(machine_->now()),
                        drawn.name, taken ? "ok" : taken.error().message, operate::name_of(machine_->status().state),
-                       machine_->status().axes[0].commanded, machine_->status().axes[0].place,
-                       machine_->status().axes[0].trusted);
+                       machine_->status().axes[0].commanded, machine_->status().axes[0].true_position,
+                       machine_->status().axes[0].position_valid);
         if (!taken) return;
         ++out_.taken;
         if (drawn.changes) watch_->invariants().ordered(*drawn.changes);
@@ -315,7 +315,7 @@ class Lives {
                 return;
             case 3:
                 for (const operate::AxisStatus& axis : machine_->status().axes) {
-                    (void)machine_->declare_position(axis.letter, axis.place);
+                    (void)machine_->set_position(axis.letter, axis.true_position);
                     laws.ordered(Order::position);
                 }
                 return;
@@ -328,11 +328,11 @@ class Lives {
             }
             default: {
                 const Status& status = machine_->status();
-                const double place = status.axes.front().place;
+                const double place = status.axes.front().true_position;
                 if (status.state != MachineState::standstill || std::fabs(place - 15) > tolerance())
                     found({Rule::usable_again, now,
                            fmt::format("it was sent to X 15 and is at {:.4f} in the state '{}': {}", place,
-                                       operate::name_of(status.state), status.why)});
+                                       operate::name_of(status.state), status.reason)});
                 return finish();
             }
         }
@@ -347,11 +347,11 @@ class Lives {
         const operate::AxisStatus& first = machine_->status().axes.front();
         out_.story.push_back(fmt::format("{:9.4f} s, {}, {} {:.4f}{}: {}", to_seconds(machine_->now()),
                                          operate::name_of(machine_->status().state), first.letter, first.commanded,
-                                         first.trusted ? "" : "?", event));
+                                         first.position_valid ? "" : "?", event));
         if (out_.story.size() > events_kept) out_.story.pop_front();
     }
     void found(const Finding& finding) {
-        if (!out_.finding && machine_) tell("found; " + machine_->status().why);
+        if (!out_.finding && machine_) tell("found; " + machine_->status().reason);
         if (!out_.finding) out_.finding = finding;
     }
     void hash(std::uint64_t value) {

@@ -112,8 +112,7 @@ Result<void> home(Machine& machine, Draws& draws) {
 Result<void> declare(Machine& machine, Draws& draws) {
     const char letter = some_axis(machine, draws).letter;
     for (const rack::RunningAxis& axis : machine.rack().axes())
-        if (axis.config.letter == letter)
-            return machine.declare_position(letter, axis.machine->position(machine.now()));
+        if (axis.config.letter == letter) return machine.set_position(letter, axis.machine->position(machine.now()));
     return {};
 }
 Result<void> set_overrides(Machine& machine, Draws& draws) {
@@ -151,9 +150,9 @@ Result<void> service(Machine& machine, Draws& draws) {
 std::int64_t some_value(const ArgumentInfo& argument, Draws& draws) {
     if (!argument.values.empty())
         return argument.values[static_cast<std::size_t>(draws.pick(static_cast<int>(argument.values.size())))].value;
-    if (draws.one_in(30)) return argument.greatest + 1;
+    if (draws.one_in(30)) return argument.max + 1;
     if (!draws.one_in(4)) return argument.start;
-    return std::llround(draws.number(static_cast<double>(argument.least), static_cast<double>(argument.greatest)));
+    return std::llround(draws.number(static_cast<double>(argument.min), static_cast<double>(argument.max)));
 }
 
 /// Functions that set what drives need, drive, wait for drives and stop them.
@@ -225,7 +224,7 @@ DrawnFault draw_fault(Machine& machine, Draws& draws) {
         const bool emergency = draws.one_in(2);
         const std::string wire = emergency ? "estop" : wire_of(letter, ends[static_cast<std::size_t>(draws.pick(3))]);
         const double value = draws.one_in(3) ? released : draws.pick(2);
-        if (!machine.wires().knows(wire) || !machine.wires().set(wire, value)) return {};
+        if (!machine.wires().knows(wire) || !machine.wires().force(wire, value)) return {};
         return {fmt::format("{}={}", wire, value)};
     }
     const auto targets = rack::fault_targets(machine.rack());
@@ -247,7 +246,7 @@ void mend_all(Machine& machine) {
         for (const std::string_view fault : target.faults)
             (void)rack::inject_fault(machine.rack(), fmt::format("{}=0", fault), target.name);
     for (const rack::WireAccess::Named& wire : machine.wires().names())
-        if (wire.drivable) (void)machine.wires().set(wire.name, released);
+        if (wire.drivable) (void)machine.wires().force(wire.name, released);
 }
 
 }  // namespace motionrack::swarm

@@ -51,7 +51,7 @@ class ADoorkeeper : public testing::Test {
     }
 
     fs::path folder;
-    Now now{WallTime(std::chrono::hours(500'000)), {}};
+    Timestamps now{WallTime(std::chrono::hours(500'000)), {}};
     std::vector<std::string> start_codes;
     std::unique_ptr<Authenticator> door;
 };
@@ -90,7 +90,7 @@ TEST_F(ADoorkeeper, GivesRolesByInvitationOnceAndForTenMinutes) {
     pass(10min);
     EXPECT_THAT(pair(late, "carl").error().sentence, HasSubstr("its time is over"));
     EXPECT_TRUE(pair(start_codes.back(), "carl")) << "the start code waits";
-    EXPECT_FALSE(door->invite(Role::nobody, now));
+    EXPECT_FALSE(door->invite(Role::none, now));
 }
 
 TEST_F(ADoorkeeper, PairsATakenNameWithTheStartCodeOnly) {
@@ -103,14 +103,14 @@ TEST_F(ADoorkeeper, PairsATakenNameWithTheStartCodeOnly) {
 }
 
 TEST_F(ADoorkeeper, SlowsWrongCodesDownPerAddressAndForAll) {
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, AuthError::Why::wrong);
-    EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().why, AuthError::Why::too_many)
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().reason, AuthError::Why::wrong);
+    EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().reason, AuthError::Why::too_many)
         << "even a right one is not looked at";
     for (int i = 0; i < 55; ++i)
-        EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.1." + std::to_string(i)).error().why, AuthError::Why::wrong);
-    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.2.1").error().why, AuthError::Why::too_many);
+        EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.1." + std::to_string(i)).error().reason, AuthError::Why::wrong);
+    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.2.1").error().reason, AuthError::Why::too_many);
     pass(2s);
-    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().why, AuthError::Why::too_many);
+    EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().reason, AuthError::Why::too_many);
     EXPECT_TRUE(pair(start_codes[0], "anna", "10.0.2.1"));
 }
 
@@ -124,11 +124,11 @@ TEST_F(ADoorkeeper, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
     EXPECT_TRUE(door->authenticate(anna.token, now.wall));
     pass(1s);
     EXPECT_THAT(door->authenticate(anna.token, now.wall).error().sentence, HasSubstr("expired"));
-    EXPECT_EQ(door->role_of(anna.identity.id, now.wall), Role::nobody);
+    EXPECT_EQ(door->role_of(anna.identity.id, now.wall), Role::none);
     const auto bert = *pair(start_codes[1], "bert");
     EXPECT_TRUE(door->revoke("bert"));
     EXPECT_THAT(door->authenticate(bert.token, now.wall).error().sentence, HasSubstr("revoked"));
-    EXPECT_EQ(door->role_of(bert.identity.id, now.wall), Role::nobody);
+    EXPECT_EQ(door->role_of(bert.identity.id, now.wall), Role::none);
     EXPECT_FALSE(door->revoke("bert"));
 }
 
@@ -205,7 +205,7 @@ TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
     settings.users_file = file() / "users.json";  // in a file, as if it were a folder
     const auto opened = Authenticator::open(settings);
     ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().trouble, ErrorKind::io);
+    EXPECT_EQ(opened.error().kind, ErrorKind::io);
     EXPECT_THAT(opened.error().message, HasSubstr("Not a directory"));
     EXPECT_EQ(opened.error().file, settings.users_file.string());
 }
@@ -214,7 +214,7 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
     fs::remove_all(folder);
     const auto anna = pair(start_codes[0], "anna");
     ASSERT_FALSE(anna);
-    EXPECT_EQ(anna.error().why, AuthError::Why::failed);
+    EXPECT_EQ(anna.error().reason, AuthError::Why::failed);
     EXPECT_TRUE(door->users().empty());
     fs::create_directories(folder);
     EXPECT_TRUE(pair(start_codes[0], "anna")) << "the code was not used up";
@@ -223,8 +223,8 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
 TEST_F(ADoorkeeper, UnpairsNobodyWhenTheFileCannotBeWritten) {
     const auto anna = *pair(start_codes[0], "anna");
     fs::remove_all(folder);
-    EXPECT_EQ(door->revoke("anna").error().trouble, ErrorKind::io);
-    EXPECT_EQ(door->forget(anna.identity.id).error().trouble, ErrorKind::io);
+    EXPECT_EQ(door->revoke("anna").error().kind, ErrorKind::io);
+    EXPECT_EQ(door->forget(anna.identity.id).error().kind, ErrorKind::io);
     EXPECT_TRUE(door->authenticate(anna.token, now.wall)) << "as the file has it";
 }
 

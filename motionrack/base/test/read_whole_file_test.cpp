@@ -38,7 +38,7 @@ TEST_F(AFileThatIsRead, ComesWholeUpToItsLimit) {
 TEST_F(AFileThatIsRead, WithoutAnEndIsRefused) {
     const Result<std::string> zero = read_whole_file("/dev/zero", short_one);
     ASSERT_FALSE(zero);
-    EXPECT_EQ(zero.error().trouble, ErrorKind::bad_input);
+    EXPECT_EQ(zero.error().kind, ErrorKind::invalid_input);
     EXPECT_THAT(zero.error().message, HasSubstr("/dev/zero has more than 1 MiB"));
     EXPECT_EQ(*read_whole_file("/dev/null", short_one), "");
 }

@@ -46,8 +46,8 @@ class SlopeTable {
     /// A rate and the distances between which it holds: least <= distance <= greatest.
     struct Step {
         int rate = 0;
-        std::int64_t least = 0;
-        std::int64_t greatest = 0;
+        std::int64_t min = 0;
+        std::int64_t max = 0;
     };
     static constexpr std::int64_t no_end = std::int64_t{1} << 40;
 

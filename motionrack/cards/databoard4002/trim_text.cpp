@@ -35,7 +35,7 @@ Result<Trim> trim_from_text(std::string_view text) {
         std::vector<std::string_view> words = split(row, " \t\n");
         std::erase(words, std::string_view());
         const auto refuse = [&](const std::string& why) {
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("Row {} of the trim table, \"{}\", {}. A row is a voltage in V "
                                     "and a rate, as in \"0.01 13799, 0.025 14051\".",
                                     out.size + 1, row, why));

@@ -93,19 +93,19 @@ Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
     const int done = uncompress2(out.data(), &size, file.empty() ? &nothing : file.data(), &used);
     if (size > most_image || (done == Z_BUF_ERROR && size == out.size()))
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("The configuration image unpacks to more than {} bytes, the most that the array takes. It "
                         "was not used; is it an image of this card?",
                         most_image));
     if (done != Z_OK)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("The configuration image of {} bytes cannot be unpacked: it is cut short, damaged, or no "
                         "zlib stream. It was not used; make or copy it anew.",
                         file.size()));
     if (used != file.size())
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("The configuration image has {} bytes, but its zlib stream ends after {}. It was not used; "
                         "make or copy it anew.",
                         file.size(), used));
@@ -115,7 +115,7 @@ Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
 
 Result<ImageInfo> inspect(std::span<const std::uint8_t> raw) {
     const auto refused = [](const std::string& why) {
-        return fail(ErrorKind::bad_input, why + ". The card would refuse the image; make it anew.");
+        return fail(ErrorKind::invalid_input, why + ". The card would refuse the image; make it anew.");
     };
     ImageHeader header;
     if (raw.size() < image_magic.size() || !std::equal(image_magic.begin(), image_magic.end(), raw.begin()))
@@ -141,12 +141,12 @@ Result<ImageInfo> inspect(std::span<const std::uint8_t> raw) {
 
 Result<void> check_project(const ImageInfo& info) {
     if (!info.position())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The image is of the project \"{}\" (ident {:02X}h), but the unit works with \"{}\". "
                                 "Init would give Flex_ErrProject.",
                                 info.project, info.ident, position_project));
     if (info.ident != position_ident)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("The image has version {:02X}h of the project, but the unit needs {:02X}h. Init would "
                                 "give Flex_ErrProject.",
                                 info.ident, position_ident));
@@ -165,7 +165,7 @@ Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text) {
         const std::string_view two = text.substr(i, 2);
         const auto [end, error] = std::from_chars(two.data(), two.data() + two.size(), byte, 16);
         if (error != std::errc{} || end != two.data() + 2)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("Digits {} and {} of the image are no hexadecimal number of two digits. The image "
                                     "was not used; copy it anew.",
                                     i + 1, i + 2));

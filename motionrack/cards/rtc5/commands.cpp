@@ -17,12 +17,12 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
     };
     if (!std::isfinite(value)) return refuse(fmt::format("is {}, which is no number", value));
     const std::string_view blank = kind.unit.empty() ? "" : " ";
-    if ((value < kind.least || value > kind.greatest) && !kind.clipped)
-        return refuse(fmt::format("is {}, outside {} to {}{}{}", value, kind.least, kind.greatest, blank, kind.unit));
+    if ((value < kind.min || value > kind.max) && !kind.clipped)
+        return refuse(fmt::format("is {}, outside {} to {}{}{}", value, kind.min, kind.max, blank, kind.unit));
     if (param.kind == Kind::signal && signal_info(static_cast<std::int64_t>(value)) == nullptr)
         return refuse(fmt::format("is {}, and the card has no signal of that number", value));
     if (kind.whole && value != std::floor(value)) return refuse(fmt::format("is {}, but must be whole", value));
-    return std::clamp(value, kind.least, kind.greatest);
+    return std::clamp(value, kind.min, kind.max);
 }
 
 /// Ranges that depend on the command.

@@ -44,12 +44,12 @@ Result<void> check_parameter(std::string_view command, std::string_view name, do
                              double greatest, std::string_view unit = "");
 inline Result<void> check_parameter(std::string_view command, std::string_view name, double value, Kind kind) {
     const KindInfo range = kind_info(kind);
-    return check_parameter(command, name, value, range.least, range.greatest, range.unit);
+    return check_parameter(command, name, value, range.min, range.max, range.unit);
 }
 /// The nearest value in the range of its kind.
 constexpr double clipped(double value, Kind kind) {
     const KindInfo range = kind_info(kind);
-    return std::clamp(value, range.least, range.greatest);
+    return std::clamp(value, range.min, range.max);
 }
 
 /// The names of the bits set, for people: "FLY_X_OVERFLOW: the corrected X was above 524287".

@@ -24,11 +24,11 @@ double fastest(double least, double most, double length, Candidate way) {
 
 /// Where one of the leg's ends is passed.
 struct Side {
-    double speed = 0, half = 0;
+    double speed = 0, half_blend_length = 0;
 };
 Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
     if (stops) return {};
-    return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half : 0};
+    return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half_blend_length : 0};
 }
 
 /// The least of an axis' limit / |tangent|, and of `least`.
@@ -47,7 +47,7 @@ double ramp_duration_s(double more, const LegLimits& leg) {
 }
 
 double max_velocity_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_speed; });
+    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_velocity; });
 }
 
 double max_accel_along(const Point& tangent, const MachineLimits& limits) {
@@ -70,7 +70,7 @@ Junction junction_between(const LegLimits& before, const LegLimits& after, const
     joint.can_pass = true;
     joint.speed = std::min(by_accel, by_jerk);
     joint.can_stop = joint.speed < std::max(before.speed, after.speed);
-    joint.half = 0.5 * width;
+    joint.half_blend_length = 0.5 * width;
     return joint;
 }
 
@@ -78,10 +78,12 @@ double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at
                       bool stops_at_end) {
     Side low = side_at(begin, stops_at_begin, leg), high = side_at(end, stops_at_end, leg);
     if (low.speed > high.speed) std::swap(low, high);
-    const double rest = std::max(0.0, leg.length - low.half - high.half);
+    const double rest = std::max(0.0, leg.length - low.half_blend_length - high.half_blend_length);
     const double gain = 0.5 * ((stops_at_begin ? begin.gain : 0) + (stops_at_end ? end.gain : 0));
     const auto way = [&](double from, double to) { return 0.5 * (from + to) * ramp_duration_s(to - from, leg); };
-    const auto turn_seconds = [](const Side& side) { return side.half > 0 ? side.half / side.speed : 0; };
+    const auto turn_seconds = [](const Side& side) {
+        return side.half_blend_length > 0 ? side.half_blend_length / side.speed : 0;
+    };
     double seconds = turn_seconds(low) - gain;
     if (way(low.speed, high.speed) > rest) {
         high.speed = fastest(low.speed, high.speed, rest, [&](double to) { return way(low.speed, to); });

@@ -24,9 +24,9 @@ struct LegLimits {
 struct Junction {
     bool can_stop = true;
     bool can_pass = false;
-    double speed = 0;  ///< through its turn, by what the axes can do
-    double half = 0;   ///< of the way over which the turn is spread, on either side
-    double gain = 0;   ///< s that a stop wins because the next move begins before the one before it has ended
+    double speed = 0;              ///< through its turn, by what the axes can do
+    double half_blend_length = 0;  ///< of the way over which the turn is spread, on either side
+    double gain = 0;  ///< s that a stop wins because the next move begins before the one before it has ended
 
     bool is_choice() const { return can_stop && can_pass; }
 };

@@ -190,8 +190,8 @@ void PathBuilder::add_corner(const MergedSegment& span) {
     CornerBlend& turn = add_turn(u_end_, span.start, span.tangent_in);
     for (int i = 0; i < axis_count; ++i) turn.change[i] = span.tangent_in[i] - last_.tangent_out[i];
     const Tolerance room = room_between(last_, span);
-    turn.room = span.rotary ? room.rotary : room.linear;
-    turn.room_per_rotary = turn.room / room.rotary;
+    turn.tolerance = span.rotary ? room.rotary : room.linear;
+    turn.room_per_rotary = turn.tolerance / room.rotary;
     turn.speed = std::max(last_.speed, span.speed);
     turn.feed = span.feed;
     turn.line = span.line;
@@ -247,7 +247,7 @@ void PathBuilder::add_arc_corner() {
     turn.end = arc_begin_ + corner.end;
     for (int i = 0; i < axis_count; ++i) turn.change[i] = tangent[i] - before[i];
     const Tolerance room = room_on(last_, 2 * arc_tangent_share);
-    turn.room = room.linear;
+    turn.tolerance = room.linear;
     turn.room_per_rotary = room.linear / room.rotary;
     turn.feed = last_.feed;
     turn.line = last_.line;

@@ -124,7 +124,7 @@ MergedSegment SegmentMerger::span_of(const Move& move, const Geometry& path) con
         worst = span.tangent_in;
     }
     const double fastest = max_velocity_along(worst, limits_);
-    if (move.kind == MoveKind::traverse)
+    if (move.kind == MoveKind::rapid)
         span.feed = move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
     else
         span.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * span.length : move.feed;

@@ -111,8 +111,8 @@ void CornerBlends::advance() {
         return complete_ ? done < upto : done + reach < upto;
     };
     for (; known(proposed_, made_); ++proposed_)
-        if (!turn(proposed_).fixed) turn(proposed_).width = proposed_width(proposed_);
-    for (; known(checked_, proposed_); ++checked_) turn(checked_).shrink = shrink_at(checked_);
+        if (!turn(proposed_).fixed) turn(proposed_).blend_length = proposed_width(proposed_);
+    for (; known(checked_, proposed_); ++checked_) turn(checked_).blend_scale = shrink_at(checked_);
     for (; known(settled_, checked_); ++settled_) settle(settled_);
 }
 
@@ -135,7 +135,7 @@ double CornerBlends::proposed_width(std::int64_t k) const {
         const double width = std::min(most, 2 * std::min(d_before, d_after));
         const double need = std::max(sum.need(own.speed), from);
         const double widest = std::min(need, width);
-        if (widest > 0 && sum.at(widest) >= own.room) return sum.solve(widest, own.room);
+        if (widest > 0 && sum.at(widest) >= own.tolerance) return sum.solve(widest, own.tolerance);
         if (need <= width) return need;
         if (width >= most) return most;
         const std::int64_t next = d_before < d_after ? before-- : after++;
@@ -156,7 +156,8 @@ double CornerBlends::shrink_at(std::int64_t k) const {
     for (std::int64_t j = std::max<std::int64_t>(0, k - reach); j < past; ++j) {
         const CornerBlend& other = (*this)[j];
         const double twice = 2 * std::fabs(other.u - own.u);
-        if (!other.fixed && other.width > twice) all[count++] = {weight_of(other, own), other.width, twice};
+        if (!other.fixed && other.blend_length > twice)
+            all[count++] = {weight_of(other, own), other.blend_length, twice};
     }
     const auto deviation = [&](double scale, double& slope) {
         double sum = 0;
@@ -173,20 +174,20 @@ double CornerBlends::shrink_at(std::int64_t k) const {
     };
     double slope = 0, scale = 1;
     double sum = deviation(scale, slope);
-    if (sum <= own.room) return 1;
+    if (sum <= own.tolerance) return 1;
     for (int i = 0; i < 2; ++i) {
-        scale -= (sum - own.room) / slope;
+        scale -= (sum - own.tolerance) / slope;
         sum = deviation(scale, slope);
     }
-    return scale * std::min(1.0, own.room / sum);
+    return scale * std::min(1.0, own.tolerance / sum);
 }
 
 /// Spreads a turn over a width, or over a little less so that it reaches from corner to corner, as nearly as it can:
 /// where corners are as far apart as each other, the spread turns then add up to a curvature without ripples, and knots
 /// fall together.
-void CornerBlends::spread(std::int64_t k, double width) {
+void CornerBlends::set_blend_length(std::int64_t k, double width) {
     CornerBlend& own = turn(k);
-    own.width = width;
+    own.blend_length = width;
     std::int64_t m = 0;
     const auto both = [this, k](std::int64_t n) { return (*this)[k + n].u - (*this)[k - n].u; };
     while (m < reach && k > m && k + m + 1 < made_ && both(m + 1) <= width * (1 + equal)) ++m;
@@ -195,10 +196,10 @@ void CornerBlends::spread(std::int64_t k, double width) {
         const double uneven = std::fabs((*this)[k + m].u + (*this)[k - m].u - 2 * own.u);
         snapped = both(m) > (uneven < even * both(m) ? least_snapped_even : least_snapped) * width;
     }
-    if (snapped) own.width = both(m);
-    own.begin = own.u - 0.5 * own.width;
+    if (snapped) own.blend_length = both(m);
+    own.begin = own.u - 0.5 * own.blend_length;
     own.peak = own.u;
-    own.end = own.u + 0.5 * own.width;
+    own.end = own.u + 0.5 * own.blend_length;
     if (snapped && std::fabs((*this)[k - m].u - own.begin) <= equal * width) {
         own.begin = (*this)[k - m].u;
         own.end = (*this)[k + m].u;
@@ -212,9 +213,9 @@ void CornerBlends::settle(std::int64_t k) {
         const std::int64_t past = std::min(made_, k + reach + 1);
         for (std::int64_t j = std::max<std::int64_t>(0, k - reach); j < past; ++j) {
             const CornerBlend& other = (*this)[j];
-            if (2 * std::fabs(other.u - own.u) < own.width) shrink = std::min(shrink, other.shrink);
+            if (2 * std::fabs(other.u - own.u) < own.blend_length) shrink = std::min(shrink, other.blend_scale);
         }
-        spread(k, own.width * shrink);
+        set_blend_length(k, own.blend_length * shrink);
     }
     if (own.peak > own.begin) own.rise = 1 / ((own.peak - own.begin) * (own.end - own.begin));
     if (own.end > own.peak) own.fall = 1 / ((own.end - own.peak) * (own.end - own.begin));

@@ -22,16 +22,17 @@ struct CornerBlend {
     double rise = 0,
            fall = 0;     ///< 1 / ((peak - begin)(end - begin)), 1 / ((end - peak)(end - begin)); 0 without such a side
     bool fixed = false;  ///< its width was given: of an arc
-    double width = 0;
+    double blend_length = 0;
     double linear = 0;  ///< size of the change of XYZ
     double rotary = 0;  ///< of the rotary axis that turns most
-    double room = 0;    ///< how far the curve may be from the corner by spreading: mm, or degrees where only ABC move
+    double tolerance =
+        0;  ///< how far the curve may be from the corner by spreading: mm, or degrees where only ABC move
     double room_per_rotary = 0;  ///< what a degree of the rotary axes counts in `room`
     double speed = 0;            ///< greatest du/dt here
     double per_accel = 0;        ///< of the change; greatest over the axes, so that the width for a speed can be told
     double per_jerk = 0;
-    double shrink = 1;  ///< what its corner asks of all that reach over it
-    Point at = {};      ///< the corner
+    double blend_scale = 1;  ///< what its corner asks of all that reach over it
+    Point at = {};           ///< the corner
     Point change = {};
     Point tangent = {};     ///< after the corner
     double feed = 0;        ///< after the corner; each span begins with a turn, so pieces end where feeds change
@@ -68,7 +69,7 @@ class CornerBlends {
     void advance();
     double proposed_width(std::int64_t k) const;
     double shrink_at(std::int64_t k) const;
-    void spread(std::int64_t k, double width);
+    void set_blend_length(std::int64_t k, double width);
     void settle(std::int64_t k);
 
     std::array<double, axis_count> per_accel_;

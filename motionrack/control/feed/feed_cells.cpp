@@ -79,8 +79,9 @@ double VelocityPlanner::target_cell_length(const LimitInterval& span) const {
 /// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than
 /// its speed and its acceleration last.
 double VelocityPlanner::first_size(double wanted) const {
-    const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.square), slope = std::fabs(start_.slope);
-    return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
+    const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.velocity2),
+                 slope = std::fabs(start_.velocity2_slope);
+    return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.velocity2 / slope : wanted});
 }
 
 /// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the

@@ -49,12 +49,12 @@ Series series_of(double square) {
 
 /// Place on a cell after `time`.
 double moved(const ProfileSegment& cell, double speed, double time) {
-    const Series series = series_of(0.5 * cell.bend * time * time);
-    return speed * time * series.sine + 0.25 * cell.slope * time * time * series.cosine;
+    const Series series = series_of(0.5 * cell.velocity2_curvature * time * time);
+    return speed * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
 }
 
 double square_at(const ProfileSegment& cell, double x) {
-    return std::max(0.0, cell.square + x * (cell.slope + 0.5 * cell.bend * x));
+    return std::max(0.0, cell.velocity2 + x * (cell.velocity2_slope + 0.5 * cell.velocity2_curvature * x));
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ ProfileSegment feed_cell(double begin, double length, double square, double slop
 
 void settle(ProfileSegment& cell) {
     if (cell.phase != ProfileSegmentKind::cell) return;
-    const double length = cell.length, slope = cell.slope, bend = cell.bend;
-    const double speed = std::sqrt(cell.square), end = std::sqrt(square_at(cell, length));
+    const double length = cell.length, slope = cell.velocity2_slope, bend = cell.velocity2_curvature;
+    const double speed = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
     // Slower than at the ends it is only where it has slowed down and speeds up again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
     const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
@@ -117,19 +117,20 @@ PathMotion ProfileSegment::at(double time) const {
         return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
     }
     if (phase == ProfileSegmentKind::ramp) {
-        const double speed = std::sqrt(square), accel = 0.5 * slope;
+        const double speed = std::sqrt(velocity2), accel = 0.5 * velocity2_slope;
         return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
                 speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
     }
-    const double x = std::clamp(moved(*this, std::sqrt(square), time), 0.0, length);
+    const double x = std::clamp(moved(*this, std::sqrt(velocity2), time), 0.0, length);
     const double speed = std::sqrt(square_at(*this, x));
-    return {begin + x, speed, 0.5 * (slope + bend * x), 0.5 * bend * speed};
+    return {begin + x, speed, 0.5 * (velocity2_slope + velocity2_curvature * x), 0.5 * velocity2_curvature * speed};
 }
 
 PathMotion ProfileSegment::last() const {
     if (phase != ProfileSegmentKind::cell) return at(seconds);
     const double speed = std::sqrt(square_at(*this, length));
-    return {begin + length, speed, 0.5 * (slope + bend * length), 0.5 * bend * speed};
+    return {begin + length, speed, 0.5 * (velocity2_slope + velocity2_curvature * length),
+            0.5 * velocity2_curvature * speed};
 }
 
 }  // namespace motionrack::control

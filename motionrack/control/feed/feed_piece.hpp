@@ -15,7 +15,7 @@ namespace motionrack::control {
 
 /// The motion along the path at one instant.
 struct PathMotion {
-    double place = 0;  ///< u
+    double u = 0;  ///< u
     double speed = 0;
     double accel = 0;
     double jerk = 0;
@@ -28,10 +28,10 @@ struct ProfileSegment {
     double begin = 0;  ///< u
     double length = 0;
     double seconds = 0;
-    double square = 0;  ///< cell, ramp: of the speed at its begin
-    double slope = 0;   ///< cell, ramp: of the square over the path, at its begin
-    double bend = 0;    ///< cell: change of the slope over the path
-    double jerk = 0;    ///< all but a cell
+    double velocity2 = 0;            ///< cell, ramp: of the speed at its begin
+    double velocity2_slope = 0;      ///< cell, ramp: of the square over the path, at its begin
+    double velocity2_curvature = 0;  ///< cell: change of the slope over the path
+    double jerk = 0;                 ///< all but a cell
 
     /// `time` from the piece's begin, 0 .. seconds.
     PathMotion at(double time) const;

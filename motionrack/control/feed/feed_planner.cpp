@@ -37,7 +37,7 @@ std::span<const ProfileSegment> VelocityPlanner::plan_from(const InitialPathStat
 
 std::span<const ProfileSegment> VelocityPlanner::plan_approximate(const InitialPathState& start,
                                                                   std::span<const LimitInterval> spans) {
-    start_ = start.square > 0 ? start : InitialPathState{};
+    start_ = start.velocity2 > 0 ? start : InitialPathState{};
     return sketch(spans, false);
 }
 
@@ -129,8 +129,8 @@ void VelocityPlanner::compute_bounds() {
     way_.assign(n + 1, 0);
     bound_.assign(n + 2, 0);
     for (std::size_t i = 0; i < n; ++i)
-        bound_[i + 1] =
-            std::min({cells_[i].square, cells_[i == 0 ? 0 : i - 1].square, cells_[std::min(i + 1, n - 1)].square});
+        bound_[i + 1] = std::min(
+            {cells_[i].velocity2, cells_[i == 0 ? 0 : i - 1].velocity2, cells_[std::min(i + 1, n - 1)].velocity2});
     for (std::size_t k = 0; k <= n; ++k)
         way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) +
                          (k == n ? 1.5 * landing_.length : cells_[k].length));
@@ -138,10 +138,11 @@ void VelocityPlanner::compute_bounds() {
     // As if a cell like the first were before it: the two points about the start are what is going on.
     way_[0] = cells_[0].length;
     const double most = bound_[1];
-    bound_[1] = start_.square + 0.5 * start_.slope * cells_[0].length;
-    bound_[0] = bound_[1] - start_.slope * way_[0];
-    can_start_ = std::max(start_.square, bound_[1]) <= most * (1 + rounding) &&
-                 start_.slope <= cells_[0].up * (1 + rounding) && -start_.slope <= cells_[0].down * (1 + rounding);
+    bound_[1] = start_.velocity2 + 0.5 * start_.velocity2_slope * cells_[0].length;
+    bound_[0] = bound_[1] - start_.velocity2_slope * way_[0];
+    can_start_ = std::max(start_.velocity2, bound_[1]) <= most * (1 + rounding) &&
+                 start_.velocity2_slope <= cells_[0].up * (1 + rounding) &&
+                 -start_.velocity2_slope <= cells_[0].down * (1 + rounding);
 }
 
 /// Whether a tighter bound would be news: where points could bend more, or slopes change more.
@@ -158,7 +159,7 @@ bool VelocityPlanner::is_loose(double guess) const {
 void VelocityPlanner::tighten_limits(const std::vector<double>& found, double guess) {
     for (std::size_t i = moving() ? 2 : 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
     for (std::size_t i = 0; i < cells_.size(); ++i)
-        cells_[i].square = std::min(cells_[i].square, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
+        cells_[i].velocity2 = std::min(cells_[i].velocity2, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
 }
 
 void VelocityPlanner::solve() {
@@ -215,7 +216,9 @@ void VelocityPlanner::limit_slope_rates() {
 
 void VelocityPlanner::limit_slope_rate(std::vector<double>& slopes) const {
     const std::size_t n = cells_.size();
-    const auto change = [&](const Cell& cell) { return cell.bend / std::sqrt(cell.square) * cell.length; };
+    const auto change = [&](const Cell& cell) {
+        return cell.velocity2_curvature / std::sqrt(cell.velocity2) * cell.length;
+    };
     for (std::size_t k = 1; k <= n; ++k) slopes[k] = std::min(slopes[k], slopes[k - 1] + change(cells_[k - 1]));
     for (std::size_t k = n; k-- > 0;) slopes[k] = std::min(slopes[k], slopes[k + 1] + change(cells_[k]));
 }
@@ -230,11 +233,11 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     out.assign(n + 2, 0);
     double slope = 0, square = 0;
     const bool from_motion = moving() && !back;
-    const double least = from_motion ? least_square * start_.square : 0;
+    const double least = from_motion ? least_square * start_.velocity2 : 0;
     if (from_motion) {
         out[0] = bound_[0];
         out[1] = square = bound_[1];
-        slope = start_.slope;
+        slope = start_.velocity2_slope;
     }
     for (std::size_t i = from_motion ? 1 : 0; i <= n; ++i) {
         const double way = way_[back ? n - i : i];
@@ -245,7 +248,7 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
             // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than
             // will be; on the way down from a motion that goes on, at the speed before.
             const Cell& cell = cells_[back ? n - i : i - 1];
-            const double more = cell.bend * cell.length;
+            const double more = cell.velocity2_curvature * cell.length;
             const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
             slope = std::min(steepest, slope + more / std::sqrt(std::max({most, square, out[point(i - 1)]})));
         }
@@ -264,8 +267,8 @@ void VelocityPlanner::limit_deceleration_jerk() {
     square_.resize(n + 2);
     fall_.assign(n + 2, 0);
     for (std::size_t i = 1; i <= n; ++i)
-        fall_[i] =
-            cells_[i - 1].bend / std::sqrt(std::max({left_[i - 1], left_[i], left_[i + 1]})) * cells_[i - 1].length;
+        fall_[i] = cells_[i - 1].velocity2_curvature / std::sqrt(std::max({left_[i - 1], left_[i], left_[i + 1]})) *
+                   cells_[i - 1].length;
     edges_.clear();
     for (std::size_t i = 1; i < n + 2; ++i) {
         Edge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};

@@ -25,8 +25,8 @@ namespace motionrack::control {
 
 /// The motion where a path begins.
 struct InitialPathState {
-    double square = 0;  ///< of the speed; 0: rest
-    double slope = 0;   ///< of the square over the path: twice the acceleration
+    double velocity2 = 0;        ///< of the speed; 0: rest
+    double velocity2_slope = 0;  ///< of the square over the path: twice the acceleration
 };
 
 struct VelocityPlannerSettings {
@@ -58,10 +58,10 @@ class VelocityPlanner {
     /// What a cell asks, and its control point.
     struct Cell {
         double begin = 0, length = 0;
-        double square = 0;  ///< greatest
-        double up = 0;      ///< greatest slope of speeding up
-        double down = 0;    ///< and of slowing down
-        double bend = 0;    ///< greatest, times the speed
+        double velocity2 = 0;            ///< greatest
+        double up = 0;                   ///< greatest slope of speeding up
+        double down = 0;                 ///< and of slowing down
+        double velocity2_curvature = 0;  ///< greatest, times the speed
     };
     /// Of the hull, from control point `from`: what the slope falls between its ends, and what the square loses by it.
     struct Edge {
@@ -75,7 +75,7 @@ class VelocityPlanner {
         double length = 0, jerk = 0;
     };
 
-    bool moving() const { return start_.square > 0; }
+    bool moving() const { return start_.velocity2 > 0; }
     void measure_length(std::span<const LimitInterval> spans);
     std::span<const ProfileSegment> sketch(std::span<const LimitInterval> spans, bool again);
     void solve_from_limits();

@@ -38,10 +38,10 @@ void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
 
 /// The same from a motion that goes on. Nothing is written where it is too fast, or comes back from beyond its end.
 void VelocityPlanner::write_travel(const LimitInterval& limits) {
-    const double speed = std::sqrt(start_.square), accel = 0.5 * start_.slope;
+    const double speed = std::sqrt(start_.velocity2), accel = 0.5 * start_.velocity2_slope;
     if (speed > limits.speed * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
     const KinematicState start{0, std::min(speed, limits.speed), std::clamp(accel, -limits.accel, limits.accel)};
-    const auto found = travel(start, {length_, 0, 0}, {limits.speed, limits.accel, limits.jerk});
+    const auto found = time_optimal_profile(start, {length_, 0, 0}, {limits.speed, limits.accel, limits.jerk});
     if (!found) return;
     const auto phases = found->phases();
     double begin = 0;

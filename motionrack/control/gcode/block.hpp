@@ -118,6 +118,6 @@ std::string_view word_at(std::string_view text, std::size_t column);
 
 /// Fills `problem`; `column` counts from 0.
 void set_problem(Problem& problem, std::string_view text, std::size_t column, GrblStatus status, std::string message,
-                 ErrorKind trouble = ErrorKind::bad_input);
+                 ErrorKind trouble = ErrorKind::invalid_input);
 
 }  // namespace motionrack::control::gcode

@@ -68,7 +68,7 @@ void CanonPrinter::line(Interpreter& interpreter) {
         }
     };
     std::size_t comments = 0;
-    while (const Step* step = interpreter.pull()) {
+    while (const CanonCall* step = interpreter.pull()) {
         if (step->kind == CanonCallKind::input || step->awaits_input) continue;  // rs274 tells of neither
         late_ = interpreter.was_held();
         if (late_) {
@@ -97,7 +97,7 @@ void CanonPrinter::line(Interpreter& interpreter) {
 
 void CanonPrinter::rest(Interpreter& interpreter) {
     late_ = true;
-    while (const Step* step = interpreter.pull()) event(*step, interpreter);
+    while (const CanonCall* step = interpreter.pull()) event(*step, interpreter);
 }
 
 void CanonPrinter::note(const Interpreter& interpreter) {
@@ -111,7 +111,7 @@ void CanonPrinter::print_restored_modes(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const bool ends_call = block.flow || block.has_m(m_program);
     if (!ends_call && !(block.has_m(m_state) && block.m[m_state] == 72)) return;
-    const Modes& now = interpreter.modes();
+    const ModalState& now = interpreter.modes();
     const auto able = [this](std::int32_t code, bool was, bool is) {
         if (was != is) overrides(code, is);
     };
@@ -134,14 +134,14 @@ void CanonPrinter::feed(const Interpreter& interpreter) {
     if (block.has('F')) call(fmt::format("SET_FEED_RATE({:.4f})", block['F']));
 }
 
-void CanonPrinter::feed_rate(const Modes& now) {
+void CanonPrinter::feed_rate(const ModalState& now) {
     const double scale = now.inch && !now.inverse_time ? 25.4 : 1.0;
     call(fmt::format("SET_FEED_RATE({:.4f})", now.feed * 60 / scale));
 }
 
 void CanonPrinter::modes(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
-    const Modes& now = interpreter.modes();
+    const ModalState& now = interpreter.modes();
     if (block.has_g(g_plane)) plane(now);
     if (block.has_g(g_units)) units(now);
     if (block.has_g(g_tool_length)) {
@@ -157,16 +157,16 @@ void CanonPrinter::modes(const Interpreter& interpreter) {
     if (block.has_g(g_path)) path(now.path, now.tolerance_mm, interpreter);
 }
 
-void CanonPrinter::units(const Modes& now) {
+void CanonPrinter::units(const ModalState& now) {
     call(now.inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
 }
 
-void CanonPrinter::plane(const Modes& now) {
+void CanonPrinter::plane(const ModalState& now) {
     call(fmt::format("SELECT_PLANE(CANON_PLANE_{})", canon_plane_names[now.plane]));
 }
 
 void CanonPrinter::system(const Interpreter& interpreter) {
-    const Modes& now = interpreter.modes();
+    const ModalState& now = interpreter.modes();
     call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1,
                      six(in_units(interpreter.frame().work[now.system], now.inch))));
 }
@@ -176,7 +176,7 @@ void CanonPrinter::shift(const Interpreter& interpreter) {
 }
 
 void CanonPrinter::turn(const Interpreter& interpreter) {
-    call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().turn[interpreter.modes().system])));
+    call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().rotation_deg[interpreter.modes().system])));
 }
 
 void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter& interpreter) {
@@ -188,7 +188,7 @@ void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter
              : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.4f})", tolerance));
 }
 
-void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
+void CanonPrinter::event(const CanonCall& step, const Interpreter& interpreter) {
     switch (step.kind) {
         case CanonCallKind::comment:
             return call(fmt::format("COMMENT(\"{}\")", step.text));
@@ -221,7 +221,7 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
         case CanonCallKind::end:
             call(fmt::format("SET_G5X_OFFSET(1, {})",
                              six(in_units(interpreter.frame().work[0], interpreter.modes().inch))));
-            call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().turn[0])));
+            call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().rotation_deg[0])));
             call("SET_FEED_MODE(0, 0)");
             call("SET_FEED_RATE(0.0000)");
             if (!step.overridable) call("ENABLE_FEED_OVERRIDE()");
@@ -247,7 +247,7 @@ void CanonPrinter::overrides(std::int32_t code, bool on) {
     if (code == 53) call(fmt::format("{}_FEED_HOLD()", able));
 }
 
-void CanonPrinter::output(const Step& step) {
+void CanonPrinter::output(const CanonCall& step) {
     const char* when = step.with_motion ? "MOTION" : "AUX";
     if (step.analog) return call(fmt::format("SET_{}_OUTPUT_VALUE({},{:.6f})", when, step.port, step.value));
     call(fmt::format("{}_{}_OUTPUT_BIT({})", step.value != 0 ? "SET" : "CLEAR", when, step.port));
@@ -279,7 +279,7 @@ void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
     const Point end = shown(interpreter, move.end);
     if (move.kind != MoveKind::arc) {
         return call(
-            fmt::format("{}({})", move.kind == MoveKind::traverse ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED", six(end)));
+            fmt::format("{}({})", move.kind == MoveKind::rapid ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED", six(end)));
     }
     const int third = 3 - move.first - move.second;
     Point centre = move.end;
@@ -300,7 +300,7 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
     std::string_view line;
     while (walk.next(line)) {
         if (auto done = interpreter.line(line, walk.number(), Language::program); !done) {
-            walk.refused(line, done.error());
+            walk.line_rejected(line, done.error());
             return done;
         }
         if (auto done = walk.line_accepted(interpreter); !done) return done;

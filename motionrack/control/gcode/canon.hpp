@@ -38,22 +38,22 @@ class CanonPrinter {
 
   private:
     void call(std::string_view text);
-    void event(const Step& step, const Interpreter& interpreter);
+    void event(const CanonCall& step, const Interpreter& interpreter);
     void move(const Move& move, const Interpreter& interpreter);
     void probe(const Move& move, const Interpreter& interpreter);
     void here(const Interpreter& interpreter);
     void note(const Interpreter& interpreter);
     void feed(const Interpreter& interpreter);
-    void feed_rate(const Modes& now);
+    void feed_rate(const ModalState& now);
     void modes(const Interpreter& interpreter);
     void print_restored_modes(const Interpreter& interpreter);
-    void units(const Modes& now);
-    void plane(const Modes& now);
+    void units(const ModalState& now);
+    void plane(const ModalState& now);
     void system(const Interpreter& interpreter);
     void shift(const Interpreter& interpreter);
     void turn(const Interpreter& interpreter);
     void overrides(std::int32_t code, bool on);
-    void output(const Step& step);
+    void output(const CanonCall& step);
     void path(PathControl path, double tolerance_mm, const Interpreter& interpreter);
     Point shown(const Interpreter& interpreter, const Point& machine) const;
 
@@ -64,8 +64,8 @@ class CanonPrinter {
     PathControl path_ = PathControl::continuous;
     // After the line before; steps that waited are shown in the frame and the unit of their own line.
     Point position_ = {};
-    Frame frame_;
-    Modes modes_;
+    WorkFrame frame_;
+    ModalState modes_;
     bool late_ = false;  ///< the step being printed is of a line before
 };
 

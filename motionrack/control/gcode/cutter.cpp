@@ -92,7 +92,7 @@ bool is_convex(const CutterPath& before, const CutterPath& after, double offset)
     const double sine = cross(before.direction_out, after.direction_in);
     const double towards = offset > 0 ? sine : -sine;
     const bool back = dot(before.direction_out, after.direction_in) < 0;
-    const double bend = before.bend + after.bend;
+    const double bend = before.curvature + after.curvature;
     const bool closes = offset > 0 ? bend < -parallel : bend > parallel;
     if (back && towards < parallel && towards > -cusp && closes) return false;
     return towards < 0 || (back && towards < parallel);
@@ -125,7 +125,7 @@ bool offset_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t 
     path.direction_out = left_of(to - centre) * (sense / radius_out);
     path.start = centre + (from - centre) * (path.radius_in / radius_in);
     path.end = centre + (to - centre) * (path.radius_out / radius_out);
-    path.bend = sense / radius_in;
+    path.curvature = sense / radius_in;
     path.sweep = sweep_of(path);
     return true;
 }

@@ -29,7 +29,7 @@ struct CutterPath {
     double radius_in = 0;      ///< arc: of the cutter's path at its start
     double radius_out = 0;     ///< and at its end, which may differ by a rounding
     double sweep = 0;          ///< arc: rad from start to end, of the sign of `turns`
-    double bend = 0;           ///< curvature of the contour, 1/mm, > 0 counter-clockwise
+    double curvature = 0;      ///< curvature of the contour, 1/mm, > 0 counter-clockwise
 };
 
 /// `offset`: the cutter's radius, > 0 left of the contour, < 0 right of it. The ends must differ.

@@ -41,7 +41,7 @@ void DrillCycleMoves::begin(const DrillCycle& plan) {
     hole_ = 0;
 }
 
-void DrillCycleMoves::straight(Step& step, MoveKind kind, double third) {
+void DrillCycleMoves::straight(CanonCall& step, MoveKind kind, double third) {
     at_[plan_.third] = third;
     step.kind = CanonCallKind::move;
     step.move = plan_.pattern;
@@ -49,13 +49,13 @@ void DrillCycleMoves::straight(Step& step, MoveKind kind, double third) {
     step.move.end = at_;
 }
 
-void DrillCycleMoves::spindle(Step& step, Spindle how) const {
+void DrillCycleMoves::spindle(CanonCall& step, Spindle how) const {
     step.kind = CanonCallKind::spindle;
     step.spindle = how;
     step.speed_rpm = plan_.speed_rpm;
 }
 
-void DrillCycleMoves::act(Act what, Step& step) {
+void DrillCycleMoves::act(Act what, CanonCall& step) {
     const Spindle back = plan_.spindle == Spindle::clockwise ? Spindle::counter_clockwise : Spindle::clockwise;
     switch (what) {
         case Act::wait:
@@ -73,18 +73,18 @@ void DrillCycleMoves::act(Act what, Step& step) {
         case Act::feed_clear:
             return straight(step, MoveKind::feed, plan_.clear);
         case Act::rapid_clear:
-            return straight(step, MoveKind::traverse, plan_.clear);
+            return straight(step, MoveKind::rapid, plan_.clear);
     }
 }
 
-bool DrillCycleMoves::next(Step& step) {
+bool DrillCycleMoves::next(CanonCall& step) {
     for (;;) {
         switch (phase_) {
             case Phase::lift:
                 phase_ = Phase::over;
                 if (level_ >= plan_.r) break;
                 level_ = plan_.r;
-                straight(step, MoveKind::traverse, plan_.r);
+                straight(step, MoveKind::rapid, plan_.r);
                 at_[plan_.first] = plan_.pattern.end[plan_.first];
                 at_[plan_.second] = plan_.pattern.end[plan_.second];
                 return true;
@@ -94,13 +94,13 @@ bool DrillCycleMoves::next(Step& step) {
                 at_[plan_.first] = plan_.pattern.end[plan_.first] + hole_ * plan_.step_first;
                 at_[plan_.second] = plan_.pattern.end[plan_.second] + hole_ * plan_.step_second;
                 phase_ = Phase::approach;
-                straight(step, MoveKind::traverse, level_);
+                straight(step, MoveKind::rapid, level_);
                 return true;
             case Phase::approach:
                 phase_ = Phase::work;
                 pecks_ = 1;
                 if (level_ == plan_.r) break;
-                straight(step, MoveKind::traverse, plan_.r);
+                straight(step, MoveKind::rapid, plan_.r);
                 return true;
             case Phase::work: {
                 double depth = is_pecking(plan_.code) ? plan_.r - pecks_ * plan_.peck : plan_.bottom;
@@ -113,13 +113,13 @@ bool DrillCycleMoves::next(Step& step) {
             }
             case Phase::back:
                 phase_ = Phase::again;
-                straight(step, MoveKind::traverse, plan_.r);
+                straight(step, MoveKind::rapid, plan_.r);
                 return true;
             case Phase::again: {
                 phase_ = Phase::work;
                 const double depth = plan_.r - pecks_ * plan_.peck;
                 ++pecks_;
-                straight(step, MoveKind::traverse, std::min(depth + plan_.clearance, plan_.r));
+                straight(step, MoveKind::rapid, std::min(depth + plan_.clearance, plan_.r));
                 return true;
             }
             case Phase::leave: {

@@ -53,16 +53,16 @@ class DrillCycleMoves {
     void begin(const DrillCycle& plan);
 
     /// The next move or event of the spindle; false: there is none.
-    bool next(Step& step);
+    bool next(CanonCall& step);
 
   private:
     enum class Phase : std::uint8_t { lift, over, approach, work, back, again, leave };
     enum class Act : std::uint8_t { wait, stop, turn_back, turn, feed_r, feed_clear, rapid_clear };
 
     static std::span<const Act> acts_of(std::int16_t code);
-    void straight(Step& step, MoveKind kind, double third);
-    void spindle(Step& step, Spindle how) const;
-    void act(Act what, Step& step);
+    void straight(CanonCall& step, MoveKind kind, double third);
+    void spindle(CanonCall& step, Spindle how) const;
+    void act(Act what, CanonCall& step);
 
     DrillCycle plan_;
     Phase phase_ = Phase::lift;

@@ -7,9 +7,9 @@
 
 namespace motionrack::control::gcode {
 
-struct Frame {
+struct WorkFrame {
     std::array<Point, work_offset_count> work = {};
-    std::array<double, work_offset_count> turn = {};  ///< degrees, counter-clockwise seen from above
+    std::array<double, work_offset_count> rotation_deg = {};  ///< degrees, counter-clockwise seen from above
     Point g92 = {};
     Point g92_saved = {};  ///< what G92.3 brings back
     Point tool = {};       ///< G43, G43.1, G43.2
@@ -21,7 +21,7 @@ struct Frame {
     // Of the active system, by activate():
     Point offset = {};  ///< sum of work, G92 and tool: machine less program coordinates where the system is not turned
     Point base = {};    ///< work and tool
-    bool turned = false;
+    bool is_rotated = false;
     double cosine = 1;
     double sine = 0;
 
@@ -30,14 +30,14 @@ struct Frame {
     Point to_machine(const Point& program) const;
     Point to_program(const Point& machine) const;
     /// A distance in program coordinates as one of the machine.
-    Point turned_by(const Point& distance) const;
+    Point rotate(const Point& distance) const;
 };
 
 /// Cosine and sine of an angle in degrees; exact at quarter turns.
-struct Turn {
+struct Rotation {
     double cosine;
     double sine;
 };
-Turn turn_of(double degrees);
+Rotation rotation_of(double degrees);
 
 }  // namespace motionrack::control::gcode

@@ -13,7 +13,7 @@ void CompensationQueue::settle(std::size_t first, std::size_t second, const Cutt
     settle();
 }
 
-const Step* CompensationQueue::next() {
+const CanonCall* CompensationQueue::next() {
     if (has_ready()) return &steps_[next_++];
     steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = ready_ = 0;

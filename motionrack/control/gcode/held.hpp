@@ -18,7 +18,7 @@ class CompensationQueue {
     static constexpr std::size_t most = 10'000;
 
     bool full() const { return steps_.size() >= most; }
-    void push(const Step& step) { steps_.push_back(step); }
+    void push(const CanonCall& step) { steps_.push_back(step); }
 
     /// The first of the steps is the move along `path`, in the plane of the axes `first` and `second`: it and what is
     /// behind it end where the path does, and nothing waits any longer.
@@ -28,7 +28,7 @@ class CompensationQueue {
 
     bool has_ready() const { return next_ < ready_; }
     /// The next step that is ready, valid until push() is called; null: none.
-    const Step* next();
+    const CanonCall* next();
     /// The last step that next() gave was there before this line.
     bool was_held() const { return next_ <= of_lines_before_; }
     /// Drops the steps that were ready and not taken.
@@ -42,7 +42,7 @@ class CompensationQueue {
     void clear();
 
   private:
-    std::vector<Step> steps_;
+    std::vector<CanonCall> steps_;
     std::size_t next_ = 0;   ///< pulled
     std::size_t ready_ = 0;  ///< final
     std::size_t of_lines_before_ = 0;

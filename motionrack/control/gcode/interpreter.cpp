@@ -202,12 +202,12 @@ void Interpreter::commit() {
     if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, position_);
 }
 
-const Step* Interpreter::pull_next() {
+const CanonCall* Interpreter::pull_next() {
     has_waited_ = false;
     const std::uint32_t what = todo_ & (0 - todo_);
     if (what == todo_motion) return pull_motion();
     if (what == todo_held) {
-        if (const Step* step = held_.next()) {
+        if (const CanonCall* step = held_.next()) {
             has_waited_ = held_.was_held();
             return step;
         }
@@ -216,7 +216,7 @@ const Step* Interpreter::pull_next() {
     }
     if (what == todo_comments) return pull_comment();
     todo_ &= ~what;
-    event_ = Step{};
+    event_ = CanonCall{};
     event_.line = line_;
     event_.speed_rpm = modes_.speed_rpm;
     event_.tool = modes_.tool_selected;
@@ -274,7 +274,7 @@ void Interpreter::fill_dwell(double seconds) {
     move.end = dwell_at_;
 }
 
-const Step* Interpreter::pull_motion() {
+const CanonCall* Interpreter::pull_motion() {
     if (motion_ == Motion::single) {
         todo_ &= ~static_cast<std::uint32_t>(todo_motion);
         return &moving_;
@@ -295,10 +295,10 @@ const Step* Interpreter::pull_motion() {
     return pull();
 }
 
-const Step* Interpreter::pull_comment() {
+const CanonCall* Interpreter::pull_comment() {
     const Comment& comment = block_.comments[comments_pulled_++];
     if (comments_pulled_ == block_.comments.size()) todo_ &= ~static_cast<std::uint32_t>(todo_comments);
-    event_ = Step{};
+    event_ = CanonCall{};
     event_.kind = comment.message ? CanonCallKind::message : CanonCallKind::comment;
     event_.line = line_;
     event_.text = comment.text;
@@ -306,7 +306,7 @@ const Step* Interpreter::pull_comment() {
     return &event_;
 }
 
-Frame& Interpreter::edit_frame() {
+WorkFrame& Interpreter::edit_frame() {
     if (!frame_edited_) next_frame_ = frame_;
     frame_edited_ = true;
     return next_frame_;

@@ -50,7 +50,7 @@ inline constexpr std::int16_t no_motion = -1;
 enum class CutterSide : std::uint8_t { off, left, right };
 
 /// Modal state that is only numbers.
-struct Modes {
+struct ModalState {
     std::int16_t motion =
         no_motion;             ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 730 .. 890; no_motion after G80
     std::uint8_t plane = 0;    ///< 0 G17, 1 G18, 2 G19
@@ -112,7 +112,7 @@ class Interpreter {
     Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
     /// The next step of the last line, valid until the next call; null: no more.
-    const Step* pull() {
+    const CanonCall* pull() {
         if (todo_ == 0) return nullptr;
         return pull_next();
     }
@@ -140,8 +140,8 @@ class Interpreter {
         modes_.mist = mist;
         modes_.flood = flood;
     }
-    const Modes& modes() const { return modes_; }
-    const Frame& frame() const { return frame_; }
+    const ModalState& modes() const { return modes_; }
+    const WorkFrame& frame() const { return frame_; }
     const Block& block() const { return block_; }  ///< the words of the last line
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
@@ -151,10 +151,10 @@ class Interpreter {
     bool end_call(std::optional<double> returned);
     /// The last line is a turning cycle (G70 .. G72.2), which needs its contour: the moves of the sub `label`, which
     /// draws_contour() reads. Until turn() has it, the line has no steps but its comments and events.
-    bool turns() const { return turning_.has_value(); }
+    bool is_lathe_cycle() const { return turning_.has_value(); }
     const std::string& contour_label() const { return contour_label_; }
     /// One that reads a contour: as this one, but without limits and with a feed, from where the cycle starts.
-    Interpreter draws_contour() const;
+    Interpreter contour_interpreter() const;
     /// Gives the line its moves. Errors: with nothing of them.
     Outcome<void> turn(std::vector<ContourSegment> contour);
     /// No work system is turned from now on, and overrides count.
@@ -207,13 +207,13 @@ class Interpreter {
     const Tool* tool_of_table(std::int32_t number, char letter, GroupG code);
     bool set_tool();
     bool require_tool(char letter, std::int32_t number);
-    Point shift_to_words(const Frame& frame) const;
-    void shift_turned(Frame& frame, int system);
+    Point shift_to_words(const WorkFrame& frame) const;
+    void shift_turned(WorkFrame& frame, int system);
     bool edit_tool(int what);
     bool edit_tool_shape(Tool& tool);
     void save_modes();
-    void restore(const Modes& saved);
-    bool goes_beside(const Modes& saved) const;
+    void restore(const ModalState& saved);
+    bool goes_beside(const ModalState& saved) const;
     bool shift();
     bool reference();
     bool motion();
@@ -278,21 +278,22 @@ class Interpreter {
     bool no_feed();
     bool unused();
     bool unused_exponent();
-    const Step* pull_next();
-    const Step* pull_motion();
-    const Step* pull_comment();
+    const CanonCall* pull_next();
+    const CanonCall* pull_motion();
+    const CanonCall* pull_comment();
     void show_values();
     std::string substitute_values(std::string_view text) const;
 
-    bool fail_at(std::size_t column, GrblStatus status, std::string message, ErrorKind trouble = ErrorKind::bad_input);
+    bool fail_at(std::size_t column, GrblStatus status, std::string message,
+                 ErrorKind trouble = ErrorKind::invalid_input);
     bool fail_word(char letter, GrblStatus status, std::string message);
     bool need_integer(char letter, double low, double high, const char* use);
     std::size_t error_column() const;  ///< column of the motion word, or of the first axis or offset word
     std::string_view word_text(char letter) const;
     double scale_of(int axis) const { return axis < 3 && next_.inch ? 25.4 : 1.0; }
     double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }
-    Frame& edit_frame();
-    const Frame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
+    WorkFrame& edit_frame();
+    const WorkFrame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
     static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
 
     Settings settings_;
@@ -300,21 +301,21 @@ class Interpreter {
     Point high_ = {};
     std::uint32_t present_words_ = 0;
 
-    Modes modes_;
-    Frame frame_;
+    ModalState modes_;
+    WorkFrame frame_;
     Point position_ = {};
     Parameters parameters_;
     ToolTable tools_;
     /// What M70 and M73 have kept, by the depth of calls.
-    struct Kept {
-        std::optional<Modes> modes;
+    struct SavedModes {
+        std::optional<ModalState> modes;
         bool comes_back = false;  ///< when the call ends (M73)
     };
-    std::vector<Kept> kept_;
+    std::vector<SavedModes> kept_;
 
     // What the line being read will have changed when it is found good.
-    Modes next_;
-    Frame next_frame_;
+    ModalState next_;
+    WorkFrame next_frame_;
     bool frame_edited_ = false;
     Point end_ = {};
     std::uint32_t used_ = 0;
@@ -351,8 +352,8 @@ class Interpreter {
     std::int16_t stop_code_ = 0;
     bool end_pending_ = false;
     Point via_ = {};
-    Step event_;
-    Step moving_;
+    CanonCall event_;
+    CanonCall moving_;
     DrillCycleMoves cycle_;
     BiarcApproximator spline_;
     std::optional<LatheCycle> turning_;  ///< of the last line

@@ -153,7 +153,7 @@ void Interpreter::save_modes() {
     if (code != 71) kept_[level] = {modes_, code == 73};
 }
 
-void Interpreter::restore(const Modes& saved) {
+void Interpreter::restore(const ModalState& saved) {
     next_.plane = saved.plane;
     next_.system = saved.system;
     next_.inch = saved.inch;
@@ -175,7 +175,7 @@ bool Interpreter::end_call(std::optional<double> returned) {
     const auto level = static_cast<std::size_t>(parameters_.level());
     parameters_.leave(returned);
     if (kept_.size() <= level) return true;
-    const Kept kept = kept_[level];
+    const SavedModes kept = kept_[level];
     kept_.resize(level);
     if (!kept.modes || !kept.comes_back) return true;
     if (modes_.cutter != CutterSide::off && !goes_beside(*kept.modes)) return false;
@@ -188,14 +188,14 @@ bool Interpreter::end_call(std::optional<double> returned) {
 }
 
 /// Whether cutter compensation can stay on when these modes come back.
-bool Interpreter::goes_beside(const Modes& saved) const {
+bool Interpreter::goes_beside(const ModalState& saved) const {
     return saved.plane == modes_.plane && saved.inch == modes_.inch && saved.system == modes_.system &&
            !saved.inverse_time;
 }
 
 void Interpreter::reset_after_program() {
     modes_.feed_override = modes_.speed_override = true;
-    frame_.turn = {};
+    frame_.rotation_deg = {};
     frame_.activate(modes_.system);
 }
 

@@ -87,7 +87,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
 
 /// Ends of the axes that have words.
 bool Interpreter::targets(bool machine_coordinates) {
-    if (frame_now().turned && !machine_coordinates) return targets_turned();
+    if (frame_now().is_rotated && !machine_coordinates) return targets_turned();
     const Point& offset = frame_now().offset;
     const bool offset_contour = compensates();
     const int third = next_.plane == 0 ? 2 : next_.plane == 1 ? 1 : 0;
@@ -106,14 +106,14 @@ bool Interpreter::targets(bool machine_coordinates) {
 
 /// Where the work system is turned, a word of X moves Y too.
 bool Interpreter::targets_turned() {
-    const Frame& frame = frame_now();
+    const WorkFrame& frame = frame_now();
     const bool offset_contour = compensates();
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
     Point program = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < axis_count; ++axis)
         if ((block_.words & letter_bit(axis_letters[axis])) != 0)
             program[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
-    const Point by = frame.turned_by(program), to = frame.to_machine(program);
+    const Point by = frame.rotate(program), to = frame.to_machine(program);
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t own = letter_bit(axis_letters[axis]);
         if ((block_.words & (axis < 2 ? turning : own)) == 0) continue;
@@ -137,7 +137,7 @@ bool Interpreter::straight(std::int16_t code) {
     if (is_probing(code) && !may_probe(code)) return false;
     if (!targets(block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530)) return false;
     Move& move = moving_.move;
-    move.kind = code == 0 ? MoveKind::traverse : MoveKind::feed;
+    move.kind = code == 0 ? MoveKind::rapid : MoveKind::feed;
     move.path = next_.path;
     move.tolerance_mm = next_.tolerance_mm;
     move.line = line_;

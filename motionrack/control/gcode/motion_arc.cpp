@@ -56,12 +56,12 @@ bool Interpreter::arc(std::int16_t code) {
 
 /// In a turned work system an arc of G18 or G19 would lie in no plane of two axes; a cycle would drill aslant.
 bool Interpreter::in_turned_plane(std::int16_t code) {
-    if (!frame_now().turned || next_.plane == 0) return true;
+    if (!frame_now().is_rotated || next_.plane == 0) return true;
     return fail_at(
         error_column(), GrblStatus::unsupported,
         fmt::format(
             "{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and cycles go in G17 only",
-            name_of_g(code), plane_names[next_.plane], frame_now().turn[next_.system]));
+            name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
 }
 
 /// Finds the centre from R or from I J K.
@@ -131,8 +131,8 @@ bool Interpreter::arc_centre_of_offsets(PlanePoint start, PlanePoint& centre) {
         }
     }
     centre = {middle[0], middle[1]};
-    if (const Frame& frame = frame_now(); frame.turned) {  // G17: the first axis is X, the second is Y
-        const Point by = next_.arc_absolute ? frame.to_machine(words) : frame.turned_by(words);
+    if (const WorkFrame& frame = frame_now(); frame.is_rotated) {  // G17: the first axis is X, the second is Y
+        const Point by = next_.arc_absolute ? frame.to_machine(words) : frame.rotate(words);
         centre = next_.arc_absolute ? PlanePoint{by[0], by[1]} : PlanePoint{start.first + by[0], start.second + by[1]};
     }
     return true;

@@ -98,12 +98,12 @@ bool Interpreter::cutter_allows() {
     if (was_on && next_.plane != modes_.plane) return forbid(column_of(g_plane), "the plane cannot change");
     if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
     if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
-    if (frame_now().turned && next_.plane != 0) {
+    if (frame_now().is_rotated && next_.plane != 0) {
         return fail_at(
             column_of(g_cutter), GrblStatus::unsupported,
             fmt::format(
                 "the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation goes in G17 only",
-                frame_now().turn[next_.system]));
+                frame_now().rotation_deg[next_.system]));
     }
     if (was_on && block_.has_g(g_tool_length) && frame_now().tool != frame_.tool)
         return forbid(block_.g_column[g_tool_length], "the tool length cannot change");
@@ -228,7 +228,7 @@ bool Interpreter::join(PlanePoint corner) {
     // Before a rapid move the corner is cut straight, in the air.
     Move& arc = cutter_plan_.arc;
     arc = moving_.move;
-    if (arc.kind != MoveKind::traverse) arc.kind = MoveKind::arc;
+    if (arc.kind != MoveKind::rapid) arc.kind = MoveKind::arc;
     arc.first = axes[0];
     arc.second = axes[1];
     arc.turns = offset > 0 ? -1 : 1;
@@ -299,7 +299,7 @@ void Interpreter::settle_joint() {
     const auto& axes = plane_axes[modes_.plane];
     if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
     if (cutter_plan_.around) {
-        Step around;
+        CanonCall around;
         around.line = line_;
         around.move = cutter_plan_.arc;
         held_.push(around);

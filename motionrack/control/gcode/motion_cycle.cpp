@@ -146,7 +146,7 @@ bool Interpreter::cycle(std::int16_t code) {
 /// end.
 bool Interpreter::cycle_within_limits(DrillCycle& plan) {
     plan.pattern.end = position_;
-    if (!(frame_now().turned ? cycle_places_turned(plan) : cycle_places(plan))) return false;
+    if (!(frame_now().is_rotated ? cycle_places_turned(plan) : cycle_places(plan))) return false;
     const char depth = axis_letters[plan.third];
     const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : error_column();
     const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : error_column();
@@ -157,11 +157,11 @@ bool Interpreter::cycle_within_limits(DrillCycle& plan) {
 
 /// The first hole and the steps in a turned work system, G17.
 bool Interpreter::cycle_places_turned(DrillCycle& plan) {
-    const Frame& frame = frame_now();
+    const WorkFrame& frame = frame_now();
     Point words = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < 2; ++axis)
         if (block_.has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
-    const Point by = frame.turned_by(words), to = frame.to_machine(words);
+    const Point by = frame.rotate(words), to = frame.to_machine(words);
     for (int axis = 0; axis < 2; ++axis) {
         double& step = axis == 0 ? plan.step_first : plan.step_second;
         step = next_.incremental ? by[axis] : 0;

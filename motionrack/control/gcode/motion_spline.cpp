@@ -116,8 +116,8 @@ bool Interpreter::quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezi
 }
 
 PlanePoint Interpreter::turned_handle(PlanePoint handle) const {
-    if (!frame_now().turned) return handle;
-    const Point by = frame_now().turned_by({handle.first, handle.second});
+    if (!frame_now().is_rotated) return handle;
+    const Point by = frame_now().rotate({handle.first, handle.second});
     return {by[0], by[1]};
 }
 

@@ -102,7 +102,7 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
         fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", word_text('I'), least_depth));
 }
 
-Interpreter Interpreter::draws_contour() const {
+Interpreter Interpreter::contour_interpreter() const {
     Interpreter reader = *this;
     reader.low_.fill(-1e9);
     reader.high_.fill(1e9);
@@ -117,7 +117,8 @@ Interpreter Interpreter::draws_contour() const {
 
 Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
     const std::size_t column = block_.g_column[g_motion];
-    const std::string fault = gcode::turn(*turning_, std::move(contour), {position_[2], position_[0]}, turned_);
+    const std::string fault =
+        gcode::make_lathe_moves(*turning_, std::move(contour), {position_[2], position_[0]}, turned_);
     const std::string name = name_of_g(turning_->code);
     turning_.reset();
     if (!fault.empty()) fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));

@@ -26,19 +26,19 @@ bool Interpreter::nonmodal() {
         case 920:
             return shift();
         case 921: {
-            Frame& frame = edit_frame();
+            WorkFrame& frame = edit_frame();
             frame.g92 = frame.g92_saved = Point{};
             frame.activate(next_.system);
             break;
         }
         case 922: {
-            Frame& frame = edit_frame();
+            WorkFrame& frame = edit_frame();
             frame.g92 = Point{};
             frame.activate(next_.system);
             break;
         }
         case 923: {
-            Frame& frame = edit_frame();
+            WorkFrame& frame = edit_frame();
             frame.g92 = frame.g92_saved;
             frame.activate(next_.system);
             break;
@@ -72,7 +72,7 @@ bool Interpreter::shift() {
             block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
             "axis words missing: G92 needs at least one of its own; write e.g. G92 X0 Y0 (G92.1 ends the shift)");
     }
-    Frame& frame = edit_frame();
+    WorkFrame& frame = edit_frame();
     const Point shifted_before = frame.g92;
     frame.g92 = {};
     frame.activate(next_.system);
@@ -106,7 +106,7 @@ bool Interpreter::reference() {
         if (!reach(axis, home[axis], column)) return false;
         end_[axis] = home[axis];
     }
-    begin_move(MoveKind::traverse);
+    begin_move(MoveKind::rapid);
     motion_ = axes != 0 ? Motion::via_point : Motion::single;
     via_point_pending_ = false;
     todo_ |= todo_motion;

@@ -48,13 +48,13 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
         return fail_at(block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
                        "axis words missing: G10 needs at least one; write e.g. G10 L20 P1 X0 Y0");
     }
-    Frame& frame = edit_frame();
+    WorkFrame& frame = edit_frame();
     const auto place = static_cast<std::size_t>(system);
     if (turns) {
-        frame.turn[place] = block_['R'];
+        frame.rotation_deg[place] = block_['R'];
         used_ |= letter_bit('R');
     }
-    if (from_position && frame.turn[place] != 0) {
+    if (from_position && frame.rotation_deg[place] != 0) {
         shift_turned(frame, system);
     } else {
         for (int axis = 0; axis < axis_count; ++axis) {
@@ -72,18 +72,18 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
 
 /// How far an offset moves, along the axes of the frame, for the position there to be as the words say; in machine
 /// coordinates.
-Point Interpreter::shift_to_words(const Frame& frame) const {
+Point Interpreter::shift_to_words(const WorkFrame& frame) const {
     const Point now = frame.to_program(position_);
     Point by = {};
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
         by[axis] = now[axis] - block_.value[axis_letter(axis)] * scale_of(axis);
     }
-    return frame.turned_by(by);
+    return frame.rotate(by);
 }
 
 /// G10 L20 of a turned system.
-void Interpreter::shift_turned(Frame& frame, int system) {
+void Interpreter::shift_turned(WorkFrame& frame, int system) {
     frame.activate(system);
     const Point by = shift_to_words(frame);
     for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
@@ -107,7 +107,7 @@ bool Interpreter::edit_tool(int what) {
             if ((block_.words & letter_bit(axis_letters[axis])) != 0)
                 tool.offset[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
     } else {
-        Frame with = frame_now();
+        WorkFrame with = frame_now();
         with.tool = tool.offset;
         if (what == 11) with.g92 = {};
         with.activate(what == 11 ? work_offset_count - 1 : next_.system);
@@ -143,7 +143,7 @@ bool Interpreter::edit_tool_shape(Tool& tool) {
 bool Interpreter::tool_length() {
     const int code = block_.g[g_tool_length];
     if (code == 490) {
-        Frame& frame = edit_frame();
+        WorkFrame& frame = edit_frame();
         frame.tool = {};
         frame.activate(next_.system);
         return true;
@@ -169,7 +169,7 @@ bool Interpreter::tool_length_of_words(bool adds) {
             adds ? "H word missing: G43.2 needs the number of a tool, or the length to add; write e.g. G43.2 H3"
                  : "Z word missing: G43.1 needs the length of the tool; write e.g. G43.1 Z12.5");
     }
-    Frame& frame = edit_frame();
+    WorkFrame& frame = edit_frame();
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
         const double value = block_.value[axis_letter(axis)] * scale_of(axis);
@@ -211,7 +211,7 @@ bool Interpreter::tool_length_of_table(bool adds) {
     }
     const Tool* tool = number == 0 ? nullptr : tool_of_table(number, 'H', g_tool_length);
     if (number != 0 && !tool) return false;
-    Frame& frame = edit_frame();
+    WorkFrame& frame = edit_frame();
     const Point length = tool ? tool->offset : Point{};
     for (int axis = 0; axis < axis_count; ++axis)
         frame.tool[axis] = adds ? frame.tool[axis] + length[axis] : length[axis];

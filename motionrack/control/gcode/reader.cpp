@@ -16,7 +16,7 @@ bool ProgramReader::within_budget() const {
     return further_steps_ <= most_steps_ + steps_of_a_line * lines_read_;
 }
 
-Outcome<const Step*> ProgramReader::next_from_lines() {
+Outcome<const CanonCall*> ProgramReader::next_from_lines() {
     std::string_view text;
     while (walk_.next(text)) {
         ++lines_read_;
@@ -27,12 +27,12 @@ Outcome<const Step*> ProgramReader::next_from_lines() {
                                     "program is not over; does a loop drill without "
                                     "end? No more of it was read",
                                     further_steps_));
-            walk_.refused(text, problem);
+            walk_.line_rejected(text, problem);
             walk_.end();
             return tl::unexpected<Problem>(std::move(problem));
         }
         if (auto done = interpreter_.line(text, walk_.number(), Language::program); !done) {
-            walk_.refused(text, done.error());
+            walk_.line_rejected(text, done.error());
             const std::size_t column = static_cast<std::size_t>(done.error().place.column);
             if (walk_.at_end() && done.error().word == "(" && text.find(')', column) == std::string_view::npos) {
                 done.error().message = "the text ends inside this comment; is the file complete?";
@@ -41,7 +41,7 @@ Outcome<const Step*> ProgramReader::next_from_lines() {
         }
         if (auto done = walk_.line_accepted(interpreter_); !done)
             return tl::unexpected<Problem>(std::move(done.error()));
-        if (const Step* step = interpreter_.pull()) return step;
+        if (const CanonCall* step = interpreter_.pull()) return step;
     }
     if (walk_.has_faults()) return tl::unexpected<Problem>(walk_.take_fault());
     if (auto done = interpreter_.finish(); !done) {
@@ -68,7 +68,7 @@ bool is_known(const std::vector<Problem>& problems, const Problem& one) {
 ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t max_problems,
                            const std::string& file) {
     ProgramCheck check;
-    check.least = check.greatest = settings.start;
+    check.min = check.max = settings.start;
     ProgramReader reader(text, settings, file);
     int repeated = 0;
     for (;;) {
@@ -94,8 +94,8 @@ ProgramCheck check_program(std::string_view text, const Settings& settings, std:
         }
         ++check.moves;
         for (int axis = 0; axis < axis_count; ++axis) {
-            check.least[axis] = std::min(check.least[axis], move.end[axis]);
-            check.greatest[axis] = std::max(check.greatest[axis], move.end[axis]);
+            check.min[axis] = std::min(check.min[axis], move.end[axis]);
+            check.max[axis] = std::max(check.max[axis], move.end[axis]);
         }
     }
     check.lines = reader.walk().highest_line();

@@ -27,8 +27,8 @@ class ProgramReader {
     ProgramReader(std::string_view text, const Settings& settings, std::string file = {});
 
     /// The next step, valid until the next call; null: the program is over.
-    Outcome<const Step*> next() {
-        if (const Step* step = interpreter_.pull()) {
+    Outcome<const CanonCall*> next() {
+        if (const CanonCall* step = interpreter_.pull()) {
             ++further_steps_;
             return step;
         }
@@ -44,7 +44,7 @@ class ProgramReader {
     std::int32_t line() const { return walk_.number(); }  ///< the line that the last step or problem is from
 
   private:
-    Outcome<const Step*> next_from_lines();
+    Outcome<const CanonCall*> next_from_lines();
     bool within_budget() const;
 
     ProgramFlow walk_;
@@ -62,8 +62,8 @@ struct ProgramCheck {
     std::int64_t moves = 0;         ///< traverses, feeds and arcs
     std::int64_t dwells = 0;
     bool ended = false;  ///< by M2 or M30
-    Point least = {};    ///< of all ends, machine coordinates; the start counts
-    Point greatest = {};
+    Point min = {};      ///< of all ends, machine coordinates; the start counts
+    Point max = {};
     double seconds_of_dwells = 0;
 };
 

@@ -214,7 +214,7 @@ std::string_view word_at(std::string_view text, std::size_t column) {
 
 void set_problem(Problem& problem, std::string_view text, std::size_t column, GrblStatus status, std::string message,
                  ErrorKind trouble) {
-    problem.trouble = trouble;
+    problem.kind = trouble;
     problem.message = std::move(message);
     problem.place = {0, static_cast<int>(column) + 1};
     problem.status = status;

@@ -42,7 +42,7 @@ constexpr bool probe_must(Probe probe) {
     return probe == Probe::contact || probe == Probe::release;
 }
 
-struct Step {
+struct CanonCall {
     CanonCallKind kind = CanonCallKind::move;
     Probe probe = Probe::none;  ///< of a move; the lines after it begin where the machine stands then:
                                 ///< Interpreter::set_probe_result()
@@ -63,7 +63,7 @@ struct Step {
 };
 
 /// Whether the machine stands still for it.
-constexpr bool needs_standstill(const Step& step) {
+constexpr bool needs_standstill(const CanonCall& step) {
     return step.kind == CanonCallKind::tool_change || step.kind == CanonCallKind::pause ||
            step.kind == CanonCallKind::end || step.kind == CanonCallKind::input ||
            (step.kind == CanonCallKind::output && !step.with_motion);

@@ -21,7 +21,7 @@ char upper(char c) {
 struct Slot {
     double* value = nullptr;
     std::int32_t* whole = nullptr;
-    std::int32_t greatest = 0;
+    std::int32_t max = 0;
 };
 
 Slot slot_of(char letter, Tool& tool) {
@@ -85,8 +85,8 @@ bool LineReader::word(const char*& at, const char* end) {
         *slot.value = number.value;
         return true;
     }
-    if (number.value < 0 || number.value > slot.greatest || number.value != std::floor(number.value))
-        return wrong(begin, fmt::format("{} is a whole number from 0 to {}", letter, slot.greatest));
+    if (number.value < 0 || number.value > slot.max || number.value != std::floor(number.value))
+        return wrong(begin, fmt::format("{} is a whole number from 0 to {}", letter, slot.max));
     *slot.whole = static_cast<std::int32_t>(number.value);
     return true;
 }
@@ -136,7 +136,7 @@ Result<ToolTable> read_tool_table(std::string_view text, const std::string& file
         else if (good && !table.put(reader.tool))
             reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", most_tools));
         if (!reader.problem.empty())
-            return fail(ErrorKind::bad_input, fmt::format("{}; the tool table was not taken", reader.problem),
+            return fail(ErrorKind::invalid_input, fmt::format("{}; the tool table was not taken", reader.problem),
                         {lines.number(), static_cast<int>(reader.column)}, file);
     }
     return table;

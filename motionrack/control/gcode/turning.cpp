@@ -25,7 +25,7 @@ class Path {
 
     PlanePoint at() const { return at_; }
     bool full() const { return moves_.size() > most_turning_moves; }
-    void rapid(PlanePoint to) { add(MoveKind::traverse, to, {}, 0); }
+    void rapid(PlanePoint to) { add(MoveKind::rapid, to, {}, 0); }
     /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
     void over(double highest, PlanePoint to) {
         if (std::min(at_.second, to.second) < highest - same_mm) {
@@ -305,10 +305,10 @@ std::string in_its_view(const LatheCycle& plan, const std::vector<ContourSegment
 
 }  // namespace
 
-std::string turn(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
-                 std::vector<LatheMove>& moves) {
+std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
+                             std::vector<LatheMove>& moves) {
     moves.clear();
-    if (std::string fault = round_corners(contour); !fault.empty()) return fault;
+    if (std::string fault = insert_fillets(contour); !fault.empty()) return fault;
     CuttingOrientation view;
     std::vector<ContourSegment> pieces, beside;
     if (std::string fault = in_its_view(plan, contour, view, pieces); !fault.empty()) return fault;

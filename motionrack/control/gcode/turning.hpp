@@ -61,8 +61,8 @@ inline constexpr std::size_t most_turning_moves = 1'000'000;
 
 /// `contour`: one piece or more, each from the end of the one before; the machine stands at `from`. Gives the moves; a
 /// sentence if there are none, and nothing is of use then.
-std::string turn(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
-                 std::vector<LatheMove>& moves);
+std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
+                             std::vector<LatheMove>& moves);
 
 // ---- what it is made of
 
@@ -82,7 +82,7 @@ struct CuttingOrientation {
 };
 
 /// Puts in the fillets and chamfers; from there on pieces have none.
-std::string round_corners(std::vector<ContourSegment>& contour);
+std::string insert_fillets(std::vector<ContourSegment>& contour);
 
 /// Cuts arcs where they are highest or lowest (`second`). A sentence if the contour goes back along `first` anywhere.
 std::string make_monotone(std::vector<ContourSegment>& contour, char axis);

@@ -74,7 +74,7 @@ std::string round_corner(ContourSegment& before, ContourSegment& after, ContourS
 
 }  // namespace
 
-std::string round_corners(std::vector<ContourSegment>& contour) {
+std::string insert_fillets(std::vector<ContourSegment>& contour) {
     std::vector<ContourSegment> out;
     for (std::size_t i = 0; i < contour.size(); ++i) {
         ContourSegment& piece = contour[i];

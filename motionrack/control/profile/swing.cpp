@@ -80,7 +80,7 @@ DoubleSSolver::DoubleSSolver(const BoundaryConditions& c, double top)
       end_foot_(c.end_speed - 0.5 * squared(c.end_accel)),
       rise_(c.change + 0.5 * (c.start_accel - c.end_accel) * (c.start_accel + c.end_accel)),
       both_(start_foot_ + end_foot_),
-      reach_(c.way - (c.end_speed * c.end_accel - cube_third(c.end_accel)) +
+      reach_(c.distance - (c.end_speed * c.end_accel - cube_third(c.end_accel)) +
              (c.start_speed * c.start_accel - cube_third(c.start_accel))),
       top_(top),
       least_(-c.end_accel) {
@@ -280,7 +280,7 @@ TimeOptimalSolution solve_time_optimal(const BoundaryConditions& given, double t
     const double last = direct.fall * (course.end_speed - direct.fall * (0.5 * b + direct.fall * (1.0 / 6)));
     const double speed = course.start_speed + direct.rise * (a + 0.5 * direct.rise);
     const double held = direct.hold * (speed + 0.5 * direct.hold * (a + direct.rise));
-    const double more = course.way - (first + held + last);
+    const double more = course.distance - (first + held + last);
     const double parts = std::fabs(first) + std::fabs(held) + std::fabs(last);
     const double speeds = std::fabs(course.start_speed) + std::fabs(course.end_speed);
     const double sensitive = speeds * speeds + (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b));

@@ -30,11 +30,15 @@ namespace motionrack::control {
 struct BoundaryConditions {
     double start_speed, start_accel;
     double end_speed, end_accel;
-    double way;
+    double distance;
     double change;  ///< of the speed: where two speeds are nearly equal, more exact than their difference here
 
-    BoundaryConditions mirrored() const { return {-start_speed, -start_accel, -end_speed, -end_accel, -way, -change}; }
-    BoundaryConditions backwards() const { return {-end_speed, end_accel, -start_speed, start_accel, -way, change}; }
+    BoundaryConditions mirrored() const {
+        return {-start_speed, -start_accel, -end_speed, -end_accel, -distance, -change};
+    }
+    BoundaryConditions backwards() const {
+        return {-end_speed, end_accel, -start_speed, start_accel, -distance, change};
+    }
 };
 
 /// Durations of the phases with jerk +1, 0, -1, 0, -1, 0, +1. Where there is no cruise, the first -1 lasts as both.

@@ -233,7 +233,8 @@ bool is_feasible_end(double speed, double accel, const KinematicLimits& limits) 
     return usable(limits) && ends_within(speed * scale.speed, accel * scale.accel, scale.top);
 }
 
-std::optional<AxisProfile> travel(const KinematicState& from, const KinematicState& to, const KinematicLimits& limits) {
+std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, const KinematicState& to,
+                                                const KinematicLimits& limits) {
     const Scale scale(limits);
     const double end_speed = to.speed * scale.speed;
     const double end_accel = std::clamp(to.accel * scale.accel, -1.0, 1.0);
@@ -251,8 +252,8 @@ std::optional<AxisProfile> travel(const KinematicState& from, const KinematicSta
     return out;
 }
 
-std::optional<AxisProfile> change_speed(const KinematicState& from, double speed, double accel,
-                                        const KinematicLimits& limits) {
+std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double speed, double accel,
+                                                   const KinematicLimits& limits) {
     const Scale scale(limits);
     const double end_speed = speed * scale.speed, end_accel = accel * scale.accel;
     if (!usable(limits) || !finite(from) || !ends_within(end_speed, end_accel, scale.top)) return std::nullopt;
@@ -263,8 +264,8 @@ std::optional<AxisProfile> change_speed(const KinematicState& from, double speed
     return out;
 }
 
-std::optional<AxisProfile> stop(const KinematicState& from, const KinematicLimits& limits) {
-    return change_speed(from, 0, 0, limits);
+std::optional<AxisProfile> stop_profile(const KinematicState& from, const KinematicLimits& limits) {
+    return velocity_change_profile(from, 0, 0, limits);
 }
 
 }  // namespace motionrack::control

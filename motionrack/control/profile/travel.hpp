@@ -89,16 +89,17 @@ bool is_feasible_end(double speed, double accel, const KinematicLimits& limits);
 /// down and may get slower than the limit. A target that the direct change of speed misses by no more than roundings of
 /// the numbers is reached by it. Nothing if the motion cannot end so (see is_feasible_end), a number is not finite or a
 /// limit is not > 0.
-std::optional<AxisProfile> travel(const KinematicState& from, const KinematicState& to, const KinematicLimits& limits);
+std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, const KinematicState& to,
+                                                const KinematicLimits& limits);
 
 /// The quickest change to a speed and an acceleration, wherever that is. An acceleration outside the limits is brought
 /// within first; a speed outside is left on the quickest way to the target. Nothing as for travel().
-std::optional<AxisProfile> change_speed(const KinematicState& from, double speed, double accel,
-                                        const KinematicLimits& limits);
+std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double speed, double accel,
+                                                   const KinematicLimits& limits);
 
 /// The quickest way to rest, wherever that is; as change_speed() to 0. Nothing if a number is not finite or a limit is
 /// not > 0.
-std::optional<AxisProfile> stop(const KinematicState& from, const KinematicLimits& limits);
+std::optional<AxisProfile> stop_profile(const KinematicState& from, const KinematicLimits& limits);
 
 inline ProfileSample AxisProfile::sample(double t) const {
     if (!(t > 0)) return {start_.position, start_.speed, start_.accel, count_ > 0 ? phases_[0].jerk : 0};

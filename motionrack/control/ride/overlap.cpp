@@ -43,7 +43,7 @@ Times times_about(const ProfileSegment& piece, double place) {
     Times out{0, piece.seconds};
     for (int i = 0; i < overlap_halvings; ++i) {
         const double middle = 0.5 * (out.before + out.after);
-        (piece.at(middle).place < place ? out.before : out.after) = middle;
+        (piece.at(middle).u < place ? out.before : out.after) = middle;
     }
     return out;
 }
@@ -113,7 +113,8 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
     if (in == 0 || out == 0) return true;
     const auto [in0, in1] = moment.in;
     const auto [out0, out1] = moment.out;
-    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_speed * (1 + overlap_rounding))
+    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) >
+        limits.max_velocity * (1 + overlap_rounding))
         return false;
     const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel),
                                                      std::fabs(in * in1.accel + out * out1.accel))

@@ -16,7 +16,7 @@ constexpr double most_parts = 64;
 
 }  // namespace
 
-CubicSegment part_of(const CubicSegment& piece, double from, double to) {
+CubicSegment sub_move(const CubicSegment& piece, double from, double to) {
     CubicSegment out = piece;
     out.begin = piece.begin + from;
     out.length = to - from;

@@ -7,7 +7,7 @@
 namespace motionrack::control {
 
 /// The piece from x = `from` to `to`.
-CubicSegment part_of(const CubicSegment& piece, double from, double to);
+CubicSegment sub_move(const CubicSegment& piece, double from, double to);
 
 /// Into how many parts a piece is cut, so that the limits on each are nearly the same all over it: where a curvature
 /// takes a good part of an axis' acceleration, and the motion on it lasts long enough for the speed to change.
@@ -18,7 +18,7 @@ template <typename Use>
 void for_each_subsegment(const CubicSegment& piece, const MachineLimits& limits, const Use& use) {
     const int count = subdivision_count(piece, limits);
     if (count == 1) return use(piece);
-    for (int k = 0; k < count; ++k) use(part_of(piece, piece.length * k / count, piece.length * (k + 1) / count));
+    for (int k = 0; k < count; ++k) use(sub_move(piece, piece.length * k / count, piece.length * (k + 1) / count));
 }
 
 }  // namespace motionrack::control

@@ -15,8 +15,8 @@ constexpr double share_of_bend = 0.7;
 constexpr double no_limit = 1e300;
 
 struct Range {
-    double least, most;
-    double greatest() const { return std::max(-least, most); }
+    double min, most;
+    double max() const { return std::max(-min, most); }
 };
 
 /// Of a tangent over the piece: a parabola, whose ends or whose summit it is.
@@ -26,7 +26,7 @@ Range tangents_of(double tangent, double curvature, double curvature_rate, doubl
     const double summit = curvature_rate != 0 ? -curvature / curvature_rate : -1;
     if (summit > 0 && summit < length) {
         const double there = tangent + 0.5 * curvature * summit;
-        out = {std::min(out.least, there), std::max(out.most, there)};
+        out = {std::min(out.min, there), std::max(out.most, there)};
     }
     return out;
 }
@@ -35,10 +35,9 @@ AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, s
     const double end = piece.curvature[i] + piece.curvature_rate[i] * piece.length;
     const Range bends{std::min(piece.curvature[i], end), std::max(piece.curvature[i], end)};
     // With the tangent's sign a curvature takes from speeding up; against it from slowing down.
-    const bool with = (tangents.most > 0 && bends.most > 0) || (tangents.least < 0 && bends.least < 0);
-    const bool against = (tangents.most > 0 && bends.least < 0) || (tangents.least < 0 && bends.most > 0);
-    const double tangent = tangents.greatest(), curvature = bends.greatest(),
-                 jerk = piece.jerk_share * effective_jerk(limits);
+    const bool with = (tangents.most > 0 && bends.most > 0) || (tangents.min < 0 && bends.min < 0);
+    const bool against = (tangents.most > 0 && bends.min < 0) || (tangents.min < 0 && bends.most > 0);
+    const double tangent = tangents.max(), curvature = bends.max(), jerk = piece.jerk_share * effective_jerk(limits);
     AxisSegmentLimits axis;
     axis.tangent = tangent / limits.max_accel;
     axis.curvature = curvature / limits.max_accel;
@@ -55,9 +54,9 @@ AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, s
 SegmentLimits::SegmentLimits(const CubicSegment& piece, const MachineLimits& limits) : speed(piece.feed) {
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const Range tangents = tangents_of(piece.tangent[i], piece.curvature[i], piece.curvature_rate[i], piece.length);
-        if (tangents.greatest() == 0) continue;
+        if (tangents.max() == 0) continue;
         const AxisSegmentLimits axis = axes[count++] = axis_on(piece, limits[i], i, tangents);
-        speed = std::min(speed, limits[i].max_speed / tangents.greatest());
+        speed = std::min(speed, limits[i].max_velocity / tangents.max());
         if (axis.curvature > 0) speed = std::min(speed, std::sqrt(accel_of_bend / axis.curvature));
         curvature_rate = std::max(curvature_rate, axis.jerk_twist);
         straight = straight && axis.curvature == 0 && axis.jerk_twist == 0;

@@ -10,7 +10,7 @@ TrajectoryPoint SectionSampler::at(double seconds) {
     const auto& curve = stretch_.curve;
     while (feed_ + 1 < feed.size() && seconds > feed_begin_ + feed[feed_].seconds) feed_begin_ += feed[feed_++].seconds;
     const PathMotion along = feed[feed_].at(std::clamp(seconds - feed_begin_, 0.0, feed[feed_].seconds));
-    while (piece_ + 1 < curve.size() && along.place > curve[piece_ + 1].begin) ++piece_;
+    while (piece_ + 1 < curve.size() && along.u > curve[piece_ + 1].begin) ++piece_;
     TrajectoryPoint out = trajectory_point(curve[piece_], along);
     if (seconds < stretch_.overlap) add_overlap(out, stretch_.before, stretch_.overlap - seconds);
     return out;

@@ -112,26 +112,26 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     const TrajectoryPoint end = rider_.at(seconds);
     const double length = size_of(between(place_, end.place));
     if (length < smallest_move && size_of(end.speed) > 0) {  // where it turns round
-        rider_.pass(seconds);
+        rider_.advance(seconds);
         return pull(planned, early);
     }
     planned.number = rider_.move_of(begin);
     const TrajectoryMove& move = rider_.move(planned.number);
     planned.move = move.move;
     if (uses_auxiliary_axis(move.axes)) planned.axes = move.axes;
-    if (planned.move.kind != MoveKind::traverse) planned.move.kind = MoveKind::feed;
+    if (planned.move.kind != MoveKind::rapid) planned.move.kind = MoveKind::feed;
     planned.move.end = end.place;
     const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
     planned.length = length;
-    planned.entry = speed_in;
-    planned.cruise = std::max(speed_in, speed_out);
-    planned.exit = speed_out;
+    planned.entry_velocity = speed_in;
+    planned.cruise_velocity = std::max(speed_in, speed_out);
+    planned.exit_velocity = speed_out;
     planned.accel = std::max(
         std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, min_length_mm)), least_accel);
-    planned.even = true;
-    planned.move.feed = planned.cruise;
+    planned.constant_accel = true;
+    planned.move.feed = planned.cruise_velocity;
     place_ = end.place;
-    rider_.pass(seconds);
+    rider_.advance(seconds);
     return true;
 }
 
@@ -145,18 +145,18 @@ double TrajectoryInterpolator::seconds_of_next() const {
     double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
     for (; seconds >= 2 * shortest; seconds *= shorter) {
         const ApproximationError is = roughness_of(begin, seconds);
-        if (is.turn <= jump_share && (is.off <= off_pulses || seconds < 2 * least)) break;
-        if (noise_left * is.half_pulse > std::max(is.turn, least_noise)) break;
+        if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * least)) break;
+        if (noise_left * is.quantisation > std::max(is.velocity_step, least_noise)) break;
     }
     // No crumb before the end.
     const double left = rider_.left();
     if (left - seconds >= 0.5 * seconds) return snap_to_pulses(begin, seconds);
-    return left < 2 * shortest || roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
+    return left < 2 * shortest || roughness_of(begin, left).velocity_step <= jump_share ? left : 0.5 * left;
 }
 
 /// A little earlier the path may pass nearer to a place on whole pulses.
 double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, double seconds) const {
-    if (roughness_of(begin, seconds).half_pulse <= least_noise) return seconds;
+    if (roughness_of(begin, seconds).quantisation <= least_noise) return seconds;
     double best = seconds, least_off = 1;
     for (int k = 0; k < tries && least_off > near_enough; ++k) {
         const double time = seconds * (1 - earliest * k / tries),
@@ -199,15 +199,17 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
     const double per_square = square > 0 ? 1 / square : 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
         if (!limits_[i].present) continue;
-        const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].start_speed;
-        out.off = std::max(out.off, std::fabs((along - even) * per_square * way[i]) * pulses);
-        out.turn = std::max({out.turn, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
-        if (way[i] != 0) out.half_pulse = std::max(out.half_pulse, 0.5 / (pulses * seconds * jump));
+        const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].max_velocity_step;
+        out.chord_error = std::max(out.chord_error, std::fabs((along - even) * per_square * way[i]) * pulses);
+        out.velocity_step =
+            std::max({out.velocity_step, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
+        if (way[i] != 0) out.quantisation = std::max(out.quantisation, 0.5 / (pulses * seconds * jump));
     }
-    out.off = std::max(out.off, beside(way, per_square, gone));
+    out.chord_error = std::max(out.chord_error, beside(way, per_square, gone));
     for (const double part : {0.25, 0.75})
-        if (out.off <= off_pulses)
-            out.off = std::max(out.off, beside(way, per_square, between(begin.place, rider_.at(part * seconds).place)));
+        if (out.chord_error <= off_pulses)
+            out.chord_error = std::max(out.chord_error,
+                                       beside(way, per_square, between(begin.place, rider_.at(part * seconds).place)));
     return out;
 }
 

@@ -43,9 +43,9 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
   private:
     /// What a move from one instant to another costs.
     struct ApproximationError {
-        double off = 0;         ///< pulses beside its path, or early or late on it
-        double turn = 0;        ///< jump at its joint with the next, in start speeds
-        double half_pulse = 0;  ///< the jump of a speed that is half a pulse wrong
+        double chord_error = 0;    ///< pulses beside its path, or early or late on it
+        double velocity_step = 0;  ///< jump at its joint with the next, in start speeds
+        double quantisation = 0;   ///< the jump of a speed that is half a pulse wrong
     };
 
     bool has_to_rest(const Geometry& path, std::uint8_t axes) const;

@@ -4,9 +4,9 @@
 namespace motionrack::control {
 
 TrajectoryPoint trajectory_point(const CubicSegment& piece, const PathMotion& along) {
-    const double x = std::clamp(along.place - piece.begin, 0.0, piece.length);
+    const double x = std::clamp(along.u - piece.begin, 0.0, piece.length);
     TrajectoryPoint out;
-    out.u = along.place;
+    out.u = along.u;
     out.line = piece.line;
     out.place = position_on(piece, x);
     const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
@@ -24,7 +24,7 @@ void add_overlap(TrajectoryPoint& state, const SectionRamp& end, double seconds)
     while (i > 0 && seconds > end.feed[i].seconds) seconds -= end.feed[i--].seconds;
     const ProfileSegment& piece = end.feed[i];
     const PathMotion along = piece.at(std::max(0.0, piece.seconds - seconds));
-    const double left = end.feed.back().begin + end.feed.back().length - along.place;
+    const double left = end.feed.back().begin + end.feed.back().length - along.u;
     for (std::size_t k = 0; k < state.place.size(); ++k) {
         const double tangent = end.curve.tangent[k];
         state.place[k] -= tangent * left;

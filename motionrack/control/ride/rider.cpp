@@ -183,7 +183,7 @@ void TrajectoryGenerator::begin() {
     for (std::size_t i = piece_; i < now_.curve.size(); ++i) set_feed(now_, i);
     PlanCursor here;
     here.piece = piece_;
-    here.along.place = place_;
+    here.along.u = place_;
     plan_to_end(here.piece, here.along);
     take(here, 0, now_.known());
 }
@@ -233,7 +233,7 @@ TrajectoryGenerator::PlanCursor TrajectoryGenerator::spot_at(double seconds) con
         out.on_feed -= now_.feed[out.feed++].seconds;
     out.along = now_.feed[out.feed].at(std::clamp(out.on_feed, 0.0, now_.feed[out.feed].seconds));
     if (seconds >= left_) out.along = {now_.planned_to, 0, out.along.accel, out.along.jerk};
-    out.piece = piece_at(out.along.place, out.piece);
+    out.piece = piece_at(out.along.u, out.piece);
     return out;
 }
 
@@ -251,7 +251,7 @@ TrajectoryPoint TrajectoryGenerator::at(double seconds) const {
     return out;
 }
 
-void TrajectoryGenerator::pass(double seconds) {
+void TrajectoryGenerator::advance(double seconds) {
     before_left_ = std::max(0.0, before_left_ - seconds);
     retry_delay_s_ = std::max(0.0, retry_delay_s_ - seconds);
     if (seconds >= left()) {
@@ -268,7 +268,7 @@ void TrajectoryGenerator::pass(double seconds) {
     feed_ = spot.feed;
     on_feed_ = spot.on_feed;
     piece_ = spot.piece;
-    place_ = spot.along.place;
+    place_ = spot.along.u;
     left_ -= seconds;
     drop_passed();
 }

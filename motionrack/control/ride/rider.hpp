@@ -63,7 +63,7 @@ class TrajectoryGenerator {
     /// `seconds` from now, 0 .. left().
     TrajectoryPoint at(double seconds) const;
     /// The motion has gone on for so long, 0 .. left().
-    void pass(double seconds);
+    void advance(double seconds);
 
     // ---- a dwell
     /// What is left of it.

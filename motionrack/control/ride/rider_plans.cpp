@@ -47,7 +47,7 @@ void TrajectoryGenerator::take(const PlanCursor& from, double seconds, double to
         now_.feed.erase(now_.feed.begin(), now_.feed.begin() + static_cast<std::ptrdiff_t>(feed_));
         now_.feed.resize(from.feed - feed_ + 1);
         ProfileSegment& last = now_.feed.back();
-        last.length = from.along.place - last.begin;
+        last.length = from.along.u - last.begin;
         last.seconds = from.on_feed;
     } else {
         now_.feed.clear();
@@ -74,14 +74,14 @@ void TrajectoryGenerator::measure() {
 bool TrajectoryGenerator::plan_to_end(std::size_t piece, const PathMotion& along) {
     const auto first = static_cast<std::ptrdiff_t>(piece);
     return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()},
-                         {now_.use.begin() + first, now_.use.end()}, along.place, now_.known());
+                         {now_.use.begin() + first, now_.use.end()}, along.u, now_.known());
 }
 
 /// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not
 /// known how fast they are.
 bool TrajectoryGenerator::extend_plan() {
     const PlanCursor from = spot_at(before_left_);
-    const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.place;
+    const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.u;
     for (std::size_t i = from.piece; i < now_.curve.size(); ++i)
         if (holding_ || now_.curve[i].begin + now_.curve[i].length > slows_at) set_feed(now_, i);
     if (!plan_to_end(from.piece, from.along)) return false;
@@ -115,7 +115,7 @@ SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& 
 /// The nearest place to stand at that is found: a plan to it is the planner's last.
 std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     const InitialPathState start = start_of(from.along);
-    const double begin = from.along.place, most = now_.planned_to - begin;
+    const double begin = from.along.u, most = now_.planned_to - begin;
     double planned = -1;  // how far the planner's last plan goes; below 0: it found none
     std::vector<SegmentTuning> use;
     std::size_t k = feed_;
@@ -165,7 +165,7 @@ bool TrajectoryGenerator::apply_overrides() {
         stop.assign(planner_.feed().begin(), planner_.feed().end());
     }
     KnownSection part = with_feeds(from, stop);
-    if (!planner_.plan(start_of(from.along), part.curve, part.use, from.along.place, now_.known())) {
+    if (!planner_.plan(start_of(from.along), part.curve, part.use, from.along.u, now_.known())) {
         ease_ = std::min(ease_grows * ease_, most_ease);
         return false;
     }
@@ -174,7 +174,7 @@ bool TrajectoryGenerator::apply_overrides() {
         column.insert(column.end(), by.begin(), by.end());
     };
     CubicSegment& passed = now_.curve[from.piece];
-    passed.length = from.along.place - passed.begin;
+    passed.length = from.along.u - passed.begin;
     replace(now_.curve, part.curve);
     replace(now_.programmed, part.programmed);
     replace(now_.use, part.use);
@@ -189,11 +189,11 @@ bool TrajectoryGenerator::apply_overrides() {
 TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCursor& from,
                                                                   std::span<const ProfileSegment> stop) const {
     KnownSection out;
-    double at = from.along.place;
+    double at = from.along.u;
     std::size_t i = from.piece;
     const auto end_of = [&] { return now_.curve[i].begin + now_.curve[i].length; };
     const auto add = [&](double to, double speed) {
-        out.curve.push_back(part_of(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin));
+        out.curve.push_back(sub_move(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin));
         out.programmed.push_back(now_.programmed[i]);
         out.use.emplace_back();
         set_feed(out, out.curve.size() - 1, speed);
@@ -204,7 +204,7 @@ TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCurs
     const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
         const double speed = faster * stop[std::max(k, fastest)].at(0).speed,
-                     to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
+                     to = from.along.u + ease_ * (stop[k].begin + stop[k].length - from.along.u);
         for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
             if (end_of() > at) add(end_of(), speed);
         if (to > at && to < end_of()) add(to, speed);

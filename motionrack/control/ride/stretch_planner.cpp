@@ -72,7 +72,7 @@ void SectionPlanner::compute_reachable_velocities(const InitialPathState& start)
         const double most = std::min(most_[i], most_[i == 0 ? 0 : i - 1]);
         squares_[i] = std::min(most * most, pieces_[i].velocity2_before(squares_[i + 1], spans_[i].length));
     }
-    squares_[0] = start.square;
+    squares_[0] = start.velocity2;
     for (std::size_t i = 0; i < n; ++i) {
         const double length = spans_[i].length, up = pieces_[i].velocity2_after(squares_[i], length);
         squares_[i + 1] = std::min(squares_[i + 1], up);

@@ -157,7 +157,7 @@ TEST(GcodeCutter, EventsStayInOrderWithTheMoves) {
     const auto program = read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20 Y0\nM8\nG4 P1\nZ-1\nM0\nY-30\nM5\nM2\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     std::string order;
-    for (const Step& step : program.steps) {
+    for (const CanonCall& step : program.steps) {
         if (step.kind == CanonCallKind::move)
             order += step.move.kind == MoveKind::dwell ? 'd' : step.move.kind == MoveKind::arc ? 'a' : 'm';
         else

@@ -109,14 +109,14 @@ TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
             return std::string("%\no<hole> sub\nX#1\no<deeper> call [#1 + 1]\nX[#1 + 2]\no<hole> endsub\n%\n");
         if (name == "deeper") return std::string("(a comment)\no<deeper> sub\nX#1\nX1e9\no<deeper> endsub\n");
         if (name == "empty") return std::string("X1\n");
-        return fail(ErrorKind::bad_input, "there is no such file");
+        return fail(ErrorKind::invalid_input, "there is no such file");
     };
     settings.start_in_g0 = true;
     const auto read = testing::read(
         "X0\no<hole> call [5]\no<HOLE> call [7]\nX1\no<none> call\no<empty> call\no<../up> call\n", settings);
     std::vector<double> at;
     std::vector<int> lines;
-    for (const Step& step : read.steps) at.push_back(step.move.end[0]), lines.push_back(step.line);
+    for (const CanonCall& step : read.steps) at.push_back(step.move.end[0]), lines.push_back(step.line);
     EXPECT_THAT(at, ElementsAre(0, 5, 6, 7, 7, 8, 9, 1));
     EXPECT_THAT(lines, ElementsAre(1, 2, 2, 2, 3, 3, 3, 4)) << "moves of another file have the line of the call";
     EXPECT_THAT(asked, ElementsAre("hole", "deeper", "none", "empty")) << "each file is read once";

@@ -87,7 +87,7 @@ TEST(GcodeExpressions, GiveWordsOfAllKindsTheirValues) {
     ASSERT_EQ(moves.size(), 2u);
     EXPECT_EQ(moves[0].kind, MoveKind::feed);
     EXPECT_EQ(moves[0].feed, 2);
-    EXPECT_EQ(moves[1].kind, MoveKind::traverse);
+    EXPECT_EQ(moves[1].kind, MoveKind::rapid);
     EXPECT_EQ(moves[1].path, PathControl::exact_stop);
     EXPECT_EQ(moves[1].end[0], 1);
     EXPECT_EQ(good.steps.back().kind, CanonCallKind::spindle);

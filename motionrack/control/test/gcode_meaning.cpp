@@ -136,7 +136,7 @@ TEST(GcodeReader, StartsInG0WhereTheSettingsSaySo) {
     settings.start_in_g0 = true;
     const auto moves = read("X5", settings).moves();
     ASSERT_EQ(moves.size(), 1u);
-    EXPECT_EQ(moves[0].kind, MoveKind::traverse);
+    EXPECT_EQ(moves[0].kind, MoveKind::rapid);
 }
 
 TEST(GcodeReader, M2PutsTheStateBackOnceItsMovesAreDone) {
@@ -146,7 +146,7 @@ TEST(GcodeReader, M2PutsTheStateBackOnceItsMovesAreDone) {
     EXPECT_EQ(interpreter.modes().system, 1);
     while (interpreter.pull() != nullptr) {
     }
-    const Modes& modes = interpreter.modes();
+    const ModalState& modes = interpreter.modes();
     EXPECT_TRUE(modes.ended);
     EXPECT_EQ(modes.system + modes.plane + modes.incremental + modes.flood, 0);
     EXPECT_EQ(modes.motion, 10);

@@ -61,13 +61,13 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
         if (name == "2000") return std::string("X66\nO2000\nX7\nX1e9\nM98 P3\nM99\nO3\nX3\nM99\n");
         if (name == "4") return std::string("X1\n");
         if (name == "6") return std::string("\nO6\nX1\n");
-        return fail(ErrorKind::bad_input, "there is no such file");
+        return fail(ErrorKind::invalid_input, "there is no such file");
     };
     EXPECT_THAT(problem_numbered("M98 P2000", settings).file, "2000.ngc");
     settings.start_in_g0 = true;
     const auto read = testing::read("X1\nM98 P2000 L2\nX2\n", settings);
     std::vector<std::string> moves;
-    for (const Step& step : read.steps)
+    for (const CanonCall& step : read.steps)
         moves.push_back(std::to_string(static_cast<int>(step.move.end[0])) + "@" + std::to_string(step.line));
     EXPECT_THAT(moves, ElementsAre("1@1", "7@2", "3@2", "7@2", "3@2", "2@3"));
     EXPECT_THAT(problem_numbered("M98 P4", settings).message, HasSubstr("M98 P4: 4.ngc has no O4"));

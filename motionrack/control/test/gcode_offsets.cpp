@@ -213,16 +213,16 @@ TEST(GcodeWorkSystems, TurnArcsAndCyclesOfTheirPlane) {
 }
 
 RC_GTEST_PROP(GcodeWorkSystems, TurnBackAndForth, ()) {
-    Frame frame;
+    WorkFrame frame;
     for (Point* point : {&frame.work[0], &frame.g92, &frame.tool})
         for (double& value : *point) value = *rc::gen::inRange(-1000, 1000) / 8.0;
-    frame.turn[0] = *rc::gen::inRange(-7200, 7200) / 10.0;
+    frame.rotation_deg[0] = *rc::gen::inRange(-7200, 7200) / 10.0;
     frame.activate(0);
     Point there = {};
     for (double& value : there) value = *rc::gen::inRange(-1000, 1000) / 8.0;
     const Point back = frame.to_program(frame.to_machine(there));
     for (int axis = 0; axis < axis_count; ++axis) RC_ASSERT(std::fabs(back[axis] - there[axis]) < 1e-10);
-    const long double angle = static_cast<long double>(frame.turn[0]) / 180 * std::acos(-1.0L);
+    const long double angle = static_cast<long double>(frame.rotation_deg[0]) / 180 * std::acos(-1.0L);
     const long double x = there[0] + frame.g92[0], y = there[1] + frame.g92[1];
     const long double wanted = std::cos(angle) * x - std::sin(angle) * y + frame.work[0][0] + frame.tool[0];
     RC_ASSERT(std::fabs(static_cast<double>(wanted) - frame.to_machine(there)[0]) < 1e-10);

@@ -22,7 +22,7 @@ std::vector<std::string> told(const std::string& program) {
         text.erase(text.find_last_not_of('0') + 1);
         return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
     };
-    for (const Step& step : read.steps) {
+    for (const CanonCall& step : read.steps) {
         const std::string port = (step.analog ? " E" : " P") + std::to_string(step.port) + ' ' + number(step.value);
         if (step.kind == CanonCallKind::output) out.push_back("out" + port + (step.with_motion ? " moving" : ""));
         if (step.kind == CanonCallKind::input) out.push_back("in" + port);
@@ -63,7 +63,7 @@ TEST(GcodePorts, SayWhetherTheMachineStandsStillForThem) {
     const auto read = testing::read("M62 P1\nM67 E1 Q1\nM3 S1\nM49\nM64 P1\nM68 E1 Q1\nM66 P1\n");
     ASSERT_EQ(read.problems.size(), 0u);
     std::string rests;
-    for (const Step& step : read.steps) rests += needs_standstill(step) ? 'r' : '-';
+    for (const CanonCall& step : read.steps) rests += needs_standstill(step) ? 'r' : '-';
     EXPECT_EQ(rests, "-----rrr");
 }
 

@@ -240,7 +240,7 @@ TEST(GcodeReader, AfterAProblemNothingOfTheLineHasTakenEffect) {
         EXPECT_EQ(interpreter.position(), (Point{1, 0, 0, 0, 0, 0}));
         EXPECT_EQ(interpreter.frame().offset, Point{});
         EXPECT_EQ(interpreter.frame().g28, Point{});
-        const Modes& modes = interpreter.modes();
+        const ModalState& modes = interpreter.modes();
         EXPECT_EQ(modes.motion, 10);
         EXPECT_EQ(modes.plane + modes.system + modes.inch + modes.incremental + modes.inverse_time + modes.flood, 0);
         EXPECT_EQ(modes.path, PathControl::continuous);
@@ -252,7 +252,7 @@ TEST(GcodeReader, AfterAProblemNothingOfTheLineHasTakenEffect) {
         EXPECT_FALSE(modes.ended);
     }
     ASSERT_TRUE(interpreter.line("X2", 3));
-    const Step* step = interpreter.pull();
+    const CanonCall* step = interpreter.pull();
     ASSERT_NE(step, nullptr);
     EXPECT_EQ(step->move.kind, MoveKind::feed);
     EXPECT_EQ(step->move.end[0], 2);
@@ -267,7 +267,7 @@ TEST(GcodeCheck, CollectsProblemsUpToANumber) {
     EXPECT_EQ(all.problems[2].place, (Place{5, 1}));
     EXPECT_EQ(all.moves, 3);
     EXPECT_EQ(all.lines, 6);
-    EXPECT_EQ(all.greatest[0], 3);
+    EXPECT_EQ(all.max[0], 3);
     EXPECT_FALSE(all.more_problems);
     const ProgramCheck two = check_program(text, testing::machine(), 2);
     EXPECT_EQ(two.problems.size(), 2u);

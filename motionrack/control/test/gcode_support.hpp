@@ -26,12 +26,12 @@ inline Settings machine(std::string_view axes = "XYZABC", double reach = 500) {
 }
 
 struct Program {
-    std::vector<Step> steps;
+    std::vector<CanonCall> steps;
     std::vector<Problem> problems;
 
     std::vector<Move> moves() const {
         std::vector<Move> out;
-        for (const Step& step : steps) {
+        for (const CanonCall& step : steps) {
             if (step.kind == CanonCallKind::move) out.push_back(step.move);
         }
         return out;

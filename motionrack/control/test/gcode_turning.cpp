@@ -123,7 +123,7 @@ std::string cut(const CuttingOrientation& view, LatheCycle plan, std::vector<Con
     plan.start = view.out(start);
     if (view.swapped && plan.code != 700) plan.code = static_cast<std::int16_t>(plan.code + 10);
     std::vector<LatheMove> moves;
-    std::string fault = turn(plan, contour, plan.start, moves);
+    std::string fault = make_lathe_moves(plan, contour, plan.start, moves);
     PlanePoint at = start;
     out.clear();
     for (LatheMove move : moves) {
@@ -149,7 +149,7 @@ double left_at(const std::vector<Moved>& moves, std::size_t count, double along)
     double height = top;
     for (std::size_t i = 0; i < count; ++i) {
         const Moved& one = moves[i];
-        if (one.move.kind == MoveKind::traverse) continue;
+        if (one.move.kind == MoveKind::rapid) continue;
         if (const auto here = height_at(one.from, one.move.to, one.move.turns, one.move.centre, along))
             height = std::min(height, *here);
     }
@@ -187,7 +187,7 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
                 std::fabs(moves[i].move.to.first - moves[i].from.first) < near)
                 continue;
             const double left = left_at(moves, i, p.first);
-            if (moves[i].move.kind == MoveKind::traverse)
+            if (moves[i].move.kind == MoveKind::rapid)
                 RC_ASSERT(p.second >= left - rough);
             else
                 RC_ASSERT(left - p.second <= plan.depth + rough);

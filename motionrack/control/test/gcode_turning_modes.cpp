@@ -17,7 +17,7 @@ TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
         std::vector<ContourSegment> contour(2);
         contour[0] = {{0, 10}, {-10, 10}, 0, {}, radius, chamfer, 1};
         contour[1] = {{-10, 10}, {-10, 20}, 0, {}, 0, false, 2};
-        EXPECT_EQ(round_corners(contour), "");
+        EXPECT_EQ(insert_fillets(contour), "");
         return contour;
     };
     const auto fillet = pieces(2, false), chamfer = pieces(2, true);
@@ -32,7 +32,7 @@ TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     std::vector<ContourSegment> straight(2);
     straight[0] = {{0, 10}, {-10, 10}, 0, {}, 2, false, 1};
     straight[1] = {{-10, 10}, {-20, 10}, 0, {}, 0, false, 2};
-    EXPECT_THAT(round_corners(straight), ::testing::HasSubstr("does not turn at the end of line 1"));
+    EXPECT_THAT(insert_fillets(straight), ::testing::HasSubstr("does not turn at the end of line 1"));
 }
 
 TEST(GcodeTurning, TheMachineStandsAtTheEndAndModesAreThoseOfTheProgram) {
@@ -44,7 +44,7 @@ TEST(GcodeTurning, TheMachineStandsAtTheEndAndModesAreThoseOfTheProgram) {
     EXPECT_EQ(moves.back().end[0], 26) << "what the contour sets is not kept";
     EXPECT_EQ(moves.back().end[2], -30);
     int events = 0;
-    for (const Step& step : read.steps) {
+    for (const CanonCall& step : read.steps) {
         events += step.kind != CanonCallKind::move;
         if (step.kind == CanonCallKind::move && step.move.kind == MoveKind::feed) {
             EXPECT_EQ(step.move.feed, 10);

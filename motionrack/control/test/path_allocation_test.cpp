@@ -76,9 +76,9 @@ TEST(AxisProfile, TakesNoMemory) {
     const std::uint64_t before = allocations();
     for (int i = 0; i < 5000; ++i) {
         const KinematicState from = {0, 30.0 - i % 61, 0.1 * (i % 997)};
-        if (const auto out = travel(from, {0.01 * (i - 2500), 0.02 * (i % 1000), 0}, limits))
+        if (const auto out = time_optimal_profile(from, {0.01 * (i - 2500), 0.02 * (i % 1000), 0}, limits))
             seconds += out->duration();
-        if (const auto out = stop(from, limits)) seconds += out->sample(0.01).position;
+        if (const auto out = stop_profile(from, limits)) seconds += out->sample(0.01).position;
     }
     EXPECT_EQ(allocations(), before);
     EXPECT_GT(seconds, 5);

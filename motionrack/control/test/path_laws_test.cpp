@@ -71,7 +71,7 @@ class Maker {
             move.end[1] += step * along.sin;
             if (one_of(3) == 0) move.end[2] += between(-step, step);
             if (one_of(6) == 0) move.end[4] += between(-5, 5);
-            if (one_of(8) == 0) move.kind = MoveKind::traverse;
+            if (one_of(8) == 0) move.kind = MoveKind::rapid;
             if (one_of(8) == 0) move.feed_mode = FeedMode::inverse_time;
         }
     }
@@ -115,13 +115,14 @@ std::vector<PlannedMove> plan(const MachineLimits& limits, const std::vector<Mov
 void keeps_the_limits_inside(const MachineLimits& limits, const PlannedMove& planned) {
     const Geometry path = geometry_of(planned.move, planned.start);
     RC_ASSERT(planned.length == path.length);
-    RC_ASSERT(planned.entry <= planned.cruise);
-    RC_ASSERT(planned.exit <= planned.cruise);
-    if (planned.move.kind != MoveKind::traverse) {
+    RC_ASSERT(planned.entry_velocity <= planned.cruise_velocity);
+    RC_ASSERT(planned.exit_velocity <= planned.cruise_velocity);
+    if (planned.move.kind != MoveKind::rapid) {
         const bool inverse = planned.move.feed_mode == FeedMode::inverse_time;
-        RC_ASSERT(planned.cruise <= planned.move.feed * (inverse ? path.length : 1) * law_slack);
+        RC_ASSERT(planned.cruise_velocity <= planned.move.feed * (inverse ? path.length : 1) * law_slack);
     }
-    const double change = std::fabs(planned.exit * planned.exit - planned.entry * planned.entry);
+    const double change =
+        std::fabs(planned.exit_velocity * planned.exit_velocity - planned.entry_velocity * planned.entry_velocity);
     RC_ASSERT(change <= 2 * planned.accel * planned.length * law_slack + 1e-12);
     const double h = path.length * 1e-5;
     for (int k = 0; k <= 16; ++k) {
@@ -130,8 +131,8 @@ void keeps_the_limits_inside(const MachineLimits& limits, const PlannedMove& pla
         const Point before = tangent_at(path, s - h);
         const Point after = tangent_at(path, s + h);
         for (int i = 0; i < axis_count; ++i) {
-            RC_ASSERT(std::fabs(here[i]) * planned.cruise <= limits[i].max_speed * law_slack);
-            const double pull = planned.cruise * planned.cruise * (after[i] - before[i]) / (2 * h);
+            RC_ASSERT(std::fabs(here[i]) * planned.cruise_velocity <= limits[i].max_velocity * law_slack);
+            const double pull = planned.cruise_velocity * planned.cruise_velocity * (after[i] - before[i]) / (2 * h);
             for (const double along : {planned.accel, 0.0, -planned.accel}) {
                 RC_ASSERT(std::fabs(along * here[i] + pull) <= limits[i].max_accel * (1 + 1e-6));
             }
@@ -140,26 +141,26 @@ void keeps_the_limits_inside(const MachineLimits& limits, const PlannedMove& pla
 }
 
 void keeps_the_limits_between(const MachineLimits& limits, const PlannedMove& before, const PlannedMove& after) {
-    RC_ASSERT(before.exit == after.entry);
+    RC_ASSERT(before.exit_velocity == after.entry_velocity);
     RC_ASSERT(before.move.end == after.start);
     if (before.move.path == PathControl::exact_stop || before.length == 0 || after.length == 0)
-        RC_ASSERT(before.exit == 0);
-    if (before.exit == 0) return;
+        RC_ASSERT(before.exit_velocity == 0);
+    if (before.exit_velocity == 0) return;
     const Point out = geometry_of(before.move, before.start).tangent_out;
     const Point in = geometry_of(after.move, after.start).tangent_in;
     double size = 1;
     for (int i = 3; i < axis_count; ++i) size += std::fabs(in[i]) + std::fabs(out[i]);
     for (int i = 0; i < axis_count; ++i) {
-        const double unseen = tangent_angle_rad * (i < 3 ? 1 : size) * before.exit;
-        const double allowed = before.move.path == PathControl::continuous ? limits[i].start_speed : 0;
-        RC_ASSERT(std::fabs(in[i] - out[i]) * before.exit <= std::max(allowed, unseen) * law_slack);
+        const double unseen = tangent_angle_rad * (i < 3 ? 1 : size) * before.exit_velocity;
+        const double allowed = before.move.path == PathControl::continuous ? limits[i].max_velocity_step : 0;
+        RC_ASSERT(std::fabs(in[i] - out[i]) * before.exit_velocity <= std::max(allowed, unseen) * law_slack);
     }
 }
 
 void keeps_the_limits(const MachineLimits& limits, const std::vector<PlannedMove>& out) {
     if (out.empty()) return;
-    RC_ASSERT(out.front().entry == 0);
-    RC_ASSERT(out.back().exit == 0);
+    RC_ASSERT(out.front().entry_velocity == 0);
+    RC_ASSERT(out.back().exit_velocity == 0);
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (out[i].length > 0) keeps_the_limits_inside(limits, out[i]);
         if (i > 0) keeps_the_limits_between(limits, out[i - 1], out[i]);
@@ -209,7 +210,7 @@ RC_GTEST_PROP(PlannerLaws, AWindowThatHoldsTheProgramFindsWhatFullPassesFind, ()
     const MachineLimits limits = maker.machine();
     const auto out = plan(limits, maker.program(count), 1024);
     const auto entries = entries_by_full_passes(limits, out);
-    for (std::size_t i = 0; i < out.size(); ++i) RC_ASSERT(std::fabs(out[i].entry - entries[i]) <= 1e-9);
+    for (std::size_t i = 0; i < out.size(); ++i) RC_ASSERT(std::fabs(out[i].entry_velocity - entries[i]) <= 1e-9);
 }
 
 RC_GTEST_PROP(PlannerLaws, AShortWindowIsNeverFasterThanFullPasses, ()) {
@@ -220,7 +221,7 @@ RC_GTEST_PROP(PlannerLaws, AShortWindowIsNeverFasterThanFullPasses, ()) {
     const MachineLimits limits = maker.machine();
     const auto out = plan(limits, maker.program(count), window);
     const auto entries = entries_by_full_passes(limits, out);
-    for (std::size_t i = 0; i < out.size(); ++i) RC_ASSERT(out[i].entry <= entries[i] + 1e-9);
+    for (std::size_t i = 0; i < out.size(); ++i) RC_ASSERT(out[i].entry_velocity <= entries[i] + 1e-9);
 }
 
 /// A smooth curve of short lines, as a CAM system writes it.
@@ -253,8 +254,8 @@ TEST(PlannerLaws, AWindowLongerThanTheWayToStopIsAsGoodAsTheWholeProgram) {
     const auto entries = entries_by_full_passes(limits, out);
     double fastest = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
-        ASSERT_NEAR(out[i].entry, entries[i], 1e-9) << i;
-        fastest = std::max(fastest, out[i].cruise);
+        ASSERT_NEAR(out[i].entry_velocity, entries[i], 1e-9) << i;
+        fastest = std::max(fastest, out[i].cruise_velocity);
     }
     EXPECT_GT(fastest, 85);
 }
@@ -278,14 +279,14 @@ TEST(PlannerLaws, BitsAreTheSameOnEveryCompilerAndCpu) {
         fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
     };
     for (const PlannedMove& planned : plan(limits, moves, 100)) {
-        for (const double value :
-             {planned.length, planned.entry, planned.cruise, planned.exit, planned.accel, planned.jerk}) {
+        for (const double value : {planned.length, planned.entry_velocity, planned.cruise_velocity,
+                                   planned.exit_velocity, planned.accel, planned.jerk}) {
             mix(value);
         }
         mix(seconds_of(planned));
         for (const double value : position_at(geometry_of(planned.move, planned.start), planned.length * 0.3))
             mix(value);
-        mix(SCurveProfile(planned.length, planned.cruise, planned.accel, 1e4).sample(0.01).position);
+        mix(SCurveProfile(planned.length, planned.cruise_velocity, planned.accel, 1e4).sample(0.01).position);
     }
     EXPECT_EQ(fold, 9284701413993860843u);
 }

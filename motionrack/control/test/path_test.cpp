@@ -15,14 +15,14 @@ namespace {
 MachineLimits path_machine() {
     MachineLimits limits;
     for (int i = 0; i < axis_count; ++i) limits[i] = {true, -1e6, 1e6, 100, 1000, 0, 2, 1000};
-    limits[1].max_speed = 80;
+    limits[1].max_velocity = 80;
     limits[1].max_accel = 600;
-    limits[2].max_speed = 40;
+    limits[2].max_velocity = 40;
     limits[2].max_accel = 300;
-    limits[2].start_speed = 1;
-    limits[3].max_speed = 3600;
+    limits[2].max_velocity_step = 1;
+    limits[3].max_velocity = 3600;
     limits[3].max_accel = 7200;
-    limits[3].start_speed = 20;
+    limits[3].max_velocity_step = 20;
     return limits;
 }
 
@@ -52,9 +52,9 @@ std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vecto
 TEST(LookAheadPlanner, ASingleLongLineRisesToTheFeedAndRests) {
     const auto out = plan_path(path_machine(), {path_line_to(100, 0)});
     ASSERT_EQ(out.size(), 1u);
-    EXPECT_EQ(out[0].entry, 0);
-    EXPECT_EQ(out[0].exit, 0);
-    EXPECT_DOUBLE_EQ(out[0].cruise, 50);
+    EXPECT_EQ(out[0].entry_velocity, 0);
+    EXPECT_EQ(out[0].exit_velocity, 0);
+    EXPECT_DOUBLE_EQ(out[0].cruise_velocity, 50);
     EXPECT_DOUBLE_EQ(out[0].accel, 1000);
     EXPECT_DOUBLE_EQ(out[0].length, 100);
     EXPECT_NEAR(seconds_of(out[0]), 100.0 / 50 + 50.0 / 1000, 1e-12);
@@ -62,23 +62,23 @@ TEST(LookAheadPlanner, ASingleLongLineRisesToTheFeedAndRests) {
 
 TEST(LookAheadPlanner, AShortLineReachesOnlyTheTopOfItsTriangle) {
     const auto out = plan_path(path_machine(), {path_line_to(0.9, 0)});
-    EXPECT_DOUBLE_EQ(out[0].cruise, 30);
+    EXPECT_DOUBLE_EQ(out[0].cruise_velocity, 30);
     EXPECT_NEAR(seconds_of(out[0]), 2 * 30.0 / 1000, 1e-12);
 }
 
 TEST(LookAheadPlanner, TheSlowestAxisLimitsADiagonal) {
     Move move = path_line_to(30, 40);
-    move.kind = MoveKind::traverse;
+    move.kind = MoveKind::rapid;
     const auto out = plan_path(path_machine(), {move});
-    EXPECT_DOUBLE_EQ(out[0].cruise, 100);  // 80 / 0.8 in Y, 100 / 0.6 in X
-    EXPECT_DOUBLE_EQ(out[0].accel, 750);   // 600 / 0.8 in Y, 1000 / 0.6 in X
+    EXPECT_DOUBLE_EQ(out[0].cruise_velocity, 100);  // 80 / 0.8 in Y, 100 / 0.6 in X
+    EXPECT_DOUBLE_EQ(out[0].accel, 750);            // 600 / 0.8 in Y, 1000 / 0.6 in X
 }
 
 TEST(LookAheadPlanner, InverseTimeTakesTheTimeItSays) {
     Move move = path_line_to(10, 0);
     move.feed_mode = FeedMode::inverse_time;
     move.feed = 2;
-    EXPECT_DOUBLE_EQ(plan_path(path_machine(), {move})[0].cruise, 20);
+    EXPECT_DOUBLE_EQ(plan_path(path_machine(), {move})[0].cruise_velocity, 20);
 }
 
 TEST(LookAheadPlanner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
@@ -86,32 +86,33 @@ TEST(LookAheadPlanner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
     move.end = {0, 0, 0, 360, 90, 0};
     const auto out = plan_path(path_machine(), {move});
     EXPECT_DOUBLE_EQ(out[0].length, 360);
-    EXPECT_DOUBLE_EQ(out[0].cruise, 400);  // B: 100 / 0.25
-    EXPECT_DOUBLE_EQ(out[0].accel, 4000);  // B: 1000 / 0.25
+    EXPECT_DOUBLE_EQ(out[0].cruise_velocity, 400);  // B: 100 / 0.25
+    EXPECT_DOUBLE_EQ(out[0].accel, 4000);           // B: 1000 / 0.25
 }
 
 TEST(LookAheadPlanner, ExactPathStopsAtACornerAndPassesATangentJoint) {
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 0, 0, 30), path_line_to(40, 20)});
     ASSERT_EQ(out.size(), 3u);
-    EXPECT_DOUBLE_EQ(out[0].exit, 30);
-    EXPECT_DOUBLE_EQ(out[1].entry, 30);
-    EXPECT_EQ(out[1].exit, 0);
-    EXPECT_EQ(out[2].entry, 0);
+    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 30);
+    EXPECT_DOUBLE_EQ(out[1].entry_velocity, 30);
+    EXPECT_EQ(out[1].exit_velocity, 0);
+    EXPECT_EQ(out[2].entry_velocity, 0);
 }
 
 TEST(LookAheadPlanner, ExactPathSeesAHundredthOfADegree) {
     const double beyond = 0.02 * 0.017453292519943295;
     const double within = 0.005 * 0.017453292519943295;
-    EXPECT_EQ(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * beyond)})[0].exit, 0);
-    EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * within)})[0].exit, 50, 1e-9);
+    EXPECT_EQ(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * beyond)})[0].exit_velocity, 0);
+    EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * within)})[0].exit_velocity, 50,
+                1e-9);
 }
 
 TEST(LookAheadPlanner, ExactStopStandsStillAtEveryJoint) {
     std::vector<Move> moves;
     for (int i = 1; i <= 5; ++i) moves.push_back(path_line_to(10 * i, 0, 0, 50, PathControl::exact_stop));
     for (const PlannedMove& planned : plan_path(path_machine(), moves)) {
-        EXPECT_EQ(planned.entry, 0);
-        EXPECT_EQ(planned.exit, 0);
+        EXPECT_EQ(planned.entry_velocity, 0);
+        EXPECT_EQ(planned.exit_velocity, 0);
     }
 }
 
@@ -119,13 +120,13 @@ TEST(LookAheadPlanner, ContinuousCornersObeyTheJumpOfTheAxes) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     const auto out = plan_path(path_machine(), {first, path_line_to(20, 20)});
-    EXPECT_DOUBLE_EQ(out[0].exit, 2);  // X jumps by the whole speed
+    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 2);  // X jumps by the whole speed
 }
 
 TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
-        axis.start_speed = 1000;
+        axis.max_velocity_step = 1000;
         axis.max_accel = 1000;
     }
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
@@ -133,13 +134,13 @@ TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
     const auto out = plan_path(limits, {first, path_line_to(20, 20)});
     // a right angle: s = sin 45 degrees; both axes take part, so a = 1000 sqrt 2
     const double s = std::sqrt(0.5);
-    EXPECT_NEAR(out[0].exit, std::sqrt(1000 * std::sqrt(2.0) * 0.01 * s / (1 - s)), 1e-9);
+    EXPECT_NEAR(out[0].exit_velocity, std::sqrt(1000 * std::sqrt(2.0) * 0.01 * s / (1 - s)), 1e-9);
 }
 
 TEST(LookAheadPlanner, GoingBackOnItselfStops) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 1;
-    EXPECT_EQ(plan_path(path_machine(), {first, path_line_to(0, 0)})[0].exit, 0);
+    EXPECT_EQ(plan_path(path_machine(), {first, path_line_to(0, 0)})[0].exit_velocity, 0);
 }
 
 TEST(LookAheadPlanner, XyzAndRotaryMovesMeetAtRest) {
@@ -147,7 +148,7 @@ TEST(LookAheadPlanner, XyzAndRotaryMovesMeetAtRest) {
     first.tolerance_mm = 100;
     Move second = first;
     second.end = {20, 0, 0, 90, 0, 0};
-    EXPECT_EQ(plan_path(path_machine(), {first, second})[0].exit, 0);
+    EXPECT_EQ(plan_path(path_machine(), {first, second})[0].exit_velocity, 0);
 }
 
 TEST(LookAheadPlanner, ALineIntoATangentArcKeepsThePullOfTheArc) {
@@ -158,11 +159,12 @@ TEST(LookAheadPlanner, ALineIntoATangentArcKeepsThePullOfTheArc) {
     arc.centre_second = 10;
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), arc});
     // least acceleration of X and Y: 600
-    EXPECT_NEAR(out[0].exit, 50, 1e-9);
+    EXPECT_NEAR(out[0].exit_velocity, 50, 1e-9);
     EXPECT_NEAR(out[1].accel, 0.4 * 600, 1e-9);
     arc.end = {20.5, 0.5, 0, 0, 0, 0};
     arc.centre_second = 0.5;
-    EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), arc})[0].exit, std::sqrt(0.8 * 600 * 0.5), 1e-9);
+    EXPECT_NEAR(plan_path(path_machine(), {path_line_to(20, 0), arc})[0].exit_velocity, std::sqrt(0.8 * 600 * 0.5),
+                1e-9);
 }
 
 TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
@@ -181,7 +183,7 @@ TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
 TEST(LookAheadPlanner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
-        axis.start_speed = 1000;
+        axis.max_velocity_step = 1000;
         axis.max_accel = 1000;
     }
     Move first = path_line_to(0.1, 0, 0, 50, PathControl::continuous);
@@ -201,10 +203,10 @@ TEST(LookAheadPlanner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     const auto out = plan_path(path_machine(), moves);
     ASSERT_EQ(out.size(), 2000u);
     // 100 mm/s take 5 mm: 500 lines up and 500 lines down
-    EXPECT_NEAR(out[1000].entry, 100, 1e-9);
-    EXPECT_NEAR(out[499].exit, 100, 1e-6);
-    EXPECT_NEAR(out[1500].entry, 100, 1e-6);
-    EXPECT_NEAR(out[250].entry, std::sqrt(2 * 1000 * 2.5), 1e-6);
+    EXPECT_NEAR(out[1000].entry_velocity, 100, 1e-9);
+    EXPECT_NEAR(out[499].exit_velocity, 100, 1e-6);
+    EXPECT_NEAR(out[1500].entry_velocity, 100, 1e-6);
+    EXPECT_NEAR(out[250].entry_velocity, std::sqrt(2 * 1000 * 2.5), 1e-6);
     double seconds = 0;
     for (const PlannedMove& planned : out) seconds += seconds_of(planned);
     EXPECT_NEAR(seconds, 20.0 / 100 + 100.0 / 1000, 1e-9);
@@ -216,11 +218,11 @@ TEST(LookAheadPlanner, ADwellEndsTheWindowAtRest) {
     dwell.seconds = 0.25;
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), dwell, path_line_to(40, 0)});
     ASSERT_EQ(out.size(), 3u);
-    EXPECT_EQ(out[0].exit, 0);
+    EXPECT_EQ(out[0].exit_velocity, 0);
     EXPECT_EQ(out[1].length, 0);
     EXPECT_EQ(out[1].start, out[1].move.end);
     EXPECT_EQ(seconds_of(out[1]), 0.25);
-    EXPECT_EQ(out[2].entry, 0);
+    EXPECT_EQ(out[2].entry_velocity, 0);
     EXPECT_EQ(out[2].start, out[0].move.end);
     PlanSummary summary;
     for (const PlannedMove& planned : out) summary.add(planned);
@@ -228,13 +230,13 @@ TEST(LookAheadPlanner, ADwellEndsTheWindowAtRest) {
     EXPECT_EQ(summary.dwells, 1);
     EXPECT_EQ(summary.stops, 2);
     EXPECT_DOUBLE_EQ(summary.path_mm, 40);
-    EXPECT_DOUBLE_EQ(summary.top_speed, 50);
+    EXPECT_DOUBLE_EQ(summary.peak_velocity, 50);
 }
 
 TEST(LookAheadPlanner, MovesOfNoLengthAreLeftOut) {
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(20, 0), path_line_to(40, 0)});
     ASSERT_EQ(out.size(), 2u);
-    EXPECT_DOUBLE_EQ(out[0].exit, 50);
+    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 50);
 }
 
 TEST(LookAheadPlanner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
@@ -291,8 +293,8 @@ TEST(LookAheadPlanner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
     planner.flush();
     PlannedMove planned;
     ASSERT_TRUE(planner.pull(planned));
-    EXPECT_GT(planned.cruise, 0);
-    EXPECT_LE(planned.cruise * planned.cruise, planned.accel * planned.length * (1 + 1e-12));
+    EXPECT_GT(planned.cruise_velocity, 0);
+    EXPECT_LE(planned.cruise_velocity * planned.cruise_velocity, planned.accel * planned.length * (1 + 1e-12));
     EXPECT_LT(seconds_of(planned), 0.1);
 }
 

@@ -35,7 +35,7 @@ TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
         double length = 0;
         for (int i = 0; i < 7; ++i) {
             const Move part =
-                part_of(whole, path, path.length * i / 7, i == 6 ? path.length : path.length * (i + 1) / 7);
+                sub_move(whole, path, path.length * i / 7, i == 6 ? path.length : path.length * (i + 1) / 7);
             const Geometry piece = geometry_of(part, at);
             EXPECT_NEAR(piece.length, path.length / 7, 1e-9);
             for (double s = 0; s <= 1; s += 0.25) {
@@ -55,8 +55,8 @@ TEST(PartsOfAMove, InInverseTimeTakeTheirShareOfIt) {
     whole.feed_mode = FeedMode::inverse_time;
     whole.feed = 0.5;  // 2 s
     const Geometry path = geometry_of(whole, at_ten);
-    EXPECT_DOUBLE_EQ(part_of(whole, path, 2, 4).feed, 2.5);  // 0.4 s
-    EXPECT_DOUBLE_EQ(rest_of(whole, path, {2.5, 0, 0, 0, 0, 0}).feed, 2);
+    EXPECT_DOUBLE_EQ(sub_move(whole, path, 2, 4).feed, 2.5);  // 0.4 s
+    EXPECT_DOUBLE_EQ(remaining_move(whole, path, {2.5, 0, 0, 0, 0, 0}).feed, 2);
 }
 
 TEST(TheRestOfAMove, GoesOnFromAPlaceBesideThePath) {
@@ -66,7 +66,7 @@ TEST(TheRestOfAMove, GoesOnFromAPlaceBesideThePath) {
             Point place = position_at(path, part * path.length);
             place[0] += 0.001;
             EXPECT_NEAR(nearest_point(path, place).length, part * path.length, 0.002);
-            const Geometry rest = geometry_of(rest_of(whole, path, place), place);
+            const Geometry rest = geometry_of(remaining_move(whole, path, place), place);
             EXPECT_EQ(rest.shape, PathShape::arc);
             EXPECT_NEAR(rest.length, (1 - part) * path.length, 0.002);
             EXPECT_EQ(rest.end, whole.end);
@@ -77,7 +77,7 @@ TEST(TheRestOfAMove, GoesOnFromAPlaceBesideThePath) {
 TEST(TheRestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
     const Move whole = helix(0.25, 0);
     const Geometry path = geometry_of(whole, at_ten);
-    const Geometry rest = geometry_of(rest_of(whole, path, {-0.001, 10, 0, 0, 0, 0}), {-0.001, 10, 0, 0, 0, 0});
+    const Geometry rest = geometry_of(remaining_move(whole, path, {-0.001, 10, 0, 0, 0, 0}), {-0.001, 10, 0, 0, 0, 0});
     EXPECT_EQ(rest.shape, PathShape::line);
     EXPECT_LT(rest.length, 0.0011);
 }

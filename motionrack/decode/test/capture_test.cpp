@@ -26,7 +26,7 @@ std::string refusal(std::string_view text, const std::string& name, const std::v
                     const CaptureSettings& settings = {}) {
     const auto analysis = analysed(text, name, channels, settings);
     if (analysis) return "not refused";
-    EXPECT_NE(analysis.error().trouble, ErrorKind::io);
+    EXPECT_NE(analysis.error().kind, ErrorKind::io);
     return analysis.error().text();
 }
 

@@ -45,7 +45,7 @@ int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
     const int code = guarded({{toml_path_or_text, no_text}, {out, no_location}}, [&]() -> Result<void> {
         auto session = Session::open(toml_path_or_text, Session::Programs::yes);
         if (!session) {
-            wrong_text = session.error().trouble == ErrorKind::bad_input;
+            wrong_text = session.error().kind == ErrorKind::invalid_input;
             return tl::unexpected<Error>(std::move(session).error());
         }
         *out = new mr_rack{std::move(*session)};

@@ -35,7 +35,7 @@ inline int failed(int code, std::string_view sentence) noexcept {
 /// Of what failed before anything moved.
 inline int code_of(ErrorKind trouble) {
     switch (trouble) {
-        case ErrorKind::bad_input:
+        case ErrorKind::invalid_input:
             return MR_BAD_CALL;
         case ErrorKind::refused:
             return MR_REFUSED;

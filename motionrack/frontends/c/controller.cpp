@@ -19,8 +19,8 @@ constexpr const char* no_program = "The part program is a null pointer. Nothing 
 /// Of what may have moved.
 int code_of_end(const Result<void>& ended) {
     if (ended) return MR_OK;
-    switch (ended.error().trouble) {
-        case ErrorKind::bad_input:
+    switch (ended.error().kind) {
+        case ErrorKind::invalid_input:
             return MR_BAD_INPUT;
         case ErrorKind::machine:
             return MR_MACHINE;
@@ -30,7 +30,7 @@ int code_of_end(const Result<void>& ended) {
         case ErrorKind::io:
             break;
     }
-    return code_of(ended.error().trouble);
+    return code_of(ended.error().kind);
 }
 
 ProgramOrder order_of(const char* path_or_text, const mr_run_options* options) {

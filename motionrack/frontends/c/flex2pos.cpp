@@ -65,7 +65,7 @@ int flex2pos_open(mr_rack* rack, flex2pos** flex) {
                 *flex = new flex2pos(*rack->session, *card->port());
                 return {};
             }
-            return motionrack::fail(motionrack::ErrorKind::bad_input,
+            return motionrack::fail(motionrack::ErrorKind::invalid_input,
                                     "The rack has no card of type ioflex02. Nothing was done.");
         });
 }
@@ -210,7 +210,7 @@ int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* paylo
                        *size = made.size();
                        if (room < made.size())
                            return motionrack::fail(
-                               motionrack::ErrorKind::bad_input,
+                               motionrack::ErrorKind::invalid_input,
                                fmt::format("The image has {} bytes, but there is room for {}. It was not "
                                            "written; call again with the size that was given.",
                                            made.size(), room));

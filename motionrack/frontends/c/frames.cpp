@@ -66,7 +66,7 @@ template <class Take>
 Result<void> read_frame(rack::Session& session, std::string_view name, mr_frame& frame, Take take) {
     MOTIONRACK_TRY(const rack::Card* card, rack::card_named(session.rack(), name));
     if (card->map().name != gb::card_map().name)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("Card {} is a {}, which has no frames; a grating_bus has. Nothing was done.", name,
                                 card->map().name));
     SessionPort port(session, name);

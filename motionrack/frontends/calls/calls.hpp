@@ -19,7 +19,7 @@ auto guarded(Call call, Failed failed) noexcept {
     try {
         Result<Value> result = call();
         if (result) return static_cast<Value>(*result);
-        return failed(result.error().trouble, result.error().text());
+        return failed(result.error().kind, result.error().text());
     } catch (const std::bad_alloc&) {
         return failed(ErrorKind::machine, "There is not enough memory; the call was not finished.");
     } catch (const std::exception& e) {
@@ -32,7 +32,7 @@ auto guarded(Call call, Failed failed) noexcept {
 /// `what`: of the argument, "The name".
 inline Result<void> check_pointer(const void* pointer, std::string_view what) {
     if (pointer != nullptr) return {};
-    return fail(ErrorKind::bad_input, std::string(what) + " is a null pointer. Nothing was done.");
+    return fail(ErrorKind::invalid_input, std::string(what) + " is a null pointer. Nothing was done.");
 }
 
 /// What the functions of a library share in a process.

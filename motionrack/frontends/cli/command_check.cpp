@@ -57,7 +57,7 @@ int check_rack(const std::string& path, nlohmann::json* json) {
         else
             fmt::print("{}: {}.\n", path, count_noun(reading.errors.size(), "error"));
     }
-    return reading.errors.empty() ? exit_done : exit_code(reading.errors.front().trouble);
+    return reading.errors.empty() ? exit_done : exit_code(reading.errors.front().kind);
 }
 
 int check_program_file(const std::string& path, const CheckOptions& options, nlohmann::json* json) {
@@ -87,7 +87,7 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
                count_noun(check.dwells, "dwell"));
     for (const rack::RackAxis& axis : config->axes) {
         const auto i = static_cast<std::size_t>(axis.index());
-        fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.least[i], check.greatest[i],
+        fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.min[i], check.max[i],
                    axis.unit());
     }
     fmt::print(" (machine coordinates).\n");

@@ -113,7 +113,7 @@ Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
     const rack::JobOutcome outcome = job.run();
     // Enough frames end the program on its way, as asked.
     const bool ended_here = enough && !publishing.outcome().stopped;
-    if (!outcome.ended && !(ended_here && outcome.ended.error().trouble == ErrorKind::stopped))
+    if (!outcome.ended && !(ended_here && outcome.ended.error().kind == ErrorKind::stopped))
         return tl::unexpected(outcome.ended.error());
     return publishing.outcome();
 }

@@ -58,14 +58,14 @@ nlohmann::ordered_json mark_json(const mark::Marked& m) {
     return out;
 }
 
-std::string json_text(const mark::Outcome& out) {
+std::string json_text(const mark::MarkingOutcome& out) {
     nlohmann::ordered_json all = {{"drawing_mm", out.drawing_mm},
                                   {"strokes", out.strokes},
                                   {"elements", out.elements},
                                   {"marked", mark_json(out.on)}};
     if (out.off) all["without_correction"] = mark_json(*out.off);
     if (out.fits_factor) all["fits_times_the_speed"] = *out.fits_factor;
-    const mark::Room room = mark::room_of(out, out.on);
+    const mark::FieldMargin room = mark::room_of(out, out.on);
     all["room"] = {{"mm", room.mm}, {"edge", room.edge}};
     all["warnings"] = mark::warnings_of(out);
     all["notes"] = out.notes;
@@ -87,8 +87,8 @@ bool is_png(const std::string& path) {
 }
 
 /// Everything that was asked for, or the first error.
-Result<void> write_files(const MarkOptions& options, const mark::Job& job, const mark::Prepared& prepared,
-                         const mark::Outcome& outcome, std::string_view text) {
+Result<void> write_files(const MarkOptions& options, const mark::MarkingJob& job, const mark::Prepared& prepared,
+                         const mark::MarkingOutcome& outcome, std::string_view text) {
     const std::string svg = options.pictures.empty() ? std::string() : mark::picture_svg(prepared, outcome);
     for (const std::string& path : options.pictures) {
         if (!is_png(path)) {
@@ -126,7 +126,7 @@ int run_mark(const MarkOptions& options) {
     stop_on_signals();
     ProgressLine progress(options.quiet || options.json);
     const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
-    const Result<mark::Outcome> outcome = mark::run_job(*read.job, *prepared, watch);
+    const Result<mark::MarkingOutcome> outcome = mark::run_job(*read.job, *prepared, watch);
     progress.clear();
     if (!outcome) return report(outcome.error());
     if (stop_asked) return report(Error{ErrorKind::stopped, "Stopped; nothing was written."});

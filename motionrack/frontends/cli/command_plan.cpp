@@ -123,7 +123,7 @@ void print_plans(const Plans& plans, const rack::RackConfig& config) {
                                            100 * part_of(peak, limit))
                              : fmt::format("{:>11.5g} {}/{:<3} no limit", peak, axis.unit(), unit);
         };
-        fmt::print("  {} {} {} {}\n", axis.letter, value(most.speed, "s", axis.max_speed),
+        fmt::print("  {} {} {} {}\n", axis.letter, value(most.speed, "s", axis.max_velocity),
                    value(most.accel, "s2", axis.max_accel), value(most.jerk, "s3", axis.max_jerk));
     }
 }
@@ -146,7 +146,7 @@ void print_json(const Plans& plans, const rack::RackConfig& config) {
                                                     {"speed", most.speed},
                                                     {"accel", most.accel},
                                                     {"jerk", most.jerk},
-                                                    {"of_speed", part_of(most.speed, axis.max_speed)},
+                                                    {"of_speed", part_of(most.speed, axis.max_velocity)},
                                                     {"of_accel", part_of(most.accel, axis.max_accel)},
                                                     {"of_jerk", part_of(most.jerk, axis.max_jerk)}};
     }

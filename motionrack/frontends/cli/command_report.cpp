@@ -25,7 +25,7 @@ Result<trace::ReportData> read_data(const std::string& path) {
     MOTIONRACK_TRY(const trace::FileKind kind, trace::kind_of_file(path));
     if (kind == trace::FileKind::csv) return trace::report_from_csv(path);
     if (kind == trace::FileKind::vcd)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     "A VCD file has wires and counters, but no positions, so there is nothing to show on a page. Take "
                     "a recording (--record) or the samples (--csv) of the run.",
                     {}, path);

@@ -74,7 +74,7 @@ class Serving {
     Result<void> begin(const rack::RackConfig& config) {
         allow_many_files();
         if (options_.certificate.empty() != options_.key.empty())
-            return fail(ErrorKind::bad_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
+            return fail(ErrorKind::invalid_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
         server::ServedSettings settings;
         settings.clock = options_.paused ? operate::ClockMode::paused
                          : options_.free ? operate::ClockMode::free

@@ -64,7 +64,7 @@ Result<sweep::SweepFiles> load_files(const std::string& file, const sweep::Sweep
 
 int print_errors(const std::vector<Error>& errors) {
     for (const Error& error : errors) print_error(error.text());
-    return errors.empty() ? static_cast<int>(exit_done) : exit_code(errors.front().trouble);
+    return errors.empty() ? static_cast<int>(exit_done) : exit_code(errors.front().kind);
 }
 
 Loaded load(const std::string& file) {
@@ -144,7 +144,7 @@ int sweep_all(const SweepOptions& options) {
     stop_on_signals();
     const Result<void> done = run_missing(all, **results, options);
     if (done) return write_tables(all, **results, options);
-    if (done.error().trouble != ErrorKind::stopped) return report(done.error());
+    if (done.error().kind != ErrorKind::stopped) return report(done.error());
     return report({ErrorKind::stopped,
                    fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.",
                                (*results)->done(), rack::count_noun(all.points(), "point"), (*results)->part())});

@@ -24,7 +24,7 @@ int work(nats::WorkerSettings settings) {
     const Result<void> ended = nats::work(settings, stop_asked, [&count](std::int64_t done) { count = done; });
     fmt::print("{} done\n", rack::count_noun(count, "point"));
     if (ended) return exit_done;
-    if (ended.error().trouble != ErrorKind::stopped) return report(ended.error());
+    if (ended.error().kind != ErrorKind::stopped) return report(ended.error());
     return report({ErrorKind::stopped, "Stopped; what was begun goes to another worker."});
 }
 

@@ -18,7 +18,7 @@ enum ExitCode : int {
 
 constexpr int exit_code(ErrorKind trouble) {
     switch (trouble) {
-        case ErrorKind::bad_input:
+        case ErrorKind::invalid_input:
             return exit_bad_input;
         case ErrorKind::refused:
             return exit_refused;

@@ -42,7 +42,7 @@ std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_cod
 std::optional<rack::RackConfig> print_reading(rack::RackReading reading, int& exit_code_out) {
     for (const Error& warning : reading.warnings) print_warning(warning.text());
     for (const Error& error : reading.errors) print_error(error.text());
-    if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().trouble);
+    if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().kind);
     return reading.config;
 }
 

@@ -79,7 +79,7 @@ Result<void> write_text(const std::string& path, std::string_view text) {
 
 int report(const Error& error) {
     print_error(error.text());
-    return exit_code(error.trouble);
+    return exit_code(error.kind);
 }
 
 ProgressLine::ProgressLine(bool quiet) : on_(!quiet && ::isatty(2) != 0) {}

@@ -53,7 +53,7 @@ int Bench::keep(std::unique_ptr<Chip> chip) {
 Result<int> Bench::open_live(const char* text, const char* card) {
     if (card != nullptr)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("A real card has no name, but {} was given. Nothing was opened. Give NULL.", in_quotes(card)));
     MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
     MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
@@ -73,7 +73,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
         const std::string path = environment_variable(variable);
         if (path.empty())
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format(
                     "No chip is open, and the environment variable {0} is not set. Nothing was done. Set {0} to "
                     "the path of a rack file with an mcx314 card, or to a real card ({1}), or call mcx314_open "
@@ -84,7 +84,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
     } else {
         MOTIONRACK_TRY(Chip * chip, selected());
         if (!chip->world)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         "The selected chip is a real card and in no rack. Nothing was opened. Name a rack.");
         world = chip->world;
     }
@@ -94,7 +94,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
         if (is_open(*each) || (card != nullptr && each->name() != card)) continue;
         return keep(std::make_unique<Chip>(world, *each));
     }
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
                             card != nullptr ? fmt::format("The rack has no mcx314 card {} to open", in_quotes(card))
                                             : std::string("The rack has no mcx314 card to open"),
@@ -110,7 +110,7 @@ std::string Bench::handles() const {
 Result<void> Bench::check_open(int handle) const {
     if (chips_.count(handle) != 0) return {};
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("There is no chip {}; the handles of the open ones are: {}. Nothing was done.", handle, handles()));
 }
 
@@ -134,7 +134,7 @@ Result<Chip*> Bench::selected() {
     }
     if (selected_ == 0)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("No chip is selected: the last selected one was closed. Nothing was done. Call mcx314_select "
                         "with one of these handles: {}.",
                         handles()));

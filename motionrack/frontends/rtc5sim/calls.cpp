@@ -54,7 +54,7 @@ Result<UINT> cards_wanted() {
     UINT number = 0;
     const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
     if (error != std::errc() || end != all.data() + all.size() || number < 1 || number > most_cards)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("the environment variable RTC5SIM_CARDS is \"{}\", but the number of cards "
                                 "is 1 to {}. Nothing was done.",
                                 all, most_cards));
@@ -107,9 +107,9 @@ Result<Card*> Bench::card(UINT number) {
     }
     if (rack_)
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("there is no card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
-    return fail(ErrorKind::bad_input,
+    return fail(ErrorKind::invalid_input,
                 fmt::format("there is no card {}; the environment variable RTC5SIM_CARDS makes it {}. "
                             "Nothing was done.",
                             number,
@@ -157,7 +157,7 @@ Result<void> Bench::open_rack(std::string_view path_or_text) {
         if (rtc5::Card* card = rack::rtc5_card_of(opened->rack(), each.name))
             found.push_back(std::make_unique<Card>(static_cast<UINT>(found.size() + 1), *card));
     if (found.empty())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     "the rack has no card of type rtc5. Nothing was done; the cards are as before.");
     close();
     cards_ = std::move(found);

@@ -116,7 +116,7 @@ Value with_card(std::string_view who, UINT number, Value otherwise, Call call, b
         MOTIONRACK_TRY(Card * card, bench.card(number));
         if (asks) MOTIONRACK_CHECK(bench.pass(bench.question_ticks));
         Result<Value> result = call(*card);
-        card->last_error = result ? 0 : rtc5::error_bits_of(result.error().trouble);
+        card->last_error = result ? 0 : rtc5::error_bits_of(result.error().kind);
         card->errors |= card->last_error;
         return result;
     });
@@ -174,7 +174,7 @@ int small(UINT value);
 /// The error of `result` as one of the board's kind `trouble`.
 template <class Value>
 Result<Value> as(ErrorKind trouble, Result<Value> result) {
-    if (!result) result.error().trouble = trouble;
+    if (!result) result.error().kind = trouble;
     return result;
 }
 

@@ -124,7 +124,7 @@ void Client::subscribe(const Request& request) {
     const auto wrong = [&](std::string sentence) {
         refuse(request.id, 400, "bad_input", std::move(sentence) + " Nothing was changed.");
     };
-    if (role() == Role::nobody)
+    if (role() == Role::none)
         return refuse(request.id, 401, "denied",
                       "Who looks from another computer has a token. Send it first: {\"id\":1,\"token\":\"..\"}.");
     if (!wanted.is_object()) return wrong("To subscribe takes {\"channels\":[..],\"rate_hz\":20}.");
@@ -235,7 +235,7 @@ void Client::close_with_reason(int code, std::string_view reason) {
 // ---- time
 
 bool Client::due(Time now) {
-    if (leaving_ || now < next_ || (token_id_.empty() && service_.role_without_token(peer_) == Role::nobody))
+    if (leaving_ || now < next_ || (token_id_.empty() && service_.role_without_token(peer_) == Role::none))
         return false;
     const auto passed = (now - next_) / period_ + 1;  // more than one when the thread was late
     next_ += passed * period_;
@@ -250,7 +250,7 @@ void Client::send_picture(std::shared_ptr<const std::string> rest) {
 }
 
 void Client::send_event(std::shared_ptr<const std::string> text) {
-    if (token_id_.empty() && service_.role_without_token(peer_) == Role::nobody) return;
+    if (token_id_.empty() && service_.role_without_token(peer_) == Role::none) return;
     send({"", std::move(text)});
 }
 
@@ -258,8 +258,8 @@ void Client::check_session(Time now) {
     if (leaving_ || now - looked_after_ < std::chrono::milliseconds(500)) return;
     looked_after_ = now;
     const Role mine = role();
-    seen_ = seen_ || mine != Role::nobody;
-    if (mine != Role::nobody) return;
+    seen_ = seen_ || mine != Role::none;
+    if (mine != Role::none) return;
     if (seen_)
         close_with_reason(policy, "The token holds no longer; pair again.");
     else if (now - opened_at_ > service_.settings().limits.header)

@@ -21,7 +21,7 @@ std::map<std::string, panel::Handler, std::less<>> door_orders(authority::Authen
     return {
         {"invite",
          [&door](const panel::Caller&, const json& fields) {
-             const authority::Now now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
+             const authority::Timestamps now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
              const auto code = door.invite(*authority::role_named(fields["role"].get<std::string>()), now);
              return code ? panel::done({{"code", *code}}) : panel::error_answer(code.error());
          }},

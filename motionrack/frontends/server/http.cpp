@@ -60,7 +60,7 @@ Result<std::string> decoded(std::string_view text) {
             const int high = i + 2 < text.size() ? hexadecimal(text[i + 1]) : -1,
                       low = i + 2 < text.size() ? hexadecimal(text[i + 2]) : -1;
             if (high < 0 || low < 0)
-                return fail(ErrorKind::bad_input,
+                return fail(ErrorKind::invalid_input,
                             "After a % in the address there are two hexadecimal digits. Nothing was done.");
             out += static_cast<char>(high * 16 + low);
             i += 2;
@@ -86,22 +86,23 @@ HttpAnswer http_error(int status, std::string_view trouble, std::string sentence
 
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what) {
     if (const std::size_t at = too_deep(text); at != std::string_view::npos)
-        return fail(ErrorKind::bad_input, fmt::format("{} is nested deeper than {}. Nothing was done.", what, deepest),
-                    place_of(text, at));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("{} is nested deeper than {}. Nothing was done.", what, deepest), place_of(text, at));
     try {
         nlohmann::json value = nlohmann::json::parse(text);
         if (!value.is_object())
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("{} is no JSON object, {{\"name\":value, ..}}. Nothing was done.", what), {1, 1});
         return value;
     } catch (const nlohmann::json::parse_error& error) {
         const Place place = place_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
         return fail(
-            ErrorKind::bad_input,
+            ErrorKind::invalid_input,
             fmt::format("{} is no JSON: see line {}, column {}. Nothing was done.", what, place.line, place.column),
             place);
     } catch (const nlohmann::json::exception&) {
-        return fail(ErrorKind::bad_input, fmt::format("{} has a number that is too large. Nothing was done.", what));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("{} has a number that is too large. Nothing was done.", what));
     }
 }
 

@@ -70,7 +70,7 @@ Result<Page> Page::read(const fs::path& folder) {
         size += text.size();
         if (size > greatest_size || page.files_.size() >= most_files)
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.",
                             greatest_size >> 20, most_files),
                 {}, folder.string());
@@ -86,7 +86,7 @@ Result<Page> Page::read(const fs::path& folder) {
                     fmt::format("The page's folder could not be read: {}. Nothing was started.", error.message()), {},
                     folder.string());
     if (page.find("/") == nullptr)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     "There is no index.html in this folder, so it is no page. Nothing was started.", {},
                     folder.string());
     return page;

@@ -15,7 +15,7 @@ SenderPort::SenderPort(operate::Machine& machine, authority::ControlLease& lease
     session.onlookers_reset = settings.resets_stop_all;
     if (settings.on_setting)
         session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };
-    session_ = std::make_unique<grbl::Session>(machine, std::move(session));
+    session_ = std::make_unique<grbl::GrblSession>(machine, std::move(session));
 }
 
 // ---- from the network thread

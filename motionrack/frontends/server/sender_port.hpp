@@ -39,7 +39,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     operate::Machine& machine_;
     authority::ControlLease& lease_;
     const bool resets_stop_all_;
-    std::unique_ptr<grbl::Session> session_;
+    std::unique_ptr<grbl::GrblSession> session_;
     std::string user_ = "a sender", address_, id_ = "grbl";  ///< of who writes
     bool had_control_ = false;                               ///< nobody else has taken it since
 };

@@ -66,7 +66,7 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
         return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"},
                               {"clients", server_ ? server_->clients() : 0}};
     };
-    settings.panel.elsewhere = door_orders(*door_);
+    settings.panel.external = door_orders(*door_);
     panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings.panel));
     settings.server.rack = config.name;
     if (journal_ != nullptr) settings.server.audit = [this](const AuditEntry& entry) { write_down(entry); };

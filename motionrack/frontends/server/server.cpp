@@ -84,7 +84,7 @@ class Server::Inside {
         error_code error;
         const asio::ip::address address = asio::ip::make_address(settings.address, error);
         if (error)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("\"{}\" is no IPv4 or IPv6 address. Nothing was started.", settings.address));
         if (!address.is_loopback() && !settings.tls)
             return fail(

@@ -154,7 +154,7 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
         if (!who) return answer(http_error(401, "denied", who.error().sentence));
         out.caller = {who->user, who->role, fmt::format("t{}", who->id)};
     }
-    if (out.caller.role == Role::nobody)
+    if (out.caller.role == Role::none)
         return answer(
             http_error(401, "denied", "Who asks from another computer has a token. Pair first: POST /api/pair."));
     if (name == "openapi.json" && get) {
@@ -175,7 +175,7 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
                  "Allow", query ? "GET" : "POST"));
     const bool long_texts =
         std::any_of(out.row->fields.begin(), out.row->fields.end(), [&](const panel::FieldSpec& field) {
-            return field.greatest > static_cast<double>(settings_.limits.small_body) / 2;
+            return field.max > static_cast<double>(settings_.limits.small_body) / 2;
         });
     out.body_limit = query                             ? 0
                      : out.caller.role < out.row->role ? settings_.limits.strange_body
@@ -226,7 +226,7 @@ HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
                               {"expires", utc_text(paired->identity.expires)}});
     } else {
         using Why = authority::AuthError::Why;
-        const Why why = paired.error().why;
+        const Why why = paired.error().reason;
         answer = why == Why::too_many ? panel::refused_answer(429, "limit", paired.error().sentence)
                  : why == Why::failed ? panel::refused_answer(500, "io", paired.error().sentence)
                                       : panel::refused_answer(403, "denied", paired.error().sentence);
@@ -266,7 +266,7 @@ void Service::ask(panel::Caller caller, const std::string& address, const panel:
     const bool is_known = !caller.user.empty() || caller.role >= row.role;
     panel_.ask(caller, row.name, fields,
                [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address,
-                passing = row.passing, is_known, what = std::string(row.name)](panel::Answer answer) {
+                passing = row.high_rate, is_known, what = std::string(row.name)](panel::Answer answer) {
                    (*post)([this, reply, query, user, address, passing, is_known, what, answer = std::move(answer)] {
                        if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer, is_known);
                        reply(answer);

@@ -76,7 +76,7 @@ class Service {
     void left(const std::string& session);
     /// The role of who comes without a token.
     authority::Role role_without_token(const Peer& peer) const {
-        return peer.loopback ? settings_.loopback_role : authority::Role::nobody;
+        return peer.loopback ? settings_.loopback_role : authority::Role::none;
     }
     authority::AuthResult<authority::Identity> authenticate(const std::string& token, const Peer& peer);
 
@@ -86,7 +86,7 @@ class Service {
     /// What time brings; every few ms.
     void tick() { strangers_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
-    authority::Now now() const { return settings_.clock(); }
+    authority::Timestamps now() const { return settings_.clock(); }
     panel::Panel& panel() { return panel_; }
     authority::Authenticator& door() { return door_; }
     authority::ControlLease& lease() { return lease_; }

@@ -63,8 +63,8 @@ struct ServerSettings {
     std::string version = {}, rack = {}, boot = {};
     Limits limits = {};
     std::function<void(const AuditEntry&)> audit = {};  ///< on the network thread; must not wait
-    std::function<authority::Now()> clock = [] {
-        return authority::Now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
+    std::function<authority::Timestamps()> clock = [] {
+        return authority::Timestamps{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
     };
 };
 

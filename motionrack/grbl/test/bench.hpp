@@ -60,7 +60,7 @@ class Bench {
         watch.emplace(*machine);
         machine->listen([](const operate::Status&) {},
                         [this](const operate::StopReport& report) { session->stopped(report); });
-        session = std::make_unique<Session>(*machine, std::move(settings));
+        session = std::make_unique<GrblSession>(*machine, std::move(settings));
         thread_ = std::thread([this] { machine->run(); });
         pass(0.01);
     }
@@ -101,7 +101,7 @@ class Bench {
 
     std::unique_ptr<operate::Machine> machine;
     std::optional<test::MachineWatch> watch;
-    std::unique_ptr<Session> session;
+    std::unique_ptr<GrblSession> session;
 
   private:
     bool wait_for_turn(Instant now) {

@@ -278,8 +278,8 @@ TEST(AMachineWithHomeSwitches, AlarmsWhenItsHomingIsBrokenOff) {
 
 TEST(AMachineWithHomeSwitches, AlarmsWhenItFindsNoSwitch) {
     Bench b(router());
-    ASSERT_TRUE(b.machine->wires().set("X.home", 1));
-    ASSERT_TRUE(b.machine->wires().set("X.limit_minus", 1));
+    ASSERT_TRUE(b.machine->wires().force("X.home", 1));
+    ASSERT_TRUE(b.machine->wires().force("X.limit_minus", 1));
     b.ask("$H\n");
     std::string out;
     for (int i = 0; i < 1000 && out.empty(); ++i) out = b.ask("", 0.1);
@@ -294,25 +294,25 @@ const std::string with_limits = "[axis.X.switches]\nlimit_minus_mm = -2\nlimit_p
 TEST(AGrblPort, AlarmsAtALimitSwitchAndHearsOnlyAReset) {
     Bench b(three_axes(with_limits));
     b.ask("G1 X100 F3000\n", 0.5);
-    ASSERT_TRUE(b.machine->wires().set("X.limit_plus", 0));
+    ASSERT_TRUE(b.machine->wires().force("X.limit_plus", 0));
     EXPECT_THAT(b.ask("", 0.5), StartsWith("ALARM:1\r\n[MSG:Reset to continue]\r\n[MSG:"));
     EXPECT_THAT(b.ask("$X\n?"), AllOf(StartsWith("<Alarm|"), HasSubstr("|Pn:X|")));
     EXPECT_EQ(b.ask("\x18", 0.1), banner + unlock);
     EXPECT_EQ(b.ask("$X\n", 0.1), "[MSG:Caution: Unlocked]\r\nok\r\n");
     EXPECT_EQ(b.ask("$J=G91 X-5 F600\n"), "ok\r\n");
-    ASSERT_TRUE(b.machine->wires().set("X.limit_plus", 1));
+    ASSERT_TRUE(b.machine->wires().force("X.limit_plus", 1));
     b.until_idle();
 }
 
 TEST(AGrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
-    ASSERT_TRUE(b.machine->wires().set("estop", 0));
+    ASSERT_TRUE(b.machine->wires().force("estop", 0));
     EXPECT_THAT(b.ask("", 0.5), StartsWith("ALARM:3\r\n[MSG:Reset to continue]\r\n[MSG:"));
     EXPECT_THAT(b.report(), AllOf(StartsWith("<Alarm|"), HasSubstr("|Pn:R|")));
     EXPECT_THAT(b.ask("\x18", 0.1), AllOf(StartsWith(banner), HasSubstr("still pressed"), EndsWith(unlock)));
     EXPECT_EQ(b.ask("$X\n", 0.1), "");
-    ASSERT_TRUE(b.machine->wires().set("estop", 1));
+    ASSERT_TRUE(b.machine->wires().force("estop", 1));
     EXPECT_EQ(b.ask("\x18", 0.1), banner + unlock);
     EXPECT_EQ(b.ask("$X\n", 0.1), "[MSG:Caution: Unlocked]\r\nok\r\n");
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));

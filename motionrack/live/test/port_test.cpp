@@ -131,7 +131,7 @@ TEST(LivePort, KeepsItsCardFromASecondPortUntilItEnds) {
         for (const char* other : {"memory:", "port:"}) {
             const auto second = open(other + path + ",offset=2");
             ASSERT_FALSE(second);
-            EXPECT_EQ(second.error().trouble, ErrorKind::refused);
+            EXPECT_EQ(second.error().kind, ErrorKind::refused);
             EXPECT_THAT(second.error().message, HasSubstr("The card at " + path + " is open already"));
         }
         EXPECT_EQ(refusal("memory:" + path + ",offset=8"), "") << "another card in the same file";

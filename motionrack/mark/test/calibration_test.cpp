@@ -82,7 +82,7 @@ TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
         const Prepared prepared = *prepare(*read.job, [](const std::string&) -> Result<std::string> {
             return std::string("<svg><path d='M0 -5V5'/></svg>");
         });
-        const Outcome out = *run_job(*read.job, prepared);
+        const MarkingOutcome out = *run_job(*read.job, prepared);
         const auto& points = out.on.points;
         return -points.at(points.size() / 2).at.x;
     };

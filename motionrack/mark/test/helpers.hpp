@@ -16,10 +16,10 @@ inline Load one_file(const std::string& text) {
     return [text](const std::string&) -> Result<std::string> { return text; };
 }
 
-inline Job job_of(const std::string& text) {
+inline MarkingJob job_of(const std::string& text) {
     JobRead read = read_job(text, "job.toml");
     for (const Error& error : read.errors) ADD_FAILURE() << error.text();
-    return read.job.value_or(Job{});
+    return read.job.value_or(MarkingJob{});
 }
 
 /// All that is wrong with a job, one a line.
@@ -29,19 +29,19 @@ inline std::string errors_of(const std::string& text) {
     return out;
 }
 
-inline Outcome run(const Job& job, const std::string& svg = square_svg) {
+inline MarkingOutcome run(const MarkingJob& job, const std::string& svg = square_svg) {
     const Result<Prepared> prepared = prepare(job, one_file(svg));
-    if (!prepared) return ADD_FAILURE() << prepared.error().text(), Outcome{};
-    Result<Outcome> out = run_job(job, *prepared);
-    if (!out) return ADD_FAILURE() << out.error().text(), Outcome{};
+    if (!prepared) return ADD_FAILURE() << prepared.error().text(), MarkingOutcome{};
+    Result<MarkingOutcome> out = run_job(job, *prepared);
+    if (!out) return ADD_FAILURE() << out.error().text(), MarkingOutcome{};
     return *out;
 }
 
 /// Why it does not run.
-inline std::string refusal(const Job& job, const std::string& svg = square_svg) {
+inline std::string refusal(const MarkingJob& job, const std::string& svg = square_svg) {
     const Result<Prepared> prepared = prepare(job, one_file(svg));
     if (!prepared) return prepared.error().text();
-    const Result<Outcome> out = run_job(job, *prepared);
+    const Result<MarkingOutcome> out = run_job(job, *prepared);
     return out ? "" : out.error().text();
 }
 

@@ -19,7 +19,7 @@ std::string squares(const std::string& parts, const std::string& fly = "mode = '
 }
 
 TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
-    const Outcome out = run(job_of(squares("count = 5\nspacing_mm = 60\ntrack_delay_mm = 33.3\n")));
+    const MarkingOutcome out = run(job_of(squares("count = 5\nspacing_mm = 60\ntrack_delay_mm = 33.3\n")));
     ASSERT_EQ(out.on.parts.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
         const PartMarked& part = out.on.parts[i];
@@ -44,7 +44,7 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
                                             "\ndirection_deg = " + way + "\ncounts_per_mm = " + counts +
                                             "\n[fly]\nmode = '" + mode +
                                             "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";
-                    const Outcome out = run(job_of(job));
+                    const MarkingOutcome out = run(job_of(job));
                     EXPECT_LE(out.on.deviation.worst_mm, 0.0065) << job;
                     EXPECT_EQ(out.on.deviation.missing_mm, 0) << job;
                 }
@@ -52,10 +52,11 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
 
 TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
     for (const char* start : {"track_delay_deg = 15", "start = 'equidistant'"}) {
-        const Outcome out = run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_y_mm = "
-                                                   "-40\ncounts_per_deg = 2000\n[fly]\nmode = 'encoder'\n"
-                                                   "[parts]\ncount = 8\nspacing_deg = 45\n") +
-                                       start + "\n"));
+        const MarkingOutcome out =
+            run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_y_mm = "
+                                   "-40\ncounts_per_deg = 2000\n[fly]\nmode = 'encoder'\n"
+                                   "[parts]\ncount = 8\nspacing_deg = 45\n") +
+                       start + "\n"));
         ASSERT_EQ(out.on.parts.size(), 8u);
         for (const PartMarked& part : out.on.parts) {
             EXPECT_EQ(part.fate, PartOutcome::marked);
@@ -67,8 +68,8 @@ TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
 
 TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
     // 10 mm are 50 ms: every second part comes while the square before it is marked.
-    const Job job = job_of(squares("count = 6\nspacing_mm = 10\ntrack_delay_mm = 20\n"));
-    const Outcome out = run(job);
+    const MarkingJob job = job_of(squares("count = 6\nspacing_mm = 10\ntrack_delay_mm = 20\n"));
+    const MarkingOutcome out = run(job);
     ASSERT_EQ(out.on.parts.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
         const PartMarked& part = out.on.parts[i];
@@ -86,7 +87,7 @@ TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
 }
 
 TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
-    const Outcome out = run(job_of(squares("count = 10\nspacing_mm = 20\ntrack_delay_mm = 170\n")));
+    const MarkingOutcome out = run(job_of(squares("count = 10\nspacing_mm = 20\ntrack_delay_mm = 170\n")));
     // At 160 mm the ninth edge comes, the first part is due at 170 mm.
     for (std::size_t i = 0; i < 10; ++i)
         EXPECT_EQ(out.on.parts[i].fate, i == 8 ? PartOutcome::lost_too_many : PartOutcome::marked) << i;
@@ -95,23 +96,23 @@ TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
 
 TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
     // 0.0123 mm are 12.3 counts: the card counts 60012 of them from start to start, and none gets lost on the way.
-    const Outcome out = run(job_of(squares("count = 6\nspacing_mm = 60.0123\nstart = 'equidistant'\n")));
+    const MarkingOutcome out = run(job_of(squares("count = 6\nspacing_mm = 60.0123\nstart = 'equidistant'\n")));
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(out.on.parts[i].fate, PartOutcome::marked);
         EXPECT_NEAR(out.on.parts[i].begin_s, static_cast<double>(i) * 60.012 / 200, 2.1e-5) << i;
         EXPECT_LE(out.on.parts[i].deviation.worst_mm, 0.006) << i;
     }
-    const Outcome lost = run(job_of(squares("count = 3\nspacing_mm = 10\nstart = 'equidistant'\n")));
+    const MarkingOutcome lost = run(job_of(squares("count = 3\nspacing_mm = 10\nstart = 'equidistant'\n")));
     EXPECT_EQ(lost.on.parts[0].fate, PartOutcome::marked);
     EXPECT_EQ(lost.on.parts[1].fate, PartOutcome::lost_busy);
     EXPECT_EQ(lost.on.parts[2].fate, PartOutcome::not_started);
 }
 
 TEST(MarkLine, EachPartGetsItsNumber) {
-    const Job job = job_of(
+    const MarkingJob job = job_of(
         "[drawing]\ntext = 'N{n:03}'\nheight_mm = 3\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"
         "[parts]\nat_mm = [0, 40, 75, 130, 190]\ntrack_delay_mm = 50\nfirst_number = 98\nnumber_step = 7\n");
-    const Outcome out = run(job);
+    const MarkingOutcome out = run(job);
     ASSERT_EQ(out.on.parts.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(out.on.parts[i].number, 98 + 7 * static_cast<std::int64_t>(i));
@@ -128,7 +129,7 @@ TEST(MarkLine, EachPartGetsItsNumber) {
 }
 
 TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
-    const Outcome out =
+    const MarkingOutcome out =
         run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_mm_s = 200\n[belt]\nspeed_mm_s = "
                    "200\n[fly]\nmode = 'encoder'\n"
                    "[parts]\nat_mm = [0, 5, 60, 65, 120]\ntrack_delay_mm = 5\n"));
@@ -147,8 +148,8 @@ TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
 }
 
 TEST(MarkLine, OverflowsAreOnTheirPartInItsCoordinates) {
-    const Outcome out = run(job_of(squares("count = 3\nspacing_mm = 200\ntrack_delay_mm = 20\n",
-                                           "mode = 'encoder'\n[optics]\nbits_per_mm = 40000")));
+    const MarkingOutcome out = run(job_of(squares("count = 3\nspacing_mm = 200\ntrack_delay_mm = 20\n",
+                                                  "mode = 'encoder'\n[optics]\nbits_per_mm = 40000")));
     ASSERT_FALSE(out.on.overflows.empty());
     std::vector<std::size_t> seen;
     for (const Overflow& o : out.on.overflows) {
@@ -163,7 +164,7 @@ TEST(MarkLine, OverflowsAreOnTheirPartInItsCoordinates) {
 }
 
 TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
-    const Job job = job_of(
+    const MarkingJob job = job_of(
         "[drawing]\nsvg = 's'\n[belt]\nprofile = [[0, 100], [1, 0]]\n[fly]\nmode = 'encoder'\n[parts]\ncount = "
         "4\nspacing_mm = 20\n");
     EXPECT_THAT(
@@ -196,7 +197,8 @@ TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
 }
 
 TEST(MarkLine, SeveralDrawingsAreMarkedOnOnePart) {
-    const Outcome out = run(job_of("[[drawing]]\nsvg = 's'\n[[drawing]]\ntext = 'A{n}'\nheight_mm = 3\ny_mm = 12\n"));
+    const MarkingOutcome out =
+        run(job_of("[[drawing]]\nsvg = 's'\n[[drawing]]\ntext = 'A{n}'\nheight_mm = 3\ny_mm = 12\n"));
     EXPECT_EQ(out.on.deviation.missing_mm, 0);
     EXPECT_GT(out.drawing_mm, 50);
     EXPECT_THAT(errors_of("[[drawing]]\nsvg = 's'\n[[drawing]]\n"), HasSubstr("j.toml:3:"));

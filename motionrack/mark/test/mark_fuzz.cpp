@@ -47,9 +47,9 @@ std::string picture_problem(const std::string& text) {
 }
 
 /// Marks it for a little while.
-std::string run_problem(const Job& job, const Prepared& prepared, std::string_view text) {
+std::string run_problem(const MarkingJob& job, const Prepared& prepared, std::string_view text) {
     if (length_of(prepared.drawing) > greatest_run_s * job.pace.mark_mm_s) return "";
-    const Result<Outcome> out = run_job(job, prepared, {{}, [] { return true; }});
+    const Result<MarkingOutcome> out = run_job(job, prepared, {{}, [] { return true; }});
     if (!out) return error_problem(out.error(), text);
     for (const Marked* m : {&out->on, out->off ? &*out->off : nullptr}) {
         if (m == nullptr) continue;

@@ -24,7 +24,7 @@ bool has_corner(const Marked& marked, Spot corner, double near_mm) {
 }
 
 TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
-    const Outcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
+    const MarkingOutcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_EQ(out.strokes, 1u);
     EXPECT_NEAR(out.drawing_mm, 40, 1e-9);
     EXPECT_LE(out.on.deviation.worst_mm, 0.0025) << "one count and one tick";
@@ -39,7 +39,7 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
 }
 
 TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
-    const Outcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
+    const MarkingOutcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_NEAR(out.field.high.x, 60.57, 0.01);
     // The corners are marked after 20, 40, 60 and 80 ms: the second at 10 + 4, the last at 8 mm.
     EXPECT_NEAR(out.on.reach.high.x, 14, 0.05);
@@ -58,12 +58,12 @@ TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
 TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
     for (const char* mode : {"encoder", "simulated", "mcbsp"})
         for (const char* way : {"0", "90", "180", "270", "30"}) {
-            Job job = job_of(mark_belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
+            MarkingJob job = job_of(mark_belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
             EXPECT_LE(run(job).on.deviation.worst_mm, std::string(mode) == "mcbsp" ? 0.0045 : 0.003)
                 << mode << ' ' << way;
         }
     for (const char* mode : {"encoder", "simulated", "mcbsp"}) {
-        const Outcome out =
+        const MarkingOutcome out =
             run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_x_mm = -30\ncounts_per_deg "
                                    "= 10000\n[sender]\nbits_per_unit = 10000\n[fly]\nmode = '") +
                        mode + "'\n"));
@@ -73,8 +73,8 @@ TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
 }
 
 TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
-    Job job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
-    const Outcome out = run(job);
+    MarkingJob job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
+    const MarkingOutcome out = run(job);
     ASSERT_TRUE(out.fits_factor);
     // 0.08 s and a little until the last corner; the field ends at 60.57 mm.
     EXPECT_GT(*out.fits_factor, 6);
@@ -82,7 +82,7 @@ TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
     job.belt.speed = 100 * *out.fits_factor;
     EXPECT_TRUE(run(job).on.overflows.empty());
     job.belt.speed *= 1.001;
-    const Outcome over = run(job);
+    const MarkingOutcome over = run(job);
     ASSERT_EQ(over.on.overflows.size(), 1u);
     EXPECT_EQ(over.on.overflows[0].name, "FLY_X_OVERFLOW");
     EXPECT_NEAR(*over.fits_factor * job.belt.speed, 100 * *out.fits_factor, 0.2);
@@ -90,9 +90,9 @@ TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
 }
 
 TEST(MarkJob, AWrongScaleAndALateSourceShowAsTheirFormulasSay) {
-    const Outcome wrong = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\nscale_factor = 1.01\n"));
+    const MarkingOutcome wrong = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\nscale_factor = 1.01\n"));
     EXPECT_NEAR(wrong.on.deviation.worst_mm, 0.01 * 100 * wrong.on.seconds, 0.01);
-    const Outcome late = run(job_of(mark_belt_job + "[sender]\ndelay_us = 2000\n[fly]\nmode = 'mcbsp'\n"));
+    const MarkingOutcome late = run(job_of(mark_belt_job + "[sender]\ndelay_us = 2000\n[fly]\nmode = 'mcbsp'\n"));
     EXPECT_NEAR(late.on.deviation.worst_mm, 0.2, 0.005) << "2 ms at 100 mm/s";
 }
 
@@ -103,15 +103,16 @@ TEST(MarkJob, ALensIsCorrectedByItsTableAndNotWithoutOne) {
 }
 
 TEST(MarkJob, CirclesTextAndGcodeAreMarkedAsDrawn) {
-    const Outcome circle = run(job_of("[drawing]\nsvg = 's'\nx_mm = 3\n"), "<svg><circle cx='5' cy='5' r='4'/></svg>");
+    const MarkingOutcome circle =
+        run(job_of("[drawing]\nsvg = 's'\nx_mm = 3\n"), "<svg><circle cx='5' cy='5' r='4'/></svg>");
     EXPECT_EQ(circle.elements, 2u) << "arcs of the card";
     EXPECT_LE(circle.on.deviation.worst_mm, 0.001);
     EXPECT_EQ(circle.on.deviation.missing_mm, 0);
-    const Outcome text = run(job_of("[drawing]\ntext = 'SN 0042 g'\nheight_mm = 3\n"));
+    const MarkingOutcome text = run(job_of("[drawing]\ntext = 'SN 0042 g'\nheight_mm = 3\n"));
     EXPECT_LE(text.on.deviation.worst_mm, 0.001);
     EXPECT_EQ(text.on.deviation.missing_mm, 0);
-    const Outcome gcode = run(job_of("[drawing]\ngcode = 'p'\nanchor = 'origin'\n"),
-                              "G21 G90 G0 X5 Y0\nG1 X10 F100\nG3 X10 Y10 I0 J5\nG0 X0 Y0\nM2\n");
+    const MarkingOutcome gcode = run(job_of("[drawing]\ngcode = 'p'\nanchor = 'origin'\n"),
+                                     "G21 G90 G0 X5 Y0\nG1 X10 F100\nG3 X10 Y10 I0 J5\nG0 X0 Y0\nM2\n");
     EXPECT_EQ(gcode.strokes, 1u);
     EXPECT_NEAR(gcode.drawing_mm, 5 + 5 * 3.14159265, 1e-6);
     EXPECT_LE(gcode.on.deviation.worst_mm, 0.001);
@@ -132,7 +133,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(first("[drawing]\ntext = "), HasSubstr("j.toml:2:"));
     const Result<Prepared> strange = prepare(job_of("[drawing]\ntext = 'A^'\n"), one_file(""));
     EXPECT_THAT(strange.error().text(), HasSubstr("Character 2"));
-    const Job fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n");
+    const MarkingJob fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n");
     EXPECT_THAT(run_job(fast, *prepare(fast, one_file(""))).error().text(), HasSubstr("bits/ms"));
     EXPECT_THAT(prepare(job_of("[drawing]\nsvg = 's'\n"), one_file("<svg><circle r='1e7'/></svg>")).error().text(),
                 HasSubstr("100000 mm"));
@@ -140,7 +141,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
 }
 
 TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsTold) {
-    const Job job = job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n");
+    const MarkingJob job = job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n");
     rtc5::CorrectionFile table = rtc5::one_to_one();
     const auto file = [&](std::int32_t k, std::int32_t program, std::initializer_list<std::size_t> turned) {
         table.header[1] = k, table.header[10] = program;
@@ -162,10 +163,10 @@ TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsTold) {
 }
 
 TEST(MarkJob, StopsWhenAsked) {
-    const Job job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_mm_s = 10\n");
-    const Result<Outcome> out = run_job(job, *prepare(job, one_file("")), {{}, [] { return true; }});
+    const MarkingJob job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_mm_s = 10\n");
+    const Result<MarkingOutcome> out = run_job(job, *prepare(job, one_file("")), {{}, [] { return true; }});
     ASSERT_FALSE(out);
-    EXPECT_EQ(out.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(out.error().kind, ErrorKind::stopped);
 }
 
 }  // namespace

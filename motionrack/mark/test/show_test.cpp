@@ -21,9 +21,9 @@ constexpr const char* shown_square =
 const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 100\n";
 
 struct Shown {
-    Job job;
+    MarkingJob job;
     Prepared prepared;
-    Outcome out;
+    MarkingOutcome out;
     std::string text;
 };
 
@@ -32,11 +32,11 @@ Shown shown(const std::string& text, const std::string& svg = shown_square) {
     s.text = text;
     JobRead read = read_job(text, "job.toml");
     for (const Error& error : read.errors) ADD_FAILURE() << error.text();
-    s.job = read.job.value_or(Job{});
+    s.job = read.job.value_or(MarkingJob{});
     Result<Prepared> prepared = prepare(s.job, [&](const std::string&) -> Result<std::string> { return svg; });
     if (!prepared) return ADD_FAILURE() << prepared.error().text(), s;
     s.prepared = *prepared;
-    Result<Outcome> out = run_job(s.job, s.prepared);
+    Result<MarkingOutcome> out = run_job(s.job, s.prepared);
     if (!out) return ADD_FAILURE() << out.error().text(), s;
     s.out = std::move(*out);
     return s;

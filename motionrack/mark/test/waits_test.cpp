@@ -55,7 +55,7 @@ TEST(Waits, WhatIsShorterThanAQuarterOfTheFieldStaysInOnePiece) {
 TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
     for (const char* fly : {"mode = 'encoder'", "mode = 'simulated'", "mode = 'mcbsp'"})
         for (const char* belt : {"speed_mm_s = 150", "speed_mm_s = -150\ndirection_deg = 180"}) {
-            const Outcome out = run(job_of(long_job(belt, fly)), long_svg);
+            const MarkingOutcome out = run(job_of(long_job(belt, fly)), long_svg);
             EXPECT_LE(out.on.deviation.worst_mm, 0.006) << fly << belt;
             EXPECT_EQ(out.on.deviation.missing_mm, 0) << fly << belt;
             EXPECT_TRUE(out.on.overflows.empty()) << fly << belt;
@@ -65,7 +65,7 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
             EXPECT_LT(out.off->deviation.worst_mm, 20);
         }
     // Without waits nearly all of it is outside the field.
-    const Outcome none =
+    const MarkingOutcome none =
         run(job_of("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"),
             long_svg);
     EXPECT_FALSE(none.on.overflows.empty());
@@ -74,7 +74,7 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
 
 TEST(Waits, AFrameIsReadyWhenItsLastEdgeHasComeIn) {
     // The trailing edge is at -380 mm: 380 - 59.57 mm of way at 150 mm/s.
-    const Outcome out = run(job_of(long_job("speed_mm_s = 150", "mode = 'encoder'")), long_svg);
+    const MarkingOutcome out = run(job_of(long_job("speed_mm_s = 150", "mode = 'encoder'")), long_svg);
     EXPECT_GT(out.on.seconds, (380 - 59.57) / 150);
     EXPECT_LT(out.on.seconds, (380 - 59.57) / 150 + 0.1);
 }
@@ -85,14 +85,14 @@ TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
     const std::size_t at = why.find("It just fits at ");
     ASSERT_NE(at, std::string::npos) << why;
     const double fits = std::stod(why.substr(at + 16));
-    Job job = job_of(long_job("speed_mm_s = 2500", "mode = 'encoder'"));
+    MarkingJob job = job_of(long_job("speed_mm_s = 2500", "mode = 'encoder'"));
     job.belt.speed = fits * 0.999;
     EXPECT_EQ(refusal(job, long_svg), "");
     job.belt.speed = fits * 1.001;
     EXPECT_NE(refusal(job, long_svg), "");
     // A slower belt says the same speed.
     job.belt.speed = fits / 2;
-    const Outcome slow = run(job, long_svg);
+    const MarkingOutcome slow = run(job, long_svg);
     EXPECT_NEAR(*slow.fits_factor * job.belt.speed, fits, 0.02 * fits);
 }
 
@@ -113,7 +113,7 @@ TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
 }
 
 TEST(Waits, GoTogetherWithPartsAndProfiles) {
-    const Outcome parts =
+    const MarkingOutcome parts =
         run(job_of(long_job("speed_mm_s = 150",
                             "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")),
             long_svg);
@@ -122,7 +122,7 @@ TEST(Waits, GoTogetherWithPartsAndProfiles) {
         EXPECT_LE(part.deviation.worst_mm, 0.006);
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }
-    const Outcome profile =
+    const MarkingOutcome profile =
         run(job_of(long_job("profile = [[0, 50], [1, 300], [2, 0], [3, 0], [4, 200]]", "mode = 'encoder'")), long_svg);
     EXPECT_LE(profile.on.deviation.worst_mm, 0.008);
     EXPECT_EQ(profile.on.deviation.missing_mm, 0);
@@ -131,9 +131,9 @@ TEST(Waits, GoTogetherWithPartsAndProfiles) {
 TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsSpeed) {
     const std::string job =
         "[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nprofile = [[0, 100], [0.04, 100], [0.08, 60]]\n[fly]\n";
-    const Outcome encoder = run(job_of(job + "mode = 'encoder'\n"));
+    const MarkingOutcome encoder = run(job_of(job + "mode = 'encoder'\n"));
     EXPECT_LE(encoder.on.deviation.worst_mm, 0.003);
-    const Outcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_speed_mm_s = 100\n"));
+    const MarkingOutcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_speed_mm_s = 100\n"));
     // 40 ms from 100 to 60 mm/s: 0.04 * 20 = 0.8 mm less way than supposed at 80 ms.
     EXPECT_NEAR(simulated.on.deviation.worst_mm, 0.8, 0.08);
     EXPECT_THAT(errors_of(job + "mode = 'simulated'\n"), HasSubstr("simulated_speed in [fly]"));

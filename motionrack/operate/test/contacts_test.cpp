@@ -18,7 +18,7 @@ const std::string swapped_limits =
 /// All axes are where they say.
 void declare_all(Operated& o) {
     o.at(0.02, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, axis.commanded));
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
     });
 }
 
@@ -40,10 +40,10 @@ TEST_P(SwappedLimits, StopAnAxisBehindWhichOneBecomesActive) {
     });
     o.at(3, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
-        EXPECT_NEAR(m.status().axes[0].place, 40, 2) << "it stops with its ramp";
+        EXPECT_NEAR(m.status().axes[0].true_position, 40, 2) << "it stops with its ramp";
         EXPECT_THAT(last_alarm(m), HasSubstr("The - limit switch of X became active while X moved in + direction"));
         EXPECT_THAT(last_alarm(m), HasSubstr("wiring"));
-        EXPECT_TRUE(m.status().axes[0].trusted) << "a ramp loses nothing";
+        EXPECT_TRUE(m.status().axes[0].position_valid) << "a ramp loses nothing";
         EXPECT_FALSE(m.jog('X', 5)) << "neither way before a reset";
         EXPECT_FALSE(m.jog('X', -5));
         m.reset();
@@ -58,11 +58,11 @@ TEST_P(SwappedLimits, StopASearchForHomeToo) {
         "[axis.X.switches]\nlimit_minus_mm = 2\nlimit_plus_mm = 40\nhome_mm = 3\n[axis.X.homing]\nspeed_mm_s = 10\n"
         "[wires]\n\"m.xlmtp\" = \"X.limit_minus\"\n\"m.xlmtm\" = \"X.limit_plus\"\n\"m.xin0\" = \"open\"\n"
         "\"m.xin1\" = \"X.home\"\n"));
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.wires().set("X.home", 1)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.home", 1)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.at(4, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
-        EXPECT_GT(m.status().axes[0].place, 0) << "it does not run on into its end";
+        EXPECT_GT(m.status().axes[0].true_position, 0) << "it does not run on into its end";
     });
     o.run(4.1);
     EXPECT_THAT(last_alarm(*o.machine), HasSubstr("+ limit switch of X became active while X moved in - direction"));
@@ -80,7 +80,7 @@ TEST_P(OneChannel, OfTheEmergencyStopStopsAtOnceAndIsNotResetWhileTheOtherDiffer
     Operated o(two_axes(two_channels));
     declare_all(o);
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 70, 20)); });
-    o.at(1, [channel](Machine& m) { EXPECT_TRUE(m.wires().set(channel, 0)); });
+    o.at(1, [channel](Machine& m) { EXPECT_TRUE(m.wires().force(channel, 0)); });
     o.at(1.01, [](Machine& m) { EXPECT_EQ(m.status().axes[0].speed, 0) << "the first contact acts at once"; });
     o.at(1.4, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
@@ -92,12 +92,12 @@ TEST_P(OneChannel, OfTheEmergencyStopStopsAtOnceAndIsNotResetWhileTheOtherDiffer
     });
     o.at(1.8, [channel](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << "a reset alone does not clear it";
-        EXPECT_THAT(m.status().why, HasSubstr("unlike"));
-        EXPECT_TRUE(m.wires().set(channel, 1));
+        EXPECT_THAT(m.status().reason, HasSubstr("unlike"));
+        EXPECT_TRUE(m.wires().force(channel, 1));
         m.reset();
     });
     o.at(2, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::standstill) << m.status().why;
+        EXPECT_EQ(m.state(), MachineState::standstill) << m.status().reason;
         EXPECT_THAT(m.status().alarms, testing::SizeIs(2)) << "each is told once";
     });
     o.run(2.1);
@@ -109,13 +109,13 @@ TEST(TwoChannels, ThatOpenTogetherAreAPressedButtonAndNoFault) {
     Operated o(two_axes(two_channels));
     declare_all(o);
     o.at(1, [](Machine& m) {
-        EXPECT_TRUE(m.wires().set("estop1", 0));
-        EXPECT_TRUE(m.wires().set("estop2", 0));
+        EXPECT_TRUE(m.wires().force("estop1", 0));
+        EXPECT_TRUE(m.wires().force("estop2", 0));
     });
     o.at(2, [](Machine& m) {
         EXPECT_THAT(m.status().alarms, testing::SizeIs(1));
-        EXPECT_TRUE(m.wires().set("estop1", 1));
-        EXPECT_TRUE(m.wires().set("estop2", 1));
+        EXPECT_TRUE(m.wires().force("estop1", 1));
+        EXPECT_TRUE(m.wires().force("estop2", 1));
         m.reset();
     });
     o.at(2.2, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::standstill); });
@@ -125,7 +125,7 @@ TEST(TwoChannels, ThatOpenTogetherAreAPressedButtonAndNoFault) {
 const std::string with_door = "[safety]\ndoor = true\n";
 
 void open_door(Machine& m, bool open) {
-    EXPECT_TRUE(m.wires().set("door", open ? 0 : 1));
+    EXPECT_TRUE(m.wires().force("door", open ? 0 : 1));
 }
 
 TEST(ADoor, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
@@ -184,7 +184,7 @@ TEST(ADoor, OpenedInAJogStopsItAndNothingBeginsUntilItIsClosed) {
 TEST(AMachineWithoutContacts, HasNoWiresForThem) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        for (const char* wire : {"door", "estop1", "estop2"}) EXPECT_FALSE(m.wires().set(wire, 0)) << wire;
+        for (const char* wire : {"door", "estop1", "estop2"}) EXPECT_FALSE(m.wires().force(wire, 0)) << wire;
     });
     o.run(0.2);
     EXPECT_THAT(o.machine->status().alarms, IsEmpty());

@@ -46,7 +46,7 @@ rack::RackConfig rack_of(const JogCase& one) {
 struct Seen {
     double beyond = 0, apart = 0, commanded = 0, end_speed = 0;
     std::string conditions;
-    bool trusted = false;
+    bool position_valid = false;
     MachineState state = MachineState::disabled;
 };
 
@@ -66,12 +66,12 @@ Seen jog_on(const JogCase& one) {
     o.machine->listen([&](const Status& status) {
         const AxisStatus& x = status.axes[0];
         seen.beyond = std::max({seen.beyond, one.min - x.commanded, x.commanded - one.max});
-        seen.apart = std::max(seen.apart, std::fabs(x.place - x.commanded));
+        seen.apart = std::max(seen.apart, std::fabs(x.true_position - x.commanded));
         if (x.speed != 0) seen.end_speed = std::fabs(x.speed);
     });
     o.run(last + 1);
     seen.commanded = o.x();
-    seen.trusted = o.machine->status().axes[0].trusted;
+    seen.position_valid = o.machine->status().axes[0].position_valid;
     seen.state = o.machine->state();
     for (const sim::Condition& condition : o.machine->rack().kernel().conditions())
         seen.conditions += o.machine->rack().describe(condition) + "\n";
@@ -126,7 +126,7 @@ TEST_P(JogToTheLimit, StopsWithinAPulseOfItAndNeverBeyond) {
     EXPECT_LE(seen.apart, 0.5 / pulses_per_mm + 1e-9) << "no step was lost; a start may be between two pulses";
     EXPECT_LE(seen.end_speed, 2.1 + 0.002 * one.accel) << "it ends with a ramp down to the start speed";
     EXPECT_EQ(seen.conditions, "");
-    EXPECT_TRUE(seen.trusted);
+    EXPECT_TRUE(seen.position_valid);
     EXPECT_EQ(seen.state, MachineState::standstill);
 }
 
@@ -137,7 +137,8 @@ TEST(AJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
     o.at(0.1, [](Machine& m) { static_cast<void>(m.jog('X', 20)); });
     o.at(0.2, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
-        EXPECT_THAT(m.status().why, HasSubstr("it stands at the + end of its travel, 300 mm; move it in - direction"));
+        EXPECT_THAT(m.status().reason,
+                    HasSubstr("it stands at the + end of its travel, 300 mm; move it in - direction"));
         EXPECT_DOUBLE_EQ(o.x(), 300);
         EXPECT_TRUE(m.jog('X', -20));
     });
@@ -149,7 +150,7 @@ TEST(AJog, WithoutATrustedPositionHasNoSoftLimit) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', -10)); });
     o.run(0.2);
-    EXPECT_FALSE(o.machine->status().axes[0].trusted);
+    EXPECT_FALSE(o.machine->status().axes[0].position_valid);
     EXPECT_LT(o.x(), -0.5);
 }
 
@@ -164,14 +165,14 @@ TEST(AMachine, JogsEveryAxisOfTheRouterWithoutALostStep) {
                 const double way = letter == 'Z' ? -1 : 1;
                 o.at(0.05, [](Machine& m) {
                     for (const AxisStatus& axis : m.status().axes)
-                        EXPECT_TRUE(m.declare_position(axis.letter, axis.place));
+                        EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
                 });
                 for (double t = 0.1; t < 0.4; t += 0.05)
                     o.at(t, [=](Machine& m) { EXPECT_TRUE(m.jog(letter, way * speed)); });
                 o.run(1);
                 const AxisStatus& axis = o.machine->status().axes[i];
-                EXPECT_TRUE(axis.trusted) << letter << ' ' << profile << ' ' << speed;
-                EXPECT_NEAR(axis.place, axis.commanded, 1e-6) << letter << ' ' << profile << ' ' << speed;
+                EXPECT_TRUE(axis.position_valid) << letter << ' ' << profile << ' ' << speed;
+                EXPECT_NEAR(axis.true_position, axis.commanded, 1e-6) << letter << ' ' << profile << ' ' << speed;
                 EXPECT_TRUE(o.machine->status().alarms.empty());
             }
 }

@@ -86,12 +86,12 @@ TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
         ASSERT_NE(m.service().live(), nullptr);
         EXPECT_EQ(m.service().live()->registers().view.values.size(), 16U) << "four of each axis";
         EXPECT_TRUE(m.status().real);
-        EXPECT_THAT(m.status().why,
+        EXPECT_THAT(m.status().reason,
                     HasSubstr("card bench is in service by dora; it is a real one, at " + file.place()));
-        EXPECT_TRUE(m.status().axes[0].trusted) << "it is another card's";
+        EXPECT_TRUE(m.status().axes[0].position_valid) << "it is another card's";
         const auto second = live::CardPort::open(m.service().live()->place().spec, m.rack().card("bench")->map());
         ASSERT_FALSE(second);
-        EXPECT_EQ(second.error().trouble, ErrorKind::refused) << "no other program drives it meanwhile";
+        EXPECT_EQ(second.error().kind, ErrorKind::refused) << "no other program drives it meanwhile";
     });
     o.end(0.3);
     o.at(0.4, [&](Machine& m) {
@@ -207,7 +207,7 @@ TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
         });
         o.at(0.2, [&](Machine& m) {
             EXPECT_EQ(m.state(), MachineState::standstill);
-            EXPECT_THAT(m.status().why, AllOf(HasSubstr("was not begun"), HasSubstr(says)));
+            EXPECT_THAT(m.status().reason, AllOf(HasSubstr("was not begun"), HasSubstr(says)));
         });
         o.at(0.25, [&](Machine&) { file.memory('\xFF'); });
         o.call(0.3, "ReadLPS", {{"axis", 1}});

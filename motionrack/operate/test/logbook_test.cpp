@@ -101,9 +101,9 @@ TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
     const LastKnownPositions last = read_last(*journal_->before(), table());
     EXPECT_EQ(last.sentence, "");
     ASSERT_EQ(last.axes.size(), 2u);
-    EXPECT_NEAR(last.axes[0].place, 12, 1e-9);
+    EXPECT_NEAR(last.axes[0].true_position, 12, 1e-9);
     EXPECT_NEAR(last.axes[0].commanded, 12, 1e-9);
-    EXPECT_TRUE(last.axes[0].trusted);
+    EXPECT_TRUE(last.axes[0].position_valid);
 }
 
 TEST_F(ALogbook, HasOneEntryOfAStopThatCameOnTwoWays) {
@@ -153,10 +153,10 @@ TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
         [](Machine& m) { m.quit(); },
         [](Machine& m) {
             EXPECT_EQ(m.status().axes[0].commanded, 12);
-            EXPECT_TRUE(m.status().axes[0].trusted);
+            EXPECT_TRUE(m.status().axes[0].position_valid);
             ASSERT_TRUE(m.line("G91 G0 X3", 1));
         });
-    EXPECT_NEAR(last_.axes[0].place, 15, 1e-9);
+    EXPECT_NEAR(last_.axes[0].true_position, 15, 1e-9);
 }
 
 TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
@@ -169,10 +169,10 @@ TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
     open();
     const LastKnownPositions last = read_last(*journal_->before(), table());
     ASSERT_EQ(last.axes.size(), 2u);
-    EXPECT_GT(last.axes[0].place, 20.5) << "it took some way to stop";
-    EXPECT_EQ(last.axes[0].place, last_.axes[0].place);
+    EXPECT_GT(last.axes[0].true_position, 20.5) << "it took some way to stop";
+    EXPECT_EQ(last.axes[0].true_position, last_.axes[0].true_position);
     EXPECT_EQ(last.axes[0].commanded, last_.axes[0].commanded);
-    EXPECT_TRUE(last.axes[0].trusted);
+    EXPECT_TRUE(last.axes[0].position_valid);
 }
 
 TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
@@ -188,8 +188,8 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
             EXPECT_THAT(last.sentence, HasSubstr("was cut off"));
             EXPECT_THAT(last.sentence, HasSubstr("'part.ngc' ran and was at line 2"));
             EXPECT_THAT(last.sentence, HasSubstr("No position is trusted"));
-            EXPECT_NEAR(last.axes[0].place, 50, 12);  // at most 0.1 s ago
-            EXPECT_FALSE(last.axes[0].trusted);
+            EXPECT_NEAR(last.axes[0].true_position, 50, 12);  // at most 0.1 s ago
+            EXPECT_FALSE(last.axes[0].position_valid);
             m.quit();
         },
         [](Machine& m) { ASSERT_TRUE(m.begin_program("(a long way)\nG1 X200 F6000\nM30\n", "part.ngc")); });
@@ -197,8 +197,8 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     settings.standing = read_last(*journal_->before(), table()).axes;
     settings.alarm = read_last(*journal_->before(), table()).sentence;
     const auto machine = std::move(*Machine::make(table(), std::move(settings)));
-    EXPECT_NEAR(machine->status().axes[0].place, 50, 12);
-    EXPECT_FALSE(machine->status().axes[0].trusted);
+    EXPECT_NEAR(machine->status().axes[0].true_position, 50, 12);
+    EXPECT_FALSE(machine->status().axes[0].position_valid);
     ASSERT_EQ(machine->status().alarms.size(), 1u);
     EXPECT_THAT(machine->status().alarms[0].text, HasSubstr("cut off"));
     EXPECT_EQ(machine->status().alarms[0].source, "last run");
@@ -213,7 +213,7 @@ TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
         [this](Machine& m) {
             m.set_overrides(0.5, 1);
             m.set_single_step(true);
-            ASSERT_TRUE(m.wires().set("estop", 0));
+            ASSERT_TRUE(m.wires().force("estop", 0));
             quit_on(MachineState::error_stop);
         },
         [](Machine& m) { ASSERT_TRUE(m.begin_program("G1 X200 F6000\nM30\n", "part.ngc")); });
@@ -232,24 +232,24 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
                              "{\"line\": \"x\", \"state\": 4"}) {
         const LastKnownPositions last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
         ASSERT_EQ(last.axes.size(), table().axes.size()) << kept;
-        for (const InitialAxisState& one : last.axes) EXPECT_FALSE(one.trusted) << kept;
+        for (const InitialAxisState& one : last.axes) EXPECT_FALSE(one.position_valid) << kept;
         EXPECT_THAT(last.sentence, HasSubstr("cut off")) << kept;
     }
 }
 
 TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
     const std::string kept = R"({"axes": [{"letter": "X", "place": 5, "commanded": 5, "trusted": true}]})";
-    EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].trusted);
+    EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].position_valid);
     const LastKnownPositions last = read_last({1, true, 0, {{"machine", kept}}, {"its end does not fit"}, {}}, table());
-    EXPECT_FALSE(last.axes[0].trusted);
+    EXPECT_FALSE(last.axes[0].position_valid);
     EXPECT_THAT(last.sentence, HasSubstr("The journal is not to be trusted: its end does not fit. No position is"));
     const LastKnownPositions none = read_last({1, true, 0, {}, {}, {}}, table());
     ASSERT_FALSE(none.axes.empty());
-    EXPECT_FALSE(none.axes[0].trusted) << "without a record it may stand anywhere";
+    EXPECT_FALSE(none.axes[0].position_valid) << "without a record it may stand anywhere";
     EXPECT_THAT(none.sentence, HasSubstr("does not say where the machine stood"));
     const LastKnownPositions changed =
         read_last({1, true, 0, {{"machine", kept}}, {}, "Entry 3 was changed."}, table());
-    EXPECT_TRUE(changed.axes[0].trusted);
+    EXPECT_TRUE(changed.axes[0].position_valid);
     EXPECT_EQ(changed.sentence, "Entry 3 was changed.");
 }
 
@@ -258,10 +258,10 @@ TEST_F(ALogbook, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {
     Status status;
     status.state = MachineState::standstill;
     status.axes.resize(1);
-    status.axes[0].trusted = true;
+    status.axes[0].position_valid = true;
     book_->see(status);
     status.at = milliseconds(500);
-    status.axes[0].commanded = status.axes[0].place = 1.57;
+    status.axes[0].commanded = status.axes[0].true_position = 1.57;
     book_->see(status);
     book_.reset();
     ASSERT_TRUE(journal_->close());

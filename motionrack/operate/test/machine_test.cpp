@@ -111,7 +111,7 @@ TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
         m.stop({"anna", "", "STOP"});
     });
     o.at(0.7, [](Machine& m) {
-        EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: line 2 was stopped."));
+        EXPECT_THAT(m.status().reason, HasSubstr("STOP by anna: line 2 was stopped."));
         m.reset();
     });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.line("G1 X12 F600", 3)); });
@@ -127,7 +127,8 @@ TEST(AMachine, TellsTheLineAtWhichItWaits) {
         EXPECT_EQ(m.status().line, 2);
         m.stop({"anna", "", "STOP"});
     });
-    o.at(0.7, [](Machine& m) { EXPECT_THAT(m.status().why, HasSubstr("STOP by anna: cold.nc, line 2 was stopped.")); });
+    o.at(0.7,
+         [](Machine& m) { EXPECT_THAT(m.status().reason, HasSubstr("STOP by anna: cold.nc, line 2 was stopped.")); });
     o.run(0.8);
 }
 
@@ -216,7 +217,7 @@ TEST(AMachine, WithHomeSwitchesTrustsNoPositionUntilItIsHomed) {
         EXPECT_TRUE(m.home(""));
     });
     o.at(60, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(axis.trusted) << axis.letter;
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(axis.position_valid) << axis.letter;
         EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12 Y7\n", "p"));
     });
     o.run(70);
@@ -233,23 +234,23 @@ TEST(AMachine, StopsItsHoming) {
     o.run(2);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "homing", "stopping", "error stop"));
     EXPECT_LT(o.stood_since, 1);
-    EXPECT_FALSE(o.machine->status().axes[0].trusted);
+    EXPECT_FALSE(o.machine->status().axes[0].position_valid);
 }
 
 TEST(AMachine, TrustsADeclaredPosition) {
     Operated o(router());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.declare_position('Y', 33)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
     o.run(1);
-    EXPECT_TRUE(o.machine->status().axes[1].trusted);
-    EXPECT_FALSE(o.machine->status().axes[0].trusted);
+    EXPECT_TRUE(o.machine->status().axes[1].position_valid);
+    EXPECT_FALSE(o.machine->status().axes[0].position_valid);
     EXPECT_NEAR(o.y(), 33, 1e-9);
 }
 
 TEST(AMachine, EndsWithThePositionThatWasDeclaredLast) {
     Operated o(two_axes());
-    o.at(1, [](Machine& m) { EXPECT_TRUE(m.declare_position('Y', 33)); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
     o.run(1);
-    EXPECT_TRUE(o.machine->status().axes[1].trusted);
+    EXPECT_TRUE(o.machine->status().axes[1].position_valid);
     EXPECT_NEAR(o.y(), 33, 1e-9);
 }
 
@@ -339,18 +340,18 @@ TEST(AMachine, TellsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
 TEST(AMachine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
     Operated o(router());
     o.at(0.1, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, 5));
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, 5));
     });
     o.run(0.5);
     for (const AxisStatus& axis : o.machine->status().axes) {
-        EXPECT_TRUE(axis.trusted) << axis.letter;
+        EXPECT_TRUE(axis.position_valid) << axis.letter;
         EXPECT_DOUBLE_EQ(axis.commanded, 5) << axis.letter;
     }
 }
 
 TEST(AMachine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
     Operated o(two_axes());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('Y', 50)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 50)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 20)); });
     double told = 0;
     o.at(0.5, [&](Machine& m) {

@@ -36,7 +36,7 @@ class Operated {
     explicit Operated(const rack::RackConfig& config, MachineSettings settings = {}) {
         settings.pace = [this](Instant now) { return give(to_seconds(now)), true; };
         settings.on_status = [this](const Status& status) { look(status); };
-        settings.on_event = [this](const control::gcode::Step& step) { events.push_back(step.kind); };
+        settings.on_event = [this](const control::gcode::CanonCall& step) { events.push_back(step.kind); };
         auto made = Machine::make(config, std::move(settings));
         EXPECT_TRUE(made) << made.error().message;
         machine = std::move(*made);

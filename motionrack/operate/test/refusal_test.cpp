@@ -21,10 +21,10 @@ TEST(AMachine, IsDisabledAtFirstAndTakesNoMotion) {
 TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
-    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.at(2, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_FALSE(m.status().axes[0].trusted);
+        EXPECT_FALSE(m.status().axes[0].position_valid);
         ASSERT_EQ(m.status().alarms.size(), 1u);
         EXPECT_THAT(m.status().alarms[0].text, HasSubstr("emergency"));
         EXPECT_EQ(m.status().alarms[0].source, "emergency stop");
@@ -33,8 +33,8 @@ TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
     });
     o.at(3, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << "it is still pressed";
-        EXPECT_THAT(m.status().why, HasSubstr("still pressed"));
-        EXPECT_TRUE(m.wires().set("estop", 1));
+        EXPECT_THAT(m.status().reason, HasSubstr("still pressed"));
+        EXPECT_TRUE(m.wires().force("estop", 1));
         m.reset();
     });
     o.at(4, [](Machine& m) {
@@ -49,11 +49,11 @@ TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
 
 TEST(AMachine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.run(1);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "error stop"));
     EXPECT_EQ(o.machine->status().alarms.size(), 1u);
-    EXPECT_TRUE(o.machine->status().axes[0].trusted) << "nothing moved";
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "nothing moved";
 }
 
 TEST(AMachine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
@@ -63,7 +63,7 @@ TEST(AMachine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
     EXPECT_EQ(o.states.back(), "error stop");
     EXPECT_THAT(o.machine->status().alarms[0].text, HasSubstr("limit"));
     EXPECT_EQ(o.machine->status().alarms[0].source, "p, line 2");
-    EXPECT_TRUE(o.machine->status().axes[0].trusted);
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid);
     EXPECT_LT(o.x(), 42);
 }
 
@@ -130,10 +130,10 @@ TEST(AMachine, RefusesAProgramWithoutAnyWord) {
 
 TEST(AMachine, DisabledAfterAnErrorStaysSoWhenItIsReset) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
     o.at(0.3, [](Machine& m) {
-        EXPECT_TRUE(m.wires().set("estop", 1));
+        EXPECT_TRUE(m.wires().force("estop", 1));
         m.reset();
     });
     o.run(0.5);

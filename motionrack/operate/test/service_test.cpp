@@ -53,16 +53,16 @@ TEST(AService, CallsFunctionsAndGivesTheCardBackUntrusted) {
     o.call(0.5, "ReadLPS", {{"axis", 2}});
     o.at(0.6, [&](Machine& m) {
         EXPECT_EQ(m.status().service, "m");
-        EXPECT_FALSE(m.status().axes[0].trusted || m.status().axes[1].trusted);
-        EXPECT_NEAR(m.status().axes[1].place, 1, 1e-9) << "640 pulses are a millimetre";
+        EXPECT_FALSE(m.status().axes[0].position_valid || m.status().axes[1].position_valid);
+        EXPECT_NEAR(m.status().axes[1].true_position, 1, 1e-9) << "640 pulses are a millimetre";
         EXPECT_TRUE(m.service().end([&](const Result<std::string>& told) { o.said.push_back(*told); }));
     });
     o.at(0.7, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_EQ(m.status().service, "");
         EXPECT_FALSE(m.line("G1 X20 F600", 1)) << "not trusted";
-        EXPECT_TRUE(m.declare_position('X', 10));
-        EXPECT_TRUE(m.declare_position('Y', 1));
+        EXPECT_TRUE(m.set_position('X', 10));
+        EXPECT_TRUE(m.set_position('Y', 1));
     });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12 Y3\nM2\n", "p")); });
     o.run(2);
@@ -91,7 +91,7 @@ TEST(AService, DrivesNothingElse) {
         refused(m.home("X"));
         refused(m.line("G1 X20 F600", 1));
         refused(m.begin_program("G0 X20\n", "p"));
-        refused(m.declare_position('X', 0));
+        refused(m.set_position('X', 0));
         EXPECT_FALSE(m.resume());
         EXPECT_FALSE(m.access({"m", 16, 0, {}}, [](std::uint32_t) {}));
         EXPECT_FALSE(m.service().begin("m", anna, "w1", {}));
@@ -150,7 +150,7 @@ TEST(AService, IsBegunByACallToACardThatNothingDrives) {
     o.call(0.7, "ReadLPS", {{"axis", 1}});
     o.at(0.8, [](Machine& m) {
         EXPECT_EQ(m.status().service, "free");
-        EXPECT_TRUE(m.status().axes[0].trusted) << "it is another card's";
+        EXPECT_TRUE(m.status().axes[0].position_valid) << "it is another card's";
         EXPECT_TRUE(m.service().end({}));
     });
     o.at(0.9, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::disabled); });
@@ -168,13 +168,13 @@ TEST(AService, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
     o.at(0.6, [](Machine& m) { EXPECT_EQ(m.service().working(), "wait"); });
     double x = 0;
     o.at(0.7, [](Machine& m) { m.stop({"bert", "", "STOP"}); });
-    o.at(0.705, [&](Machine& m) { x = m.status().axes[0].place; });
+    o.at(0.705, [&](Machine& m) { x = m.status().axes[0].true_position; });
     o.at(0.9, [&](Machine& m) {
-        EXPECT_EQ(m.status().axes[0].place, x) << "it stands within 5 ms, whatever its ramp";
+        EXPECT_EQ(m.status().axes[0].true_position, x) << "it stands within 5 ms, whatever its ramp";
         EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_NE(m.status().why.find("STOP by bert"), std::string::npos) << m.status().why;
-        EXPECT_NE(m.status().why.find("the position of X, Y is not trusted: home it"), std::string::npos)
-            << m.status().why;
+        EXPECT_NE(m.status().reason.find("STOP by bert"), std::string::npos) << m.status().reason;
+        EXPECT_NE(m.status().reason.find("the position of X, Y is not trusted: home it"), std::string::npos)
+            << m.status().reason;
         EXPECT_FALSE(m.service().on());
     });
     o.run(1);
@@ -196,14 +196,14 @@ TEST_P(AServiceWithAMovingAxis, StopsAtOnce) {
     double x = 0;
     o.drive_x();
     o.at(0.5, GetParam().give);
-    o.at(0.505, [&](Machine& m) { x = m.status().axes[0].place; });
+    o.at(0.505, [&](Machine& m) { x = m.status().axes[0].true_position; });
     o.at(0.7, [&](Machine& m) {
-        EXPECT_EQ(m.status().axes[0].place, x);
-        EXPECT_EQ(m.state(), GetParam().after) << name_of(m.state()) << ' ' << m.status().why;
+        EXPECT_EQ(m.status().axes[0].true_position, x);
+        EXPECT_EQ(m.state(), GetParam().after) << name_of(m.state()) << ' ' << m.status().reason;
         EXPECT_FALSE(m.service().on());
-        EXPECT_FALSE(m.status().axes[0].trusted);
+        EXPECT_FALSE(m.status().axes[0].position_valid);
         if (m.state() != MachineState::disabled) {
-            EXPECT_NE(m.status().why.find("not trusted"), std::string::npos) << m.status().why;
+            EXPECT_NE(m.status().reason.find("not trusted"), std::string::npos) << m.status().reason;
         }
     });
     o.run(0.8);
@@ -216,9 +216,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Ending{"disabling", [](Machine& m) { EXPECT_TRUE(m.enable(false)); }, MachineState::disabled},
                     Ending{"a_reset", [](Machine& m) { m.reset(anna); }, MachineState::standstill},
                     Ending{"a_stop", [](Machine& m) { m.stop(anna); }, MachineState::error_stop},
-                    Ending{"the_emergency_stop", [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); },
+                    Ending{"the_emergency_stop", [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); },
                            MachineState::error_stop},
-                    Ending{"an_alarm", [](Machine& m) { EXPECT_TRUE(m.wires().set("m.yalarm", 0)); },
+                    Ending{"an_alarm", [](Machine& m) { EXPECT_TRUE(m.wires().force("m.yalarm", 0)); },
                            MachineState::error_stop}),
     [](const auto& each) { return std::string(each.param.name); });
 
@@ -228,11 +228,11 @@ TEST(AService, StopsAtALimitSwitchThatTheChipDoesNotHeed) {
     o.call(0.08, "SetRange", {{"data", 800'000}});
     o.call(0.09, "HLMTP", {{"n", 1}, {"axis", 2}});
     o.call(0.1, "TCurve_C", {{"axis", 1}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}});
-    o.at(0.5, [](Machine& m) { EXPECT_TRUE(m.wires().set("Y.limit_plus", 0)); });
+    o.at(0.5, [](Machine& m) { EXPECT_TRUE(m.wires().force("Y.limit_plus", 0)); });
     double x = 0;
-    o.at(0.505, [&](Machine& m) { x = m.status().axes[0].place; });
+    o.at(0.505, [&](Machine& m) { x = m.status().axes[0].true_position; });
     o.at(0.7, [&](Machine& m) {
-        EXPECT_EQ(m.status().axes[0].place, x);
+        EXPECT_EQ(m.status().axes[0].true_position, x);
         EXPECT_EQ(m.state(), MachineState::error_stop);
         EXPECT_EQ(m.rack().stop_latch().cause(), rack::StopSource::limit_switch);
     });

@@ -15,8 +15,8 @@ const std::string switches =
 
 /// A button that is pressed at 2 s and released at 2.2 s.
 void press_and_release(Operated& o) {
-    o.at(2, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
-    o.at(2.2, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 1)); });
+    o.at(2, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
+    o.at(2.2, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 1)); });
 }
 
 /// In error stop with nothing moving; a resume and a line do nothing; a reset moves nothing; then a new line does.
@@ -26,7 +26,7 @@ void expect_latched_until_reset(Operated& o, double x) {
         EXPECT_NEAR(m.status().axes[0].commanded, x, 0.01);
         ASSERT_EQ(m.status().alarms.size(), 1u);
         EXPECT_EQ(m.status().alarms[0].source, "emergency stop");
-        EXPECT_TRUE(m.status().axes[0].trusted);
+        EXPECT_TRUE(m.status().axes[0].position_valid);
         EXPECT_FALSE(m.resume());
         EXPECT_THAT(m.line("G1 X30 F600", 1).error().message, HasSubstr("The emergency stop was pressed"));
         EXPECT_FALSE(m.jog('X', 5));
@@ -105,7 +105,7 @@ TEST(TheStopLatch, IsSetByTheStopOrderToo) {
     o.at(2, [](Machine& m) { m.stop(); });
     o.at(3, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_THAT(m.status().why, HasSubstr("Stopped on request at 2.0"));
+        EXPECT_THAT(m.status().reason, HasSubstr("Stopped on request at 2.0"));
         EXPECT_TRUE(m.status().alarms.empty()) << "who asked for it needs no alarm";
         EXPECT_THAT(m.line("G1 X30 F600", 1).error().message, HasSubstr("Reset"));
         m.reset();
@@ -133,7 +133,7 @@ void expect_reset_does_not_release(const std::function<void(Machine&)>& later_st
         m.reset();
     });
     o.run(4);
-    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
     EXPECT_EQ(o.x(), stood);
 }
 
@@ -142,13 +142,13 @@ TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeAStopOrder) {
 }
 
 TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeALimitSwitch) {
-    expect_reset_does_not_release([](Machine& m) { EXPECT_TRUE(m.wires().set("m.xlmtp", 0)); });
+    expect_reset_does_not_release([](Machine& m) { EXPECT_TRUE(m.wires().force("m.xlmtp", 0)); });
 }
 
 TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeAShortPressOfTheButton) {
     expect_reset_does_not_release([](Machine& m) {
-        EXPECT_TRUE(m.wires().set("estop", 0));
-        EXPECT_TRUE(m.wires().set("estop", 1));
+        EXPECT_TRUE(m.wires().force("estop", 0));
+        EXPECT_TRUE(m.wires().force("estop", 1));
     });
 }
 
@@ -161,20 +161,20 @@ TEST(TheStopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
         m.reset();
     });
     o.run(3);
-    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
 }
 
 TEST(TheStopLatch, StaysSetWhileItsCauseIsThere) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("m.xalarm", 0)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("m.xalarm", 0)); });
     o.at(0.5, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
         m.reset();
     });
     o.at(1, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_THAT(m.status().why, HasSubstr("the drive of X still reports an alarm"));
-        EXPECT_TRUE(m.wires().set("m.xalarm", 1));
+        EXPECT_THAT(m.status().reason, HasSubstr("the drive of X still reports an alarm"));
+        EXPECT_TRUE(m.wires().force("m.xalarm", 1));
         m.reset();
     });
     o.run(2);
@@ -186,8 +186,8 @@ TEST(TheStopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
     Operated o(two_axes());
     for (int i = 0; i < 30; ++i) {
         if (i == 10) {
-            o.at(1.05, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
-            o.at(1.08, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 1)); });
+            o.at(1.05, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
+            o.at(1.08, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 1)); });
         }
         o.at(0.1 + 0.1 * i, [](Machine& m) { (void)m.jog('X', 20); });
     }
@@ -201,7 +201,7 @@ TEST(TheStopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
     for (double t = 0.1; t < 1; t += 0.1) o.at(t, [](Machine& m) { (void)m.jog('X', 5); });
     o.at(2, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_TRUE(m.status().axes[0].trusted) << "it has decelerated";
+        EXPECT_TRUE(m.status().axes[0].position_valid) << "it has decelerated";
         m.reset();
     });
     o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', -4, 5)); });
@@ -231,12 +231,12 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
         config.controller.profile = profile;
         Operated o(config);
         o.at(0.05, [](Machine& m) {
-            for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, axis.place));
+            for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
         });
         o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({80, 80, 20, 20}, 50)); });
         o.at(0.5, [](Machine& m) {
             EXPECT_GT(m.status().axes[3].speed, 2);
-            EXPECT_TRUE(m.wires().set("Z.limit_minus", 0));
+            EXPECT_TRUE(m.wires().force("Z.limit_minus", 0));
         });
         std::int64_t stood = 0;
         o.each_status([&](const Status& status) {
@@ -255,14 +255,14 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
 TEST(TheStopLatch, TakesTheTrustAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
     Operated o(router());
     o.at(0.05, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, axis.place));
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
     });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\nM2\n", "p")); });
     o.at(0.5, [](Machine& m) { EXPECT_TRUE(m.hold()); });
-    o.at(0.52, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(0.52, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.at(0.545, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_FALSE(m.status().axes[0].trusted);
+        EXPECT_FALSE(m.status().axes[0].position_valid);
     });
     o.run(1);
 }
@@ -271,8 +271,8 @@ TEST(TheStopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
     Operated o(two_axes(switches));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.run(20);
-    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
-    EXPECT_TRUE(o.machine->status().axes[0].trusted);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid);
 }
 
 }  // namespace

@@ -143,18 +143,18 @@ struct Source {
 void nothing(Machine&) {}
 template <bool pressed>
 void button(Machine& m) {
-    EXPECT_TRUE(m.wires().set("estop", pressed ? 0 : 1));
+    EXPECT_TRUE(m.wires().force("estop", pressed ? 0 : 1));
 }
 template <bool alarm>
 void drive(Machine& m) {
-    EXPECT_TRUE(m.wires().set("m.yalarm", alarm ? 0 : 1));
+    EXPECT_TRUE(m.wires().force("m.yalarm", alarm ? 0 : 1));
 }
 
 constexpr Source sources[] = {
     {StopSource::emergency_stop, "emergency_stop", 0, button<true>, button<false>},
     {StopSource::stop_order, "stop_order", 0, [](Machine& m) { m.stop(); }, nothing},
     {StopSource::drive_alarm, "drive_alarm", 0, drive<true>, drive<false>},
-    {StopSource::limit_switch, "limit_switch", 0, [](Machine& m) { EXPECT_TRUE(m.wires().set("Y.limit_minus", 0)); },
+    {StopSource::limit_switch, "limit_switch", 0, [](Machine& m) { EXPECT_TRUE(m.wires().force("Y.limit_minus", 0)); },
      nothing},
     {StopSource::watchdog, "watchdog", 1,
      [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); }, nothing},
@@ -217,8 +217,8 @@ TEST_P(AStopInAState, HoldsUntilAReset) {
     double x = 0, y = 0, laser = 0, belt = 0;
     o_.at(0.02, [&](Machine& m) {
         begin_all();
-        EXPECT_TRUE(m.declare_position('X', 100));
-        EXPECT_TRUE(m.declare_position('Y', 0));
+        EXPECT_TRUE(m.set_position('X', 100));
+        EXPECT_TRUE(m.set_position('Y', 0));
     });
     const double stop = stop_s(), released = stop + 0.1, looked = stop + 0.35, over = stop + 0.5;
     state().begin(o_, stop);
@@ -250,7 +250,7 @@ TEST_P(AStopInAState, HoldsUntilAReset) {
     o_.at(over, [&](Machine& m) {
         EXPECT_EQ(m.state(),
                   state().state == MachineState::disabled ? MachineState::disabled : MachineState::standstill)
-            << name_of(m.state()) << ' ' << m.status().why;
+            << name_of(m.state()) << ' ' << m.status().reason;
         EXPECT_EQ(m.status().axes[0].commanded, x) << "nothing moves before a new order";
         EXPECT_EQ(m.status().axes[1].commanded, y);
         EXPECT_EQ(marked(), laser) << "the laser stays off";

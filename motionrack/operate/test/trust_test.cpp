@@ -22,7 +22,7 @@ struct BrokenJog {
     double speed;       ///< mm/s
     const char* fault;  ///< a wire, or X's fault
     bool wire;
-    bool trusted;
+    bool position_valid;
     const char* alarm;  ///< words of one; empty: there is none
 };
 
@@ -59,8 +59,8 @@ TEST_P(AJogThatBreaks, IsTrustedAsAProgramIsAndAnAlarmSaysSo) {
     Operated o(one.servo ? carriage() : two_axes());
     o.at(0.05, [&](Machine& m) {
         for (const AxisStatus& axis : m.status().axes)
-            if (!axis.trusted) {
-                EXPECT_TRUE(m.declare_position(axis.letter, axis.commanded));
+            if (!axis.position_valid) {
+                EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
             }
     });
     for (int n = 2; n < 40; ++n) {
@@ -68,15 +68,15 @@ TEST_P(AJogThatBreaks, IsTrustedAsAProgramIsAndAnAlarmSaysSo) {
         if (n == 10)
             o.at(0.1 * n, [&](Machine& m) {
                 EXPECT_EQ(m.state(), MachineState::jogging);
-                EXPECT_TRUE(m.status().axes[0].trusted);
+                EXPECT_TRUE(m.status().axes[0].position_valid);
                 const Result<void> broken =
-                    one.wire ? m.wires().set(one.fault, 0) : rack::inject_fault(m.rack(), one.fault, "X");
+                    one.wire ? m.wires().force(one.fault, 0) : rack::inject_fault(m.rack(), one.fault, "X");
                 EXPECT_TRUE(broken) << broken.error().message;
             });
     }
     o.run(6);
     const Status& status = o.machine->status();
-    EXPECT_EQ(status.axes[0].trusted, one.trusted);
+    EXPECT_EQ(status.axes[0].position_valid, one.position_valid);
     std::vector<std::string> alarms;
     for (const Alarm& alarm : status.alarms) alarms.push_back(alarm.text);
     if (*one.alarm == '\0') {
@@ -94,13 +94,13 @@ TEST(AMachine, TrustsAnAxisAgainThatIsDeclaredAfterItLostSteps) {
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 50)); });
     o.at(0.3, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.lose_steps=64", "X")); });
     o.at(2, [](Machine& m) {
-        EXPECT_FALSE(m.status().axes[0].trusted);
+        EXPECT_FALSE(m.status().axes[0].position_valid);
         EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not trusted"));
-        EXPECT_TRUE(m.declare_position('X', 12));
+        EXPECT_TRUE(m.set_position('X', 12));
     });
     o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.line("G1 X15 F600", 1)); });
     o.run(4);
-    EXPECT_TRUE(o.machine->status().axes[0].trusted);
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid);
     EXPECT_NEAR(o.x(), 15, 1e-3);
     EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "what was lost before it was declared is told once";
 }
@@ -108,12 +108,12 @@ TEST(AMachine, TrustsAnAxisAgainThatIsDeclaredAfterItLostSteps) {
 TEST(AMachine, DoesNotTrustAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
     Operated o(two_axes("[controller]\nprofile = \"jerk_limited\"\n[axis.X.switches]\nlimit_plus_mm = 302\n"));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
-    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().set("X.limit_plus", 0)); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
     o.run(2);
     const Status& status = o.machine->status();
     EXPECT_EQ(status.state, MachineState::error_stop);
-    EXPECT_FALSE(status.axes[0].trusted);
-    EXPECT_TRUE(status.axes[1].trusted) << "it did not move";
+    EXPECT_FALSE(status.axes[0].position_valid);
+    EXPECT_TRUE(status.axes[1].position_valid) << "it did not move";
     ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "one cause, one alarm";
     EXPECT_THAT(status.alarms[0].text, HasSubstr("The position of X is not trusted any more"));
 }
@@ -130,7 +130,7 @@ TEST(AMachine, DoesNotTrustAnAxisThatWasResetWhileItStillStopped) {
     const Status& status = o.machine->status();
     ASSERT_TRUE(reset);
     EXPECT_EQ(status.state, MachineState::standstill);
-    EXPECT_FALSE(status.axes[0].trusted) << "its motor stood";
+    EXPECT_FALSE(status.axes[0].position_valid) << "its motor stood";
     ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "one cause, one alarm";
     EXPECT_THAT(status.alarms[0].text, HasSubstr("The following error of X was"));
 }
@@ -141,8 +141,8 @@ TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
         EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being declared"));
     };
     o.at(0.1, [&](Machine& m) {
-        EXPECT_TRUE(m.declare_position('X', 5));
-        EXPECT_TRUE(m.declare_position('Y', 7)) << "several may be declared together";
+        EXPECT_TRUE(m.set_position('X', 5));
+        EXPECT_TRUE(m.set_position('Y', 7)) << "several may be declared together";
         refused(m.jog_by('X', 10, 20));
         refused(m.jog('X', 20));
         refused(m.home("X"));
@@ -156,17 +156,17 @@ TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
 TEST(AMachine, DoesNotTrustAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        EXPECT_TRUE(m.declare_position('X', 5));
+        EXPECT_TRUE(m.set_position('X', 5));
         EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=640", "X"));
     });
     o.at(0.5, [](Machine& m) {
-        EXPECT_FALSE(m.status().axes[0].trusted) << "it was declared where it stood before";
+        EXPECT_FALSE(m.status().axes[0].position_valid) << "it was declared where it stood before";
         ASSERT_THAT(m.status().alarms, testing::SizeIs(1));
         EXPECT_THAT(m.status().alarms[0].text, HasSubstr(lost));
-        EXPECT_TRUE(m.declare_position('X', 6));
+        EXPECT_TRUE(m.set_position('X', 6));
     });
     o.run(1);
-    EXPECT_TRUE(o.machine->status().axes[0].trusted) << "it is declared where it stands now";
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "it is declared where it stands now";
 }
 
 /// The router's A is home long before the others.
@@ -178,12 +178,12 @@ void push_what_is_home(Operated& o, void (*then)(Machine&)) {
         then(*o.machine);
         EXPECT_TRUE(rack::inject_fault(o.machine->rack(), "motor.push=64", "A"));
     });
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('A', 0)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('A', 0)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home({})); });
     o.run(40);
     const Status& status = o.machine->status();
     ASSERT_EQ(status.axes[3].letter, 'A');
-    EXPECT_FALSE(status.axes[3].trusted);
+    EXPECT_FALSE(status.axes[3].position_valid);
     std::vector<std::string> alarms;
     for (const Alarm& alarm : status.alarms) alarms.push_back(alarm.text);
     EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr("The position of axis A is not trusted any more.")));
@@ -192,8 +192,8 @@ void push_what_is_home(Operated& o, void (*then)(Machine&)) {
 TEST(AMachine, DoesNotTrustAnAxisThatIsPushedWhileOthersStillSearchHome) {
     Operated o(router());
     push_what_is_home(o, [](Machine&) {});
-    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().why;
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(o.machine->status().axes[i].trusted);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(o.machine->status().axes[i].position_valid);
 }
 
 TEST(AMachine, DoesNotTrustAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
@@ -217,7 +217,7 @@ TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
     ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "above 1 mm the alarm takes its place";
     EXPECT_THAT(status.alarms[0].text, HasSubstr("above its limit of 1 mm"));
     EXPECT_EQ(status.state, MachineState::error_stop);
-    EXPECT_FALSE(status.axes[0].trusted);
+    EXPECT_FALSE(status.axes[0].position_valid);
 }
 
 /// X has its index at 0 mm, 2 mm behind its switch.
@@ -231,28 +231,28 @@ TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
     o.each_status([&](const Status& status) {
         const auto is_in = [&](const char* state) { return status.homing.find(state) != std::string::npos; };
         at_switch = at_switch || (disturbs && is_in("SLOW_WAIT"));
-        if (!at_switch || pulsed || !is_in("INDEX_WAIT") || status.axes[0].place > 1.6) return;
+        if (!at_switch || pulsed || !is_in("INDEX_WAIT") || status.axes[0].true_position > 1.6) return;
         pulsed = true;
-        EXPECT_TRUE(o.machine->wires().set("m.xin2", 1));
+        EXPECT_TRUE(o.machine->wires().force("m.xin2", 1));
     });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.at(20, [&](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::standstill) << m.status().why;
-        EXPECT_TRUE(m.status().axes[0].trusted);
+        EXPECT_EQ(m.state(), MachineState::standstill) << m.status().reason;
+        EXPECT_TRUE(m.status().axes[0].position_valid);
         disturbs = true;
         EXPECT_TRUE(m.home("X"));
     });
     o.run(40);
     EXPECT_TRUE(pulsed);
     const Status& status = o.machine->status();
-    EXPECT_FALSE(status.axes[0].trusted);
+    EXPECT_FALSE(status.axes[0].position_valid);
     ASSERT_THAT(status.alarms, testing::SizeIs(1));
     EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch, where it should be 2.0000 mm behind it"));
 }
 
 TEST(AServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 1)); });
     o.at(3, [&](Machine& m) {
         EXPECT_NEAR(o.x(), 105, 0.3);
@@ -265,7 +265,7 @@ TEST(AServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
 
 TEST(AServoAxis, DrivesALongLineInOneGo) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.run(3);
     EXPECT_NEAR(o.x(), 600, 0.3);
@@ -274,7 +274,7 @@ TEST(AServoAxis, DrivesALongLineInOneGo) {
 
 TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.hold()); });
     o.at(3, [&](Machine& m) {
@@ -288,7 +288,7 @@ TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
 
 TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.at(0.8, [](Machine& m) { m.stop(); });
     double rest = 0;
@@ -308,17 +308,17 @@ TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
 
 TEST(AServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 0)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X200", 1)); });
     o.at(4, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.at(4.5, [](Machine& m) { m.stop(); });
     o.at(6, [](Machine& m) {
-        EXPECT_FALSE(m.status().axes[0].trusted);
+        EXPECT_FALSE(m.status().axes[0].position_valid);
         m.reset();
     });
-    o.at(6.1, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 150)); });
+    o.at(6.1, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 150)); });
     o.at(6.3, [](Machine& m) {
-        EXPECT_TRUE(m.status().axes[0].trusted) << m.status().why;
+        EXPECT_TRUE(m.status().axes[0].position_valid) << m.status().reason;
         EXPECT_TRUE(m.line("G91 G0 X5", 1));
     });
     o.run(9);
@@ -328,28 +328,28 @@ TEST(AServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
 TEST(AServoAxis, MovesAgainAfterItsCardWasReset) {
     for (const bool homes : {true, false}) {
         Operated o(carriage());
-        const auto recover = [homes](Machine& m) { EXPECT_TRUE(homes ? m.home("X") : m.declare_position('X', 200)); };
-        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 0)); });
+        const auto recover = [homes](Machine& m) { EXPECT_TRUE(homes ? m.home("X") : m.set_position('X', 200)); };
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
         o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
         o.at(0.6, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
         o.at(5, [](Machine& m) {
             EXPECT_EQ(m.state(), MachineState::error_stop);
-            EXPECT_FALSE(m.status().axes[0].trusted);
+            EXPECT_FALSE(m.status().axes[0].position_valid);
         });
         o.at(5.1, [](Machine& m) { m.reset(); });
         o.at(5.2, recover);
         o.at(20, [](Machine& m) {
-            EXPECT_TRUE(m.status().axes[0].trusted) << m.status().why;
+            EXPECT_TRUE(m.status().axes[0].position_valid) << m.status().reason;
             EXPECT_TRUE(m.line("G90 G0 X300", 2));
         });
         o.run(25);
-        EXPECT_NEAR(o.x(), 300, 0.3) << (homes ? "homed" : "declared") << ": " << o.machine->status().why;
+        EXPECT_NEAR(o.x(), 300, 0.3) << (homes ? "homed" : "declared") << ": " << o.machine->status().reason;
     }
 }
 
 TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.declare_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     double told = 0;
     o.at(0.2, [&](Machine& m) {
         told = m.status().axes[0].commanded;

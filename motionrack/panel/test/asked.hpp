@@ -44,7 +44,7 @@ inline rack::RackConfig two_axes() {
 }
 
 inline const Caller anna{"anna", authority::Role::maintain, "w1"}, bert{"bert", authority::Role::operate, "w2"},
-    eve{"eve", authority::Role::observe, "w3"}, nobody{"", authority::Role::nobody, "w4"};
+    eve{"eve", authority::Role::observe, "w3"}, nobody{"", authority::Role::none, "w4"};
 
 class Asked {
   public:

@@ -118,11 +118,11 @@ TEST(ALibraryOnThePage, StopsWithTheControlAndTheConnection) {
                 EXPECT_TRUE(a.lease.release("w1"));
         });
         double x = 0;
-        a.at(0.61, [&] { x = a.machine->status().axes[0].place; });
+        a.at(0.61, [&] { x = a.machine->status().axes[0].true_position; });
         a.at(0.8, [&] {
-            EXPECT_EQ(a.machine->status().axes[0].place, x);
+            EXPECT_EQ(a.machine->status().axes[0].true_position, x);
             EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
-            EXPECT_THAT(a.machine->status().why, HasSubstr("Loss of control by anna"));
+            EXPECT_THAT(a.machine->status().reason, HasSubstr("Loss of control by anna"));
         });
         a.run(0.9);
     }

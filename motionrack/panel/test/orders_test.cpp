@@ -199,11 +199,11 @@ TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
     a.good(0.5, "line", {{"text", "G1 X30 F600"}});
     a.at(0.8, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0}},
          refused(409, "state 'moving'"));
-    a.at(4, [&] { EXPECT_TRUE(a.machine->status().axes[0].trusted); });
+    a.at(4, [&] { EXPECT_TRUE(a.machine->status().axes[0].position_valid); });
     a.at(4.1, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0x0F00}},
          [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
     a.run(4.5);
-    EXPECT_FALSE(a.machine->status().axes[0].trusted);
+    EXPECT_FALSE(a.machine->status().axes[0].position_valid);
 }
 
 TEST(CardsByHand, HaveWiresAndFaults) {

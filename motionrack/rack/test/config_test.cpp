@@ -165,7 +165,7 @@ TEST(RackFile, TellsWhatIsWrongAndWhere) {
         EXPECT_FALSE(reading.config.has_value()) << bad.text;
         ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors) << bad.text;
         const Error& error = reading.errors[0];
-        EXPECT_EQ(error.trouble, ErrorKind::bad_input);
+        EXPECT_EQ(error.kind, ErrorKind::invalid_input);
         EXPECT_EQ(error.place, bad.place) << error.text() << '\n' << bad.text;
         EXPECT_EQ(error.file, "bad.toml");
         for (const std::string& word : bad.words) EXPECT_THAT(error.message, HasSubstr(word)) << bad.text;
@@ -229,10 +229,10 @@ TEST(RackFile, GivesThePlannerItsLimits) {
     EXPECT_TRUE(limits[0].present && limits[3].present);
     EXPECT_FALSE(limits[1].present || limits[2].present || limits[4].present || limits[5].present);
     EXPECT_EQ(limits[0].max_position, 250);
-    EXPECT_EQ(limits[0].max_speed, 80);
+    EXPECT_EQ(limits[0].max_velocity, 80);
     EXPECT_EQ(limits[0].max_accel, 1000);
     EXPECT_EQ(limits[0].max_jerk, 20'000);
-    EXPECT_EQ(limits[0].start_speed, 2);
+    EXPECT_EQ(limits[0].max_velocity_step, 2);
     EXPECT_EQ(limits[0].pulses_per_unit, 640);
     EXPECT_EQ(limits[3].pulses_per_unit, 640);
     EXPECT_EQ(config.axis('A')->counts_per_unit(), 800);
@@ -310,7 +310,7 @@ TEST(RackFile, TheShortFormBesideAxesIsACardWithDefaultSettings) {
 TEST(RackFile, NamesAFileThatIsNotThere) {
     const RackReading reading = read_rack("no/such/rack.toml");
     ASSERT_EQ(reading.errors.size(), 1U);
-    EXPECT_EQ(reading.errors[0].trouble, ErrorKind::io);
+    EXPECT_EQ(reading.errors[0].kind, ErrorKind::io);
     EXPECT_EQ(reading.errors[0].file, "no/such/rack.toml");
     EXPECT_THAT(reading.errors[0].message, HasSubstr("motionrack new"));
     EXPECT_THAT(read_rack("/").errors.at(0).message, HasSubstr("folder"));

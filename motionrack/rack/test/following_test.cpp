@@ -53,7 +53,7 @@ TEST(AFollowingError, BelowItsWarningLimitIsNotTold) {
 TEST(AFollowingError, AboveItsAlarmLimitStopsTheMachineAndTakesTheTrust) {
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0.2\n", {"X.motor.stall@1s"});
     ASSERT_FALSE(outcome.ended);
-    EXPECT_EQ(outcome.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
     // 0.2 mm are 20 ms, looked at each millisecond.
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 0.2"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 0.2 mm at 1.02"));
@@ -119,7 +119,7 @@ TEST(AFollowingError, HasLimitsThatFollowFromTheEncoder) {
     EXPECT_EQ(set.axes[0].following_warning(), 0.25);
     EXPECT_EQ(none.axes[0].following_alarm(), 0);
     const RackConfig servo = good(carriage());
-    EXPECT_EQ(servo.axes[0].following_alarm(), 0.1 * servo.axes[0].max_speed);
+    EXPECT_EQ(servo.axes[0].following_alarm(), 0.1 * servo.axes[0].max_velocity);
 }
 
 TEST(AFollowingError, IsRefusedALimitThatCannotBe) {

@@ -50,7 +50,7 @@ std::string axis_from(double start_mm, const std::string& more = {}) {
 
 void expect_refused(const HomingOutcome& out, const char* why) {
     ASSERT_FALSE(out.ended) << homing_text(out);
-    EXPECT_EQ(out.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(out.ended.error().kind, ErrorKind::machine);
     EXPECT_THAT(out.ended.error().message, HasSubstr("is not sound: it acted"));
     EXPECT_THAT(out.ended.error().message, HasSubstr(why)) << homing_text(out);
     EXPECT_THAT(out.ended.error().message, HasSubstr("not trusted"));

@@ -71,7 +71,7 @@ TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
     EXPECT_NEAR(out.axes[1].counter_position, -3.5, 0.5 / 640);
     EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
     EXPECT_DOUBLE_EQ(out.axes[1].order.speed, 10);
-    for (const control::HomeEdge& edge : out.axes[1].outcome.edges) EXPECT_LE(edge.speed, 10.01);
+    for (const control::HomingEdge& edge : out.axes[1].outcome.edges) EXPECT_LE(edge.speed, 10.01);
 }
 
 TEST(RackHomes, UpwardsItFindsWhereTheSwitchIsReleased) {
@@ -95,7 +95,7 @@ TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
     text.replace(text.find("home_mm = 2"), 11, "home_mm = 0");
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
-    EXPECT_EQ(out.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(out.ended.error().kind, ErrorKind::machine);
     EXPECT_THAT(out.ended.error().message, HasSubstr("Shift the switch by half a motor turn"));
     EXPECT_FALSE(out.axes[1].begun);
     EXPECT_DOUBLE_EQ(out.axes[1].machine_position, 7);
@@ -106,7 +106,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     const auto message = [](const std::string& text, const HomingSettings& settings = {}) {
         const HomingOutcome out = homed(text, settings);
         EXPECT_FALSE(out.ended);
-        EXPECT_EQ(out.ended.error().trouble, ErrorKind::refused);
+        EXPECT_EQ(out.ended.error().kind, ErrorKind::refused);
         return out.ended.error().message;
     };
     HomingSettings unknown;
@@ -136,7 +136,7 @@ TEST(RackHomes, StopsWhenAskedAndKeepsWhatWasSeen) {
     settings.progress = [&](const HomingProgress& p) { stop = p.seconds > 0.3; };
     const HomingOutcome out = homed(two_axes, settings);
     ASSERT_FALSE(out.ended);
-    EXPECT_EQ(out.ended.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(out.ended.error().kind, ErrorKind::stopped);
     EXPECT_FALSE(out.all_homed());
     EXPECT_GT(out.axes[0].samples.seconds.size(), 300u);
     EXPECT_LT(out.seconds, 1.0);
@@ -216,7 +216,7 @@ TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
     EXPECT_NEAR(path->commanded_position()[1], 13.5, 0.5 / 640);
     EXPECT_EQ(rack.axes()[1].card->encoder_counter(rack.axes()[1].channel), counts);
     y = *rack.axes()[1].card->axis(rack.config(), 'Y');
-    EXPECT_TRUE(y->trusted());
+    EXPECT_TRUE(y->position_valid());
     EXPECT_NEAR(y->position(), 13.5, 0.5 / 640);
     EXPECT_NEAR(y->measured_position(), 13.5, 0.5 / 640);
     EXPECT_EQ(rack.axes()[1].card->encoder_counter(rack.axes()[1].channel), counts);
@@ -226,10 +226,10 @@ TEST(RackHomes, AnAxisThatTheGroupNeverHadIsNotTrusted) {
     Rack rack(config_of(two_axes));
     rack.start();
     control::Axis* y = *rack.axes()[1].card->axis(rack.config(), 'Y');
-    EXPECT_FALSE(y->trusted());
+    EXPECT_FALSE(y->position_valid());
     ASSERT_TRUE(rack.path_axes_here());
     y = *rack.axes()[1].card->axis(rack.config(), 'Y');
-    EXPECT_FALSE(y->trusted());
+    EXPECT_FALSE(y->position_valid());
 }
 
 TEST(RackHomes, TextJsonAndPictureTellTheSame) {

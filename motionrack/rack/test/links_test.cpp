@@ -193,7 +193,7 @@ TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
     Rack rack(config);
     InvertedPosition mirrored(rack.axes()[0].machine->encoder());
     Ear ear;
-    const int slot = mirrored.listen(ear);
+    const int slot = mirrored.add_listener(ear);
     JobSettings settings;
     settings.program = "G21 G90\nG1 X10 F600\nM2\n";
     Job job(rack, settings);

@@ -28,7 +28,7 @@ class FlagAt final : public sim::Device {
     FlagAt(sim::Kernel& kernel, Instant at) : kernel_(kernel) {
         kernel_.schedule(kernel_.add(*this, sim::Phase::observers, "flag"), at);
     }
-    void act(Instant) override { flag_ = true; }
+    void on_scheduled(Instant) override { flag_ = true; }
     const std::atomic<bool>& flag() const { return flag_; }
 
   private:

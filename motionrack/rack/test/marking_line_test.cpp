@@ -187,7 +187,7 @@ TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
     for (const char* name : {"head.light", "scan.mark_speed_bits_ms"}) {
         const Result<void> set = bench.session->set_part(name, 1);
         ASSERT_FALSE(set) << name;
-        EXPECT_EQ(set.error().trouble, ErrorKind::refused) << name;
+        EXPECT_EQ(set.error().kind, ErrorKind::refused) << name;
         EXPECT_THAT(set.error().message, HasSubstr(std::string(name) + " follows from the machine and cannot be set"))
             << name;
     }

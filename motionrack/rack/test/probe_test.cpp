@@ -163,7 +163,7 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     EXPECT_EQ(may.axes[0].real_end, 60);
     const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
-    EXPECT_EQ(must.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(must.ended.error().kind, ErrorKind::machine);
     EXPECT_THAT(must.ended.error().message, HasSubstr("In line 2 the probe did not touch"));
     EXPECT_EQ(must.axes[0].real_end, 50);
 }
@@ -199,7 +199,7 @@ TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
 /// Lines one by one, each only when there is room.
 struct Fed {
     Rack rack;
-    std::unique_ptr<control::Stream> stream;
+    std::unique_ptr<control::StreamExecutor> stream;
     Result<control::ExecutionState> state;
 
     explicit Fed(const RackConfig& config) : rack(config) {
@@ -208,7 +208,7 @@ struct Fed {
         settings.gcode = reader_settings(config);
         settings.jerk_limited = config.jerk_limited();
         settings.accel_reserve = rack.axes().front().card->accel_reserve();
-        stream = std::make_unique<control::Stream>(**rack.path_axes(), rack.cards().front()->host(), settings);
+        stream = std::make_unique<control::StreamExecutor>(**rack.path_axes(), rack.cards().front()->host(), settings);
         rack.set_stop_flag(stream->stop_flag());
         rack.on_slice(milliseconds(1), [this] {
             if (on_slice) on_slice();

@@ -48,12 +48,12 @@ TEST(ServoAxis, MovesToPlacesInMmAndSaysWhereItIs) {
         EXPECT_NEAR(m.axis->position(), m.mm(), 1e-9) << "the counter has every count of the encoder";
         EXPECT_EQ(m.axis->measured_position(), m.axis->position());
     }
-    EXPECT_TRUE(m.axis->trusted());
+    EXPECT_TRUE(m.axis->position_valid());
 }
 
 TEST(ServoAxis, ASlowMoveIsSlowAndADistanceNeedsNoTrust) {
     Machine m;
-    EXPECT_FALSE(m.axis->trusted());
+    EXPECT_FALSE(m.axis->position_valid());
     ASSERT_TRUE(m.axis->move_by(50, 20));
     m.run(whole_seconds(1));
     EXPECT_NEAR(m.speed(), 20, 1.1) << "friction and dead band take a little";
@@ -65,7 +65,7 @@ TEST(ServoAxis, RefusesWithTheNumbersAndMovesNothing) {
     Machine m;
     const auto refused = [&](const Result<void>& done, const char* why) {
         ASSERT_FALSE(done);
-        EXPECT_EQ(done.error().trouble, ErrorKind::refused);
+        EXPECT_EQ(done.error().kind, ErrorKind::refused);
         EXPECT_THAT(done.error().message, HasSubstr(why));
     };
     refused(m.axis->move_to(200, 100), "not trusted");
@@ -135,7 +135,7 @@ TEST(ServoAxis, AStopDeceleratesAndAStopAtOnceIsShorterAndBothKeepThePosition) {
         at_once ? m.axis->stop_now() : m.axis->stop();
         ASSERT_TRUE(m.axis->wait(whole_seconds(5)));
         way[at_once] = m.mm() - from;
-        EXPECT_TRUE(m.axis->trusted());
+        EXPECT_TRUE(m.axis->position_valid());
         EXPECT_NEAR(m.axis->position(), m.mm(), 1e-9);
     }
     EXPECT_NEAR(way[0], 500.0 * 500 / 2 / 1000, 8) << "at 1000 mm/s2";
@@ -147,7 +147,7 @@ TEST(ServoAxis, TheEndStopEndsAMoveAndTheWayBackIsFree) {
     ASSERT_TRUE(m.axis->move_by(3'500, 300));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);
-    EXPECT_EQ(moved.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(moved.error().kind, ErrorKind::machine);
     EXPECT_THAT(moved.error().message, HasSubstr("the right end stop is active"));
     EXPECT_EQ(m.axis->state(), AxisState::error);
     EXPECT_GT(m.mm(), 3'000);
@@ -163,18 +163,18 @@ TEST(ServoAxis, TheEmergencyStopEndsAMoveAndItStaysWhenReleased) {
     m.here_is(100);
     ASSERT_TRUE(m.axis->move_to(2'500, 500));
     m.run(whole_seconds(1));
-    ASSERT_TRUE(m.desk.set("estop", 0));
+    ASSERT_TRUE(m.desk.force("estop", 0));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);
     EXPECT_THAT(moved.error().message, HasSubstr("the emergency stop is active"));
     EXPECT_EQ(*m.desk.get("board.relay"), 0);
     EXPECT_EQ(m.speed(), 0);
     EXPECT_THAT(m.axis->move_to(0, 100).error().message, HasSubstr("release it"));
-    ASSERT_TRUE(m.desk.set("estop", std::nan("")));
+    ASSERT_TRUE(m.desk.force("estop", std::nan("")));
     const double there = m.mm();
     m.run(whole_seconds(1));
     EXPECT_EQ(m.mm(), there);
-    EXPECT_TRUE(m.axis->trusted());
+    EXPECT_TRUE(m.axis->position_valid());
     ASSERT_TRUE(m.axis->move_to(0, 500));
     ASSERT_TRUE(m.axis->wait(whole_seconds(30)));
     EXPECT_NEAR(m.mm(), 0, 0.3);
@@ -204,7 +204,7 @@ TEST(ServoAxis, TheWatchdogsResetTakesTheTrustAway) {
     ASSERT_FALSE(moved);
     EXPECT_EQ(m.speed(), 0);
     EXPECT_LT(m.mm(), 1'500) << "the watchdog reacts after a second";
-    EXPECT_FALSE(m.axis->trusted());
+    EXPECT_FALSE(m.axis->position_valid());
     ASSERT_TRUE(inject_fault(m.rack, "watchdog.hang=0", "board"));
 }
 
@@ -248,10 +248,10 @@ TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
     // A hand with a voltage.
     m.axis->stop_now();
     ASSERT_TRUE(inject_fault(m.rack, "motor.stall=0", "X"));
-    ASSERT_TRUE(m.desk.set("X.drive", -2));
+    ASSERT_TRUE(m.desk.force("X.drive", -2));
     m.host().pass(milliseconds(500));
     EXPECT_NEAR(m.speed(), -200, 2);
-    EXPECT_THAT(m.desk.set("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
+    EXPECT_THAT(m.desk.force("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
 }
 
 TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
@@ -289,12 +289,12 @@ TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndIsNotTrusted) {
     Machine m;
     ASSERT_TRUE(inject_fault(m.rack, "ref.broken", "board"));
     m.run(milliseconds(2));
-    control::HomeOrder order = home_order(m.rack.config(), m.rack.config().axes[0]).value();
+    control::HomingRequest order = home_order(m.rack.config(), m.rack.config().axes[0]).value();
     ASSERT_TRUE(m.axis->home(order, m.now()));
     const auto homed = m.axis->wait(whole_seconds(60));
     ASSERT_FALSE(homed);
     EXPECT_THAT(homed.error().message, HasSubstr("right end stop is active and no reference was found"));
-    EXPECT_FALSE(m.axis->trusted());
+    EXPECT_FALSE(m.axis->position_valid());
     EXPECT_FALSE(m.axis->home_outcome().homed);
     // And a stop in the middle is accepted.
     ASSERT_TRUE(inject_fault(m.rack, "ref.broken=0", "board"));
@@ -309,11 +309,11 @@ TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndIsNotTrusted) {
 
 TEST(ServoAxis, AnEmergencyStopEndsAHoming) {
     Machine m;
-    control::HomeOrder order = home_order(m.rack.config(), m.rack.config().axes[0]).value();
+    control::HomingRequest order = home_order(m.rack.config(), m.rack.config().axes[0]).value();
     order.towards_plus = false;
     ASSERT_TRUE(m.axis->home(order, m.now()));
     m.run(milliseconds(200));
-    ASSERT_TRUE(m.desk.set("estop", 0));
+    ASSERT_TRUE(m.desk.force("estop", 0));
     const auto homed = m.axis->wait(whole_seconds(10));
     ASSERT_FALSE(homed);
     EXPECT_THAT(homed.error().message, HasSubstr("the emergency stop is active"));

@@ -36,7 +36,7 @@ TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
     EXPECT_EQ(x.planned_end, 0);
     EXPECT_NEAR(x.real_end, 0, 0.3);
     EXPECT_EQ(x.counts_read, std::llround((x.real_end - 100) * 100)) << "the card's counter is the machine";
-    EXPECT_NEAR(x.top.top_speed, 499, 2);
+    EXPECT_NEAR(x.top.peak_velocity, 499, 2);
     EXPECT_GT(to_seconds(out.time), 2460 / 500.0 + 1 + 1280 / 200.0 + 0.5 + 1280 / 100.0);
     EXPECT_LT(to_seconds(out.time), 2460 / 500.0 + 1 + 1280 / 200.0 + 0.5 + 1280 / 100.0 + 2);
     EXPECT_THAT(summary_of(config, out), HasSubstr("servos stand at most 0."));
@@ -53,7 +53,7 @@ TEST(ServoProgram, SeveralCardsEachMoveTheirOwnAxis) {
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[0].real_end, 0, 0.3);
     EXPECT_NEAR(out.axes[1].real_end, 50, 0.3);
-    EXPECT_NEAR(out.axes[1].top.top_speed, 100, 1);
+    EXPECT_NEAR(out.axes[1].top.peak_velocity, 100, 1);
     const JobOutcome both = run(two, "G90 F600\nG1 X600 Z200\n");
     ASSERT_FALSE(both.ended);
     EXPECT_EQ(both.ended.error().place.line, 2);
@@ -73,7 +73,7 @@ TEST(ServoProgram, ASteppingMotorAtTheFrequencyOutputLosesNoSteps) {
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(out.axes[0].lost_pulses, 0);
     EXPECT_NEAR(out.axes[0].real_end, 100, 0.011);
-    EXPECT_NEAR(out.axes[0].top.top_speed, 100, 1);
+    EXPECT_NEAR(out.axes[0].top.peak_velocity, 100, 1);
     EXPECT_TRUE(out.position_trusted);
 }
 

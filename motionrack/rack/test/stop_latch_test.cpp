@@ -41,7 +41,7 @@ StoppedRun run_stopped(const std::string& rack, const std::string& program, cons
 
 void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {
     ASSERT_FALSE(ran.outcome.ended) << "it went on";
-    EXPECT_EQ(ran.outcome.ended.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(ran.outcome.ended.error().kind, ErrorKind::machine);
     EXPECT_THAT(ran.error(), HasSubstr(words));
     EXPECT_NEAR(ran.x(), x, 0.01) << "nothing moves after a stop";
     EXPECT_THAT(summary_json(ran.config, ran.outcome), HasSubstr("\"ok\": false"));
@@ -127,7 +127,7 @@ TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
 TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {}, {"stop@1s"});
     ASSERT_FALSE(ran.outcome.ended);
-    EXPECT_EQ(ran.outcome.ended.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(ran.outcome.ended.error().kind, ErrorKind::stopped);
     EXPECT_LT(to_seconds(ran.outcome.time), 1.1);
 }
 
@@ -184,7 +184,7 @@ TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
             run_stopped(slow_y, "G0 Y40\nG1 X20 Y41 F1200\nG0 X60\nM2\n", {std::string("X.limit_plus=0@") + when});
         ASSERT_FALSE(ran.outcome.ended) << when;
         EXPECT_THAT(ran.error(), HasSubstr("in line 1")) << when;
-        EXPECT_LE(ran.outcome.axes[1].top.top_accel, 500) << when;
+        EXPECT_LE(ran.outcome.axes[1].top.peak_accel, 500) << when;
         EXPECT_TRUE(ran.outcome.position_trusted) << when;
     }
 }

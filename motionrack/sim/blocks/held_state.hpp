@@ -8,7 +8,7 @@ namespace motionrack::sim {
 /// Does nothing but hold `bytes`, which must live as long and not move.
 class SnapshotState final : public Device {
   public:
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return bytes; }
     std::span<std::byte> hashed_state() override { return hashed ? bytes : std::span<std::byte>{}; }
     std::span<std::byte> bytes;

@@ -71,12 +71,12 @@ void PulseTrain::watch(int slot, std::int64_t below, std::int64_t above) {
     if (owner_) owner_->train_watched();
 }
 
-int PulseTrain::listen(PositionListener& listener) {
+int PulseTrain::add_listener(PositionListener& listener) {
     return listeners_.add(listener);
 }
 
 Instant PulseTrain::next(Instant now) const {
-    const Range quiet = Listeners::quiet(state_.watches);
+    const Range quiet = Listeners::unwatched_range(state_.watches);
     if (quiet.left(count(now))) return now;
     const bool up = state_.direction > 0;
     if (!running() || (up ? quiet.above == unwatched_above : quiet.below == unwatched_below)) return never;

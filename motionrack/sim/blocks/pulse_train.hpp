@@ -30,7 +30,7 @@ struct PulseTrainState {
     Listeners::Watches watches{};
 };
 
-class PulseTrain final : public Motion {
+class PulseTrain final : public PositionFunction {
   public:
     /// `clock`: one period of the clock that is divided.
     PulseTrain(PulseTrainState& state, Duration clock) : state_(state), clock_(clock) {}
@@ -54,7 +54,7 @@ class PulseTrain final : public Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(PositionListener& listener) override;
+    int add_listener(PositionListener& listener) override;
     void set_edge_listener(EdgeListener* listener) override;
     void deliver_edges() override;
 

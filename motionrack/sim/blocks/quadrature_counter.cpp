@@ -7,7 +7,7 @@ namespace motionrack::sim {
 
 // ---- Closed form
 
-void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std::int64_t above) const {
+void ClosedFormCounter::watch(PositionFunction& motion, int slot, std::int64_t below, std::int64_t above) const {
     const bool no_below = below == unwatched_below;
     const bool no_above = above == unwatched_above;
     // In divided counts of the motion.

@@ -39,15 +39,17 @@ class ClosedFormCounter {
     /// `first`: the first of the period's four edges (0: from lines 00 upwards) that is counted, where not all are.
     ClosedFormCounter(Edges edges, bool reversed, int first = 0) : edges_(edges), reversed_(reversed), first_(first) {}
 
-    std::int64_t value(const Motion& motion, Instant t) const { return from_motion(motion.count(t)); }
+    std::int64_t value(const PositionFunction& motion, Instant t) const { return from_motion(motion.count(t)); }
     std::int64_t from_motion(std::int64_t count) const {
         const std::int64_t n = divided(count - first_, edges_);
         return (reversed_ ? -n : n) + offset_;
     }
     /// Writes the counter.
-    void set(std::int64_t value, const Motion& motion, Instant t) { offset_ += value - this->value(motion, t); }
+    void set(std::int64_t value, const PositionFunction& motion, Instant t) {
+        offset_ += value - this->value(motion, t);
+    }
     /// Watches for the counter to be at or below `below`, or at or above `above`.
-    void watch(Motion& motion, int slot, std::int64_t below, std::int64_t above) const;
+    void watch(PositionFunction& motion, int slot, std::int64_t below, std::int64_t above) const;
 
   private:
     std::int64_t offset_ = 0;

@@ -54,10 +54,10 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
 
 AxisMechanics::~AxisMechanics() = default;
 
-void AxisMechanics::connect(sim::Motion& pulses) {
+void AxisMechanics::connect(sim::PositionFunction& pulses) {
     MOTIONRACK_ASSERT(pulses_ == nullptr);
     pulses_ = &pulses;
-    slot_ = pulses.listen(*this);
+    slot_ = pulses.add_listener(*this);
     aim(kernel_.now());
 }
 
@@ -279,7 +279,7 @@ void AxisMechanics::put_off() {
     kernel_.schedule(id_, next);
 }
 
-void AxisMechanics::act(Instant now) {
+void AxisMechanics::on_scheduled(Instant now) {
     for (std::size_t i = 0; i < switches_.size(); ++i) {
         if (switches_[i].next() > now) continue;
         switches_[i].act(now);

@@ -46,13 +46,13 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
 
     /// The pulses that turn the motor; once, before Kernel::start. Their count is 0 where the machine stands at its
     /// start position and is that of the pulses on the wire: writing a card's position register must not change it.
-    void connect(sim::Motion& pulses);
+    void connect(sim::PositionFunction& pulses);
 
     /// The rotor in microsteps (pulses), 0 at the start. Up to Motion::max_listeners listeners, one edge listener.
-    sim::Motion& rotor();
+    sim::PositionFunction& rotor();
     /// The encoder's counts as a decoder at the end of its lines sees them, 0 at the start. As rotor(); without encoder
     /// it stays 0.
-    sim::Motion& encoder();
+    sim::PositionFunction& encoder();
     bool has_encoder() const { return encoder_.present(); }
     /// The lines A and B at `t`.
     Lines encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
@@ -91,7 +91,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     ///   S.stuck_open, S.stuck_closed   while not 0; S: limit_minus, limit_plus, home
     static std::span<const std::string_view> fault_names();
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
@@ -99,10 +99,10 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
 
   private:
     static constexpr int switch_count = 3;
-    static constexpr int slots = sim::Motion::max_listeners;
+    static constexpr int slots = sim::PositionFunction::max_listeners;
     enum MechanicsAdapter : int { rotor_face, encoder_face, face_count };
 
-    class MechanicsPosition final : public sim::Motion {
+    class MechanicsPosition final : public sim::PositionFunction {
       public:
         MechanicsPosition(AxisMechanics& machine, MechanicsAdapter face) : machine_(machine), face_(face) {}
         std::int64_t count(Instant t) const override { return machine_.face_count_at(face_, t); }
@@ -110,7 +110,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         void watch(int slot, std::int64_t below, std::int64_t above) override {
             machine_.watch(face_, slot, {below, above});
         }
-        int listen(sim::PositionListener& listener) override { return machine_.listen(face_, listener); }
+        int add_listener(sim::PositionListener& listener) override { return machine_.add_listener(face_, listener); }
         void set_edge_listener(sim::EdgeListener* listener) override { machine_.set_edge_listener(face_, listener); }
         void deliver_edges() override { machine_.pulses_->deliver_edges(); }
 
@@ -160,7 +160,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     std::int64_t face_count_at(MechanicsAdapter face, Instant t) const;
     double face_rate(MechanicsAdapter face, Instant t) const;
     void watch(MechanicsAdapter face, int slot, Range counts);
-    int listen(MechanicsAdapter face, sim::PositionListener& listener);
+    int add_listener(MechanicsAdapter face, sim::PositionListener& listener);
     void set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener);
 
     /// Runs `change` of the motor, which may move the rotor or take it out of step, and lets everything know.
@@ -194,7 +194,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     std::array<LimitSwitch, switch_count> switches_;
     std::array<sim::WireId, switch_count> switch_wire_{sim::WireId::none, sim::WireId::none, sim::WireId::none};
     sim::WireId index_wire_ = sim::WireId::none;
-    sim::Motion* pulses_ = nullptr;
+    sim::PositionFunction* pulses_ = nullptr;
     int slot_ = 0;
     std::array<MechanicsPosition, face_count> faces_;
     std::array<sim::Listeners, face_count> listeners_;

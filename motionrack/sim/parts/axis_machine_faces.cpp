@@ -5,10 +5,10 @@
 
 namespace motionrack::parts {
 
-sim::Motion& AxisMechanics::rotor() {
+sim::PositionFunction& AxisMechanics::rotor() {
     return faces_[rotor_face];
 }
-sim::Motion& AxisMechanics::encoder() {
+sim::PositionFunction& AxisMechanics::encoder() {
     return faces_[encoder_face];
 }
 std::int64_t AxisMechanics::face_count_at(MechanicsAdapter face, Instant t) const {
@@ -22,7 +22,7 @@ double AxisMechanics::face_rate(MechanicsAdapter face, Instant t) const {
     return encoder_.present() ? encoder_.rate(rotor) : 0;
 }
 
-int AxisMechanics::listen(MechanicsAdapter face, sim::PositionListener& listener) {
+int AxisMechanics::add_listener(MechanicsAdapter face, sim::PositionListener& listener) {
     return listeners_[face].add(listener);
 }
 

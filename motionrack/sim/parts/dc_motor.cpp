@@ -171,7 +171,7 @@ Instant DcMotor::reaches(std::int64_t there) const {
 Instant DcMotor::next(Instant now) const {
     Instant next = law_end();
     const int direction = state_.law.direction();
-    Range quiet = sim::Listeners::quiet(state_.watches);
+    Range quiet = sim::Listeners::unwatched_range(state_.watches);
     if (quiet.left(count(now))) return now;
     if (settings_.end_plus) quiet.above = std::min(quiet.above, *settings_.end_plus);
     if (settings_.end_minus) quiet.below = std::max(quiet.below, *settings_.end_minus);
@@ -199,7 +199,7 @@ bool DcMotor::meet_ends(Instant now) {
     return true;
 }
 
-void DcMotor::act(Instant now) {
+void DcMotor::on_scheduled(Instant now) {
     if (!meet_ends(now) && law_end() <= now) {
         const double before = state_.law.after;
         begin_law(before, now);
@@ -240,7 +240,7 @@ void DcMotor::watch(int slot, std::int64_t below, std::int64_t above) {
     reschedule();
 }
 
-int DcMotor::listen(sim::PositionListener& listener) {
+int DcMotor::add_listener(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 

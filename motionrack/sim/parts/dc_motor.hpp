@@ -53,7 +53,7 @@ struct DcMotorModel {
     int direction() const;
 };
 
-class DcMotor final : public sim::DeferringDevice, public sim::Motion {
+class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
     /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
     DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings,
@@ -63,7 +63,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::PositionListener& listener) override;
+    int add_listener(sim::PositionListener& listener) override;
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { hand_over(kernel_.now()); }
 
@@ -81,7 +81,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::Motion {
     /// motor.load x: the load's inertia; motor.stall: held fast while not 0; motor.push n: moved by n counts by hand.
     static std::span<const std::string_view> fault_names();
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     void sync(Instant now) override { hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }

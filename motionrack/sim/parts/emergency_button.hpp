@@ -19,7 +19,7 @@ class EmergencyButton final : public sim::Device {
     bool pressed() const { return state_.pressed != 0; }
     sim::WireId wire() const { return wire_; }
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     /// pressed, broken (wire): while not 0.
     bool fault(std::string_view name, double value, Instant) override {

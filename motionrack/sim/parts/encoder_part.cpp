@@ -5,7 +5,7 @@
 
 namespace motionrack::parts {
 
-EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn,
+EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t turn,
                          std::int64_t place_per_turn, const LineOutputSettings& lines)
     : kernel_(kernel),
       place_(place),
@@ -13,7 +13,7 @@ EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Moti
       place_per_turn_(place_per_turn),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       output_(kernel, name, lines, state_.lines),
-      slot_(place.listen(*this)) {
+      slot_(place.add_listener(*this)) {
     MOTIONRACK_ASSERT(turn > 0 && turn % 4 == 0 && place_per_turn > 0);
     kernel.schedule(id_, Instant{0});
 }
@@ -66,7 +66,7 @@ void EncoderPart::look_again(Instant now) {
     if (state_.begun) look(now);
 }
 
-void EncoderPart::act(Instant now) {
+void EncoderPart::on_scheduled(Instant now) {
     if (!state_.begun) {
         state_.begun = 1;
         state_.count = count_at(place_.count(now));

@@ -27,7 +27,7 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     /// Counts that were too quick for the electronics, in all.
     std::int64_t lost() const { return output_.lost(); }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     /// Those of LineOutput, also with "encoder." before them.
     bool fault(std::string_view name, double value, Instant now) override;
@@ -35,7 +35,7 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
   protected:
     /// `turn` counts (a multiple of 4) for `place_per_turn` counts of `place` (both > 0). Adds the device and its
     /// wires, before the start.
-    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn,
+    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t turn,
                 std::int64_t place_per_turn, const LineOutputSettings& lines);
 
     /// How far edge n (0 .. turn - 1) is seen too early, in counts; less than a quarter of a turn, and so smooth that
@@ -71,7 +71,7 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     std::int64_t place_of(std::int64_t n) const;
     std::int64_t count_at(std::int64_t place) const;
 
-    sim::Motion& place_;
+    sim::PositionFunction& place_;
     std::int64_t turn_;
     std::int64_t place_per_turn_;
     sim::DeviceId id_{};

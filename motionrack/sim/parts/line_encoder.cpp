@@ -21,7 +21,7 @@ LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
 
 }  // namespace
 
-LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::Motion& place,
+LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
                          const LineEncoderSettings& settings)
     : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_disc(settings)) {
     MOTIONRACK_ASSERT(settings.eccentricity >= 0 &&

@@ -29,7 +29,7 @@ struct LineEncoderSettings {
 class LineEncoder final : public EncoderPart {
   public:
     /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z to the kernel, before it starts.
-    LineEncoder(sim::Kernel& kernel, const std::string& name, sim::Motion& place,
+    LineEncoder(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
                 const LineEncoderSettings& settings = {});
 
     bool fault(std::string_view name, double value, Instant now) override;

@@ -39,13 +39,14 @@ std::int64_t nearest(double x) {
 
 }  // namespace
 
-LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Motion& place, const LinearScaleSettings& s)
+LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+                         const LinearScaleSettings& s)
     : kernel_(kernel),
       place_(place),
       settings_(s),
       spacing_(std::max<std::int64_t>(1, static_cast<std::int64_t>(0.75e10 / s.fastest))),
       id_(kernel.add(*this, sim::Phase::parts, name)),
-      slot_(place.listen(*this)) {
+      slot_(place.add_listener(*this)) {
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.pitch_pm >= 1'000 && s.pitch_pm <= 1'000'000'000);
     MOTIONRACK_ASSERT(s.interpolation >= 4 && s.interpolation <= 65'536 && s.interpolation % 4 == 0);
@@ -132,7 +133,7 @@ Range LinearScale::place_range(const Range& counts) const {
 
 // ---- listeners
 
-int LinearScale::listen(sim::PositionListener& listener) {
+int LinearScale::add_listener(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 
@@ -168,7 +169,7 @@ void LinearScale::aim(Instant now) {
     kernel_.schedule(id_, next);
 }
 
-void LinearScale::act(Instant now) {
+void LinearScale::on_scheduled(Instant now) {
     look(now);
 }
 

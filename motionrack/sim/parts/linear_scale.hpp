@@ -47,17 +47,17 @@ struct LinearScaleSettings {
     std::int64_t places_nm = 1;           ///< ... are so many nm, 1 .. 1e9
 };
 
-class LinearScale final : public sim::DeferringDevice, public sim::Motion, private sim::PositionListener {
+class LinearScale final : public sim::DeferringDevice, public sim::PositionFunction, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel, before it starts.
-    LinearScale(sim::Kernel& kernel, const std::string& name, sim::Motion& place,
+    LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
                 const LinearScaleSettings& settings = {});
 
     // ---- the counts
     std::int64_t count(Instant t) const override { return counted(place_.count(t)); }
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::PositionListener& listener) override;
+    int add_listener(sim::PositionListener& listener) override;
     void watch_rate(double rate) override { place_.watch_rate(rate / counts_per_place()); }
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { flush(); }
@@ -84,7 +84,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::Motion, priva
     const LinearScaleSettings& settings() const { return settings_; }
     static std::span<const std::string_view> fault_names();
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
     void sync(Instant) override { flush(); }
@@ -130,7 +130,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::Motion, priva
     void flush();
 
     sim::Kernel& kernel_;
-    sim::Motion& place_;
+    sim::PositionFunction& place_;
     LinearScaleSettings settings_;
     std::int64_t dirt_at_ = 0;  // count of the grating
     std::int64_t index_at_ = 0;

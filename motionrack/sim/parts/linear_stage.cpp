@@ -229,7 +229,7 @@ Instant LinearStage::reaches(std::int64_t there) const {
 }
 
 Instant LinearStage::next(Instant now) const {
-    const Range quiet = sim::Listeners::quiet(state_.watches);
+    const Range quiet = sim::Listeners::unwatched_range(state_.watches);
     if (quiet.left(count(now))) return now;
     Instant next = law_end();
     if (direction() > 0) next = std::min(next, reaches(std::min(quiet.above, end_plus_)));
@@ -255,7 +255,7 @@ bool LinearStage::meet_ends(Instant now) {
     return true;
 }
 
-void LinearStage::act(Instant now) {
+void LinearStage::on_scheduled(Instant now) {
     if (!meet_ends(now) && now >= law_end()) {
         const double before = rate(now);
         move_to(now);
@@ -299,7 +299,7 @@ void LinearStage::watch(int slot, std::int64_t below, std::int64_t above) {
     reschedule();
 }
 
-int LinearStage::listen(sim::PositionListener& listener) {
+int LinearStage::add_listener(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 

@@ -42,7 +42,7 @@ struct LinearStageSettings {
     double end_plus_nm = 1e9;
 };
 
-class LinearStage final : public sim::DeferringDevice, public sim::Motion {
+class LinearStage final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
     /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
     LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& settings,
@@ -52,7 +52,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::PositionListener& listener) override;
+    int add_listener(sim::PositionListener& listener) override;
     void watch_rate(double rate) override;
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { hand_over(kernel_.now()); }
@@ -72,14 +72,14 @@ class LinearStage final : public sim::DeferringDevice, public sim::Motion {
     /// rubbing; motor.load x: mass on the stage in units of its own.
     static std::span<const std::string_view> fault_names();
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     void sync(Instant now) override { hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
-    static constexpr int slots = sim::Motion::max_listeners;
+    static constexpr int slots = sim::PositionFunction::max_listeners;
     struct State {
         Wide place = 0;               ///< at `since`
         Wide speed = 0;               ///< a tick, at `since`

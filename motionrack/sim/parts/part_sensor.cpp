@@ -6,14 +6,14 @@
 
 namespace motionrack::parts {
 
-PartSensor::PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::Motion& place,
-                       const PartSensorSettings& settings)
+PartSensor::PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire,
+                       sim::PositionFunction& place, const PartSensorSettings& settings)
     : kernel_(kernel),
       place_(place),
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       wire_(kernel.add_wire(wire, 1)),
-      slot_(place.listen(*this)) {
+      slot_(place.add_listener(*this)) {
     MOTIONRACK_ASSERT(settings.every > 0 && settings.length > 0 && settings.length < settings.every);
     kernel.schedule(id_, Instant{0});
 }

@@ -21,12 +21,12 @@ struct PartSensorSettings {
 class PartSensor final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and the wire `wire` (at rest high) to the kernel, before it starts.
-    PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::Motion& place,
+    PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::PositionFunction& place,
                const PartSensorSettings& settings);
 
     /// Parts whose leading edge has come to the sensor, up to now.
     std::int64_t parts(Instant now) const;
-    void act(Instant now) override { look(now); }
+    void on_scheduled(Instant now) override { look(now); }
 
   private:
     void crossed(Instant now) override { look(now); }
@@ -35,7 +35,7 @@ class PartSensor final : public sim::Device, private sim::PositionListener {
     std::int64_t number(std::int64_t place) const;
 
     sim::Kernel& kernel_;
-    sim::Motion& place_;
+    sim::PositionFunction& place_;
     PartSensorSettings settings_;
     sim::DeviceId id_{};
     sim::WireId wire_{};

@@ -4,15 +4,15 @@
 
 namespace motionrack::parts {
 
-ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from,
-                           std::int64_t to, int active_level)
+ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+                           std::int64_t from, std::int64_t to, int active_level)
     : kernel_(kernel),
       place_(place),
       interval_{from, to},
       active_level_(active_level),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       wire_(kernel.add_wire(name, 1 - active_level)),
-      slot_(place.listen(*this)) {
+      slot_(place.add_listener(*this)) {
     MOTIONRACK_ASSERT(from <= to);
     kernel.schedule(id_, Instant{0});
 }
@@ -21,7 +21,7 @@ bool ReferenceCam::active(Instant t) const {
     return interval_.has(place_.count(t));
 }
 
-void ReferenceCam::act(Instant now) {
+void ReferenceCam::on_scheduled(Instant now) {
     look(now);
 }
 

@@ -15,13 +15,13 @@ class ReferenceCam final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of
     /// `place`.
-    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to,
-                 int active_level = 1);
+    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t from,
+                 std::int64_t to, int active_level = 1);
 
     sim::WireId wire() const { return wire_; }
     bool active(Instant t) const;
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
 
   private:
     void crossed(Instant now) override { look(now); }
@@ -29,7 +29,7 @@ class ReferenceCam final : public sim::Device, private sim::PositionListener {
     void look(Instant now);
 
     sim::Kernel& kernel_;
-    sim::Motion& place_;
+    sim::PositionFunction& place_;
     sim::Interval interval_;
     int active_level_;
     sim::DeviceId id_{};

@@ -21,7 +21,8 @@ LineOutputSettings lines_of_converter(const ResolverSettings& s) {
 
 }  // namespace
 
-Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::Motion& place, const ResolverSettings& settings)
+Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+                   const ResolverSettings& settings)
     : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_converter(settings)),
       los_(kernel.add_wire(name + ".los", 0)) {}
 

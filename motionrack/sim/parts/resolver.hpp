@@ -28,7 +28,8 @@ class Resolver final : public EncoderPart {
   public:
     /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z, NAME.los to the kernel, before it starts. The index
     /// is at angle 0.
-    Resolver(sim::Kernel& kernel, const std::string& name, sim::Motion& place, const ResolverSettings& settings = {});
+    Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+             const ResolverSettings& settings = {});
 
     sim::WireId los() const { return los_; }
     bool fault(std::string_view name, double value, Instant now) override;

@@ -27,7 +27,7 @@ ScanHead::ScanHead(sim::Kernel& kernel, const std::string& name, const ScanHeadW
 }
 
 void ScanHead::begin() {
-    for (const sim::WireId wire : {wires_.x, wires_.y}) kernel_.want(wire, id_, true);
+    for (const sim::WireId wire : {wires_.x, wires_.y}) kernel_.subscribe(wire, id_, true);
 }
 
 void ScanHead::on_wire(int pin, int level, Instant now) {

@@ -35,7 +35,7 @@ class ScanHead final : public sim::DeferringDevice {
     bool gate() const { return state_.gate != 0; }
     sim::DeviceId id() const { return id_; }
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override;
     void sync(Instant now) override { work_off(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }

@@ -10,7 +10,7 @@ TouchProbe::TouchProbe(sim::Kernel& kernel, const std::string& name)
     kernel.schedule(id_, Instant{0});
 }
 
-void TouchProbe::add_range(sim::Motion& place, std::int64_t from, std::int64_t to) {
+void TouchProbe::add_range(sim::PositionFunction& place, std::int64_t from, std::int64_t to) {
     MOTIONRACK_ASSERT(from <= to);
     sides_.emplace_back(*this, place, sim::Interval{from, to});
 }
@@ -20,7 +20,7 @@ bool TouchProbe::touches(Instant t) const {
     return !sides_.empty() && std::all_of(sides_.begin(), sides_.end(), within);
 }
 
-void TouchProbe::act(Instant now) {
+void TouchProbe::on_scheduled(Instant now) {
     look(now);
 }
 

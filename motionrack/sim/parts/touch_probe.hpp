@@ -22,23 +22,23 @@ class TouchProbe final : public sim::Device {
     TouchProbe(sim::Kernel& kernel, const std::string& name);
 
     /// Before the kernel starts: the block is from `from` to `to`, counts of `place`, both included.
-    void add_range(sim::Motion& place, std::int64_t from, std::int64_t to);
+    void add_range(sim::PositionFunction& place, std::int64_t from, std::int64_t to);
 
     sim::WireId wire() const { return wire_; }
     bool touches(Instant t) const;
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
 
   private:
     /// One axis of the block.
     struct Side final : sim::PositionListener {
-        Side(TouchProbe& its, sim::Motion& motion, sim::Interval of_block)
-            : probe(its), place(motion), interval(of_block), slot(motion.listen(*this)) {}
+        Side(TouchProbe& its, sim::PositionFunction& motion, sim::Interval of_block)
+            : probe(its), place(motion), interval(of_block), slot(motion.add_listener(*this)) {}
         void crossed(Instant now) override { probe.look(now); }
         void rate_changed(double, double, Instant) override {}
 
         TouchProbe& probe;
-        sim::Motion& place;
+        sim::PositionFunction& place;
         sim::Interval interval;
         int slot;
     };

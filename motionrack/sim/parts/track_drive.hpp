@@ -34,7 +34,7 @@ class ConveyorDrive final : public sim::Device {
     void go_on(Instant now);
     bool stopped(Instant now) const { return track_.by_hand() && track_.speed(to_seconds(now)) == 0; }
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(track_.driving()); }
     bool fault(std::string_view name, double value, Instant now) override;
 

@@ -49,11 +49,11 @@ Instant ConveyorPosition::leaves(const Range& range, Instant from) const {
 }
 
 void ConveyorPosition::schedule(Instant now) {
-    const Range quiet = sim::Listeners::quiet(state_.watches);
+    const Range quiet = sim::Listeners::unwatched_range(state_.watches);
     kernel_.schedule(id_, quiet.left(count(now)) ? now : leaves(quiet, now));
 }
 
-void ConveyorPosition::act(Instant now) {
+void ConveyorPosition::on_scheduled(Instant now) {
     listeners_.notify_crossed(state_.watches, count(now), now);
     schedule(now);
 }
@@ -69,7 +69,7 @@ void ConveyorPosition::watch(int slot, std::int64_t below, std::int64_t above) {
     schedule(kernel_.now());
 }
 
-int ConveyorPosition::listen(sim::PositionListener& listener) {
+int ConveyorPosition::add_listener(sim::PositionListener& listener) {
     return listeners_.add(listener);
 }
 

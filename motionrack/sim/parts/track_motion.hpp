@@ -16,7 +16,7 @@
 
 namespace motionrack::parts {
 
-class ConveyorPosition final : public sim::DeferringDevice, public sim::Motion {
+class ConveyorPosition final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
     /// Adds the device `name` to the kernel, before it starts. `track` must live as long; not 0 counts a unit.
     ConveyorPosition(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double counts_per_unit);
@@ -24,7 +24,7 @@ class ConveyorPosition final : public sim::DeferringDevice, public sim::Motion {
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
-    int listen(sim::PositionListener& listener) override;
+    int add_listener(sim::PositionListener& listener) override;
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { hand_over(kernel_.now()); }
 
@@ -32,7 +32,7 @@ class ConveyorPosition final : public sim::DeferringDevice, public sim::Motion {
     /// handed over.
     void changed(double speed_before);
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void sync(Instant now) override { hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 

@@ -40,7 +40,7 @@ void SerialWordSource::schedule() {
     kernel_.schedule(id_, std::min(reading(state_.read), sending));
 }
 
-void SerialWordSource::act(Instant now) {
+void SerialWordSource::on_scheduled(Instant now) {
     State& s = state_;
     const auto place = [](std::int64_t n) { return static_cast<std::size_t>(n % most_under_way); };
     if (reading(s.read) <= now) {

@@ -30,7 +30,7 @@ class SerialWordSource final : public sim::Device {
     std::int32_t word() const { return static_cast<std::int32_t>(state_.word); }
     static std::span<const std::string_view> fault_names();
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     bool fault(std::string_view name, double value, Instant now) override;
 

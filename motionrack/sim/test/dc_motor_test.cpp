@@ -138,7 +138,7 @@ struct MotorEar final : sim::PositionListener, sim::EdgeListener {
 TEST(DcMotor, TellsAWatchAtTheVeryInstantAndHandsOverEveryEdge) {
     MotorRig rig;
     MotorEar ear;
-    const int slot = rig.motor.listen(ear);
+    const int slot = rig.motor.add_listener(ear);
     rig.kernel.start();
     rig.motor.set_edge_listener(&ear);
     rig.volts(6);

@@ -37,7 +37,7 @@ class EdgeEar final : public sim::EdgeListener {
 
 class CrossingEar final : public sim::PositionListener {
   public:
-    explicit CrossingEar(sim::Motion& motion) : motion_(motion), slot_(motion.listen(*this)) {}
+    explicit CrossingEar(sim::PositionFunction& motion) : motion_(motion), slot_(motion.add_listener(*this)) {}
     void crossed(Instant now) override {
         at.push_back(now);
         counts.push_back(motion_.count(now));
@@ -49,14 +49,14 @@ class CrossingEar final : public sim::PositionListener {
     double rate = 0;
 
   private:
-    sim::Motion& motion_;
+    sim::PositionFunction& motion_;
     int slot_;
 };
 
 class WireEar final : public sim::Device {
   public:
     explicit WireEar(Kernel& kernel) : id(kernel.add(*this, sim::Phase::cards, "ear")) {}
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int, int level, Instant now) override { heard.emplace_back(level, now); }
     sim::DeviceId id;
     std::vector<std::pair<int, Instant>> heard;
@@ -163,7 +163,7 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
     EncoderWorld w(with_counts(3200),
                    {{Instant{0}, microseconds(1000), 1}, {milliseconds(4000), microseconds(1000), -1}});
     w.kernel.start();
-    w.kernel.want(w.machine.index_wire(), w.ear.id, true);
+    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, true);
     EXPECT_EQ(w.kernel.level(w.machine.index_wire()), 1);
     w.kernel.run_until(milliseconds(5000));
     EXPECT_EQ(w.ear.heard, (std::vector<std::pair<int, Instant>>{{0, milliseconds(1)},
@@ -171,7 +171,7 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
                                                                  {0, milliseconds(3201)},
                                                                  {1, milliseconds(4800)},
                                                                  {0, milliseconds(4801)}}));
-    w.kernel.want(w.machine.index_wire(), w.ear.id, false);
+    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, false);
     const std::uint64_t events = w.kernel.events();
     w.kernel.run_until(milliseconds(20'000));
     EXPECT_EQ(w.kernel.events(), events);
@@ -182,7 +182,7 @@ TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
     s.motor.microsteps = 1;                       // 20 counts a pulse
     EncoderWorld w(s, {{Instant{0}, milliseconds(1), 1}});
     w.kernel.start();
-    w.kernel.want(w.machine.index_wire(), w.ear.id, true);
+    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, true);
     w.kernel.run_until(milliseconds(2010));
     int rises = 0;
     for (const auto& [level, at] : w.ear.heard) rises += level;
@@ -326,7 +326,7 @@ TEST(AxisMechanics, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
     EdgeEar ear;
     w.kernel.start();
     w.machine.encoder().set_edge_listener(&ear);
-    w.kernel.want(w.machine.index_wire(), w.ear.id, true);
+    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, true);
     w.ear.heard.reserve(1000);
     const std::uint64_t before = sim::allocations();
     w.kernel.run_until(milliseconds(200));

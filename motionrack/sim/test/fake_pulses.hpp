@@ -18,7 +18,7 @@ struct PulseLaw {
     std::int64_t direction = 0;
 };
 
-class FakePulses final : public DeferringDevice, public Motion {
+class FakePulses final : public DeferringDevice, public PositionFunction {
   public:
     FakePulses(Kernel& kernel, std::vector<PulseLaw> laws, const std::string& name = "pulses")
         : kernel_(kernel), laws_(std::move(laws)), id_(kernel.add(*this, Phase::cards, name)) {
@@ -33,7 +33,7 @@ class FakePulses final : public DeferringDevice, public Motion {
         ++watch_calls;
         reschedule();
     }
-    int listen(PositionListener& listener) override {
+    int add_listener(PositionListener& listener) override {
         MOTIONRACK_ASSERT(listeners_.size() < max_listeners);
         listeners_.push_back(&listener);
         return static_cast<int>(listeners_.size()) - 1;
@@ -46,7 +46,7 @@ class FakePulses final : public DeferringDevice, public Motion {
     void deliver_edges() override { make_edges(kernel_.now()); }
 
     // ---- Device
-    void act(Instant now) override {
+    void on_scheduled(Instant now) override {
         if (state_.next_law < laws_.size() && laws_[state_.next_law].at <= now)
             change_law(laws_[state_.next_law++], now);
         for (std::size_t i = 0; i < listeners_.size(); ++i) {

@@ -11,7 +11,7 @@ namespace {
 class JunctionEar final : public Device {
   public:
     explicit JunctionEar(Kernel& kernel) : id(kernel.add(*this, Phase::cards, "ear")) {}
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override { heard.push_back({pin, level, now}); }
     struct Change {
         int pin = 0;
@@ -63,11 +63,11 @@ TEST(WireConnections, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
     EXPECT_LE(kernel.events(), 2u);
     kernel.run_until(milliseconds(65));
     EXPECT_EQ(kernel.level(z), 0);
-    kernel.want(z, ear.id, true);
+    kernel.subscribe(z, ear.id, true);
     kernel.run_until(milliseconds(100));
     EXPECT_EQ(ear.heard, (std::vector<JunctionEar::Change>{{0, 1, milliseconds(96)},
                                                            {0, 0, milliseconds(96) + microseconds(10)}}));
-    kernel.want(z, ear.id, false);
+    kernel.subscribe(z, ear.id, false);
     const std::uint64_t events = kernel.events();
     kernel.run_until(milliseconds(1000));
     EXPECT_EQ(kernel.events(), events);

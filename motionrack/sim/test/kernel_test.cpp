@@ -11,7 +11,7 @@ namespace {
 /// A device whose parts are functions.
 class Puppet final : public DeferringDevice {
   public:
-    void act(Instant now) override {
+    void on_scheduled(Instant now) override {
         if (on_act) on_act(now);
     }
     void on_wire(int pin, int level, Instant now) override {
@@ -188,13 +188,13 @@ TEST(Kernel, ALazyWireIsAskedOfItsOwnerWhileNobodyWantsItsChanges) {
     EXPECT_EQ(w.kernel.level(w.wire), 0);
     EXPECT_EQ(w.kernel.events(), 0u);
     w.kernel.run_until(Instant{35});
-    w.kernel.want(w.wire, w.ear_id, true);
+    w.kernel.subscribe(w.wire, w.ear_id, true);
     EXPECT_EQ(w.kernel.level(w.wire), 1);
-    w.kernel.want(w.wire, w.ear_id, true);
+    w.kernel.subscribe(w.wire, w.ear_id, true);
     w.kernel.set_wire(w.wire, 0);
     w.kernel.settle();
     EXPECT_EQ(w.heard, std::vector<int>{0});
-    w.kernel.want(w.wire, w.ear_id, false);
+    w.kernel.subscribe(w.wire, w.ear_id, false);
     EXPECT_EQ(w.owner.wants, (std::vector<bool>{true, false}));
 }
 
@@ -204,13 +204,13 @@ TEST(Kernel, ALazyWireThatWasForcedGoesBackToWhatItsOwnerSays) {
     w.kernel.force(w.wire, 0);
     w.kernel.settle();
     EXPECT_EQ(w.kernel.level(w.wire), 0);
-    w.kernel.want(w.wire, w.ear_id, true);  // while it is forced
+    w.kernel.subscribe(w.wire, w.ear_id, true);  // while it is forced
     EXPECT_EQ(w.kernel.level(w.wire), 0);
     w.kernel.release(w.wire);
     w.kernel.settle();
     EXPECT_EQ(w.kernel.level(w.wire), 1);
     EXPECT_EQ(w.heard, std::vector<int>{1});
-    w.kernel.want(w.wire, w.ear_id, false);
+    w.kernel.subscribe(w.wire, w.ear_id, false);
     w.kernel.force(w.wire, 0);
     w.kernel.run_until(Instant{25});
     w.kernel.release(w.wire);

@@ -22,7 +22,7 @@ class Counter final : public sim::Device {
         edges.reserve(100'000);
         index_at.reserve(1000);
     }
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override {
         if (pin == 2) {
             if (level) index_at.push_back(decoder.count());

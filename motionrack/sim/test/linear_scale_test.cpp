@@ -21,14 +21,14 @@ struct Head final : sim::Device {
         k.listen(a, id, 0);
         k.listen(b, id, 1);
     }
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant) override {
         lines = static_cast<std::uint8_t>((lines & ~(1u << pin)) | static_cast<unsigned>(level) << pin);
         decoder.lines(lines);
     }
     void want(bool wanted, std::int64_t count) {
-        kernel.want(a, id, wanted);
-        kernel.want(b, id, wanted);
+        kernel.subscribe(a, id, wanted);
+        kernel.subscribe(b, id, wanted);
         lines = static_cast<std::uint8_t>(kernel.level(a) | kernel.level(b) << 1);
         decoder = sim::QuadratureDecoder(sim::Edges::all, lines);
         decoder.set_count(count);
@@ -64,7 +64,7 @@ struct ScaleRig {
         : stage(kernel, "x", stage_settings),
           scale(kernel, "s", stage, scale_settings),
           head(kernel, scale),
-          slot(scale.listen(ear)) {}
+          slot(scale.add_listener(ear)) {}
     void volts(double v) {
         kernel.set_wire(stage.drive_wire(), static_cast<int>(std::lround(v * 1e6)));
         kernel.settle();

@@ -171,7 +171,7 @@ RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
     s.viscous = *rc::gen::element(0.0, 30.0);
     Rig rig(s);
     Ear ear;
-    const int slot = rig.stage.listen(ear);
+    const int slot = rig.stage.add_listener(ear);
     rig.kernel.start();
     const int way = *rc::gen::element(1, -1);
     rig.volts(way * *rc::gen::element(10.0, 0.1, 0.001));
@@ -248,7 +248,7 @@ TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
 TEST(LinearStage, MarkedRatesAreToldAtTheirTick) {
     Rig rig;
     Ear ear;
-    rig.stage.listen(ear);
+    rig.stage.add_listener(ear);
     rig.stage.watch_rate(0.1e9 * 1024);
     rig.kernel.start();
     rig.volts(1);
@@ -323,7 +323,7 @@ TEST(LinearStage, ASnapshotContinuesAsTheFirstTimeAndNothingIsAllocated) {
     Rig rig(s);
     Ear ear;
     ear.at.reserve(100);
-    const int slot = rig.stage.listen(ear);
+    const int slot = rig.stage.add_listener(ear);
     rig.kernel.start();
     rig.volts(0.5);
     rig.run(0.0123);

@@ -31,14 +31,14 @@ TEST(Listeners, WhoseRangeIsLeftHearsOfItOnceAndTheOthersDoNot) {
     ListenersEar first, second;
     watches[static_cast<std::size_t>(listeners.add(first))] = {-5, 5};
     watches[static_cast<std::size_t>(listeners.add(second))] = {unwatched_below, 9};
-    EXPECT_EQ(Listeners::quiet(watches), (Range{-5, 5}));
+    EXPECT_EQ(Listeners::unwatched_range(watches), (Range{-5, 5}));
     listeners.notify_crossed(watches, 4, Instant{0});
     EXPECT_EQ(first.crossings, 0);
     listeners.notify_crossed(watches, 5, Instant{0});
     listeners.notify_crossed(watches, 6, Instant{0});
     EXPECT_EQ(first.crossings, 1);
     EXPECT_EQ(second.crossings, 0);
-    EXPECT_EQ(Listeners::quiet(watches), (Range{unwatched_below, 9}));
+    EXPECT_EQ(Listeners::unwatched_range(watches), (Range{unwatched_below, 9}));
     listeners.notify_rate(3, -4, Instant{0});
     EXPECT_EQ(second.before, 3);
     EXPECT_EQ(second.after, -4);

@@ -17,7 +17,7 @@ class Divider final : public DeferringDevice, private PulseTrain::Owner {
     explicit Divider(Kernel& k) : train(state_, clock), kernel(k), id(k.add(*this, Phase::cards, "divider")) {
         train.set_owner(this);
     }
-    void act(Instant now) override {
+    void on_scheduled(Instant now) override {
         train.act(now);
         train_watched();
     }
@@ -57,7 +57,7 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
     Kernel kernel;
     Divider divider(kernel);
     Ear ear;
-    const int slot = divider.train.listen(ear);
+    const int slot = divider.train.add_listener(ear);
     divider.train.set_edge_listener(&ear);
     kernel.start();
     std::int64_t count = 0, left = 0, reload = 0, high_left = 0, above = unwatched_above;
@@ -111,7 +111,7 @@ TEST(PulseTrain, TellsItsRateAndTheNextEdgeOfItsLine) {
     Kernel kernel;
     Divider divider(kernel);
     Ear ear;
-    divider.train.listen(ear);
+    divider.train.add_listener(ear);
     kernel.start();
     EXPECT_EQ(divider.train.next_edge(Instant{0}), never);
     divider.set(10, -1);

@@ -103,7 +103,7 @@ RC_GTEST_PROP(ClosedFormCounter, WatchesItsOwnValueThroughDivisionDirectionAndOf
     const std::int64_t direction = *rc::gen::element<std::int64_t>(-1, 1);
     FakePulses pulses(kernel, {{Instant{0}, microseconds(1), direction}});
     Watcher watcher;
-    const int slot = pulses.listen(watcher);
+    const int slot = pulses.add_listener(watcher);
     ClosedFormCounter counter(*rc::gen::element(Edges::all, Edges::both_of_a, Edges::rising_a),
                               *rc::gen::arbitrary<bool>());
     kernel.start();

@@ -28,7 +28,7 @@ class PulseCard final : public RegisterDevice, public Device {
         kernel_.set_wire(interrupt, value == 0);  // low while it runs
         kernel_.break_run();
     }
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return bytes_of(state_); }
 
     DeviceId id{};
@@ -146,7 +146,7 @@ TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunGoesOn) {
         explicit Filler(Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, Phase::observers, "filler")) {
             kernel.schedule(id_, microseconds(1));
         }
-        void act(Instant now) override {
+        void on_scheduled(Instant now) override {
             if (++filled >= 8) kernel_.break_run();
             most = std::max(most, filled);
             kernel_.schedule(id_, now + microseconds(1));

@@ -109,8 +109,8 @@ TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChange
     drive.add(fine);
     drive.add(turned);
     RatesEar of_fine, of_turned;
-    fine.listen(of_fine);
-    turned.listen(of_turned);
+    fine.add_listener(of_fine);
+    turned.add_listener(of_turned);
     kernel.start();
     kernel.run_until(milliseconds(5));
     ASSERT_TRUE(drive.fault("drive.speed", 20, kernel.now()));

@@ -108,7 +108,7 @@ TEST(CsvWriter, SaysAtTheEndThatTheDiskIsFull) {
     }
     const auto closed = csv->close();
     ASSERT_FALSE(closed);
-    EXPECT_EQ(closed.error().trouble, ErrorKind::io);
+    EXPECT_EQ(closed.error().kind, ErrorKind::io);
     EXPECT_NE(closed.error().message.find("No space left"), std::string::npos);
     EXPECT_FALSE(csv->close()) << "lines were left out";
     EXPECT_FALSE(CsvWriter::create("/nowhere/at/all.csv", {"a"}));

@@ -173,7 +173,7 @@ TEST(DiffOfWaves, IsToldWhereAVcdFileIsNone) {
           "$timescale 1 ns $end $scope module " + std::string(1000, 'a') + " $end $enddefinitions $end\n"}) {
         const auto diff = diff_of_texts(head + "#5 1! \n", bad, "vcd");
         ASSERT_FALSE(diff) << bad;
-        EXPECT_EQ(diff.error().trouble, ErrorKind::bad_input);
+        EXPECT_EQ(diff.error().kind, ErrorKind::invalid_input);
     }
     EXPECT_TRUE(diff_of_texts(head + "#5 1!\n", head + "$comment x $end #5\n$dumpvars 1! $end\n#9\n", "vcd")->same());
 }
@@ -225,7 +225,7 @@ TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("b.vcd")).error().message, HasSubstr("same kind"));
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("c.bin")).error().message,
                 HasSubstr("none that is read"));
-    EXPECT_EQ(diff_files(scratch.path("a.csv"), scratch.path("nowhere")).error().trouble, ErrorKind::io);
+    EXPECT_EQ(diff_files(scratch.path("a.csv"), scratch.path("nowhere")).error().kind, ErrorKind::io);
 }
 
 TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
@@ -239,7 +239,7 @@ TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
     EXPECT_THAT(data->axes[0].position, ElementsAre(1.0F, 1.5F));
     EXPECT_EQ(data->axes[1].name, "A");
     EXPECT_EQ(data->axes[1].unit, "deg");
-    EXPECT_EQ(data->axes[1].top_speed, 7);
+    EXPECT_EQ(data->axes[1].peak_velocity, 7);
     EXPECT_TRUE(data->axes[2].servo);
     EXPECT_EQ(data->driven.size(), 2u);
     std::ofstream(scratch.path("sheet.csv")) << "\xEF\xBB\xBFtime_s,x_position_mm\r\n0,1\r\n\r\n1,2\r\n\r\n";

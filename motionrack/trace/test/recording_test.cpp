@@ -221,8 +221,8 @@ TEST(Recording, RefusesWhatIsNone) {
                 HasSubstr("does not begin as an HDF5 file"));
     EXPECT_THAT(RecordingReader::open(scratch.path("empty")).error().message, HasSubstr("empty"));
     EXPECT_THAT(RecordingReader::open(scratch.path("head")).error().message, HasSubstr("damaged"));
-    EXPECT_EQ(RecordingReader::open(scratch.path("nowhere")).error().trouble, ErrorKind::io);
-    EXPECT_EQ(RecordingReader::open(scratch.path("")).error().trouble, ErrorKind::io) << "a folder";
+    EXPECT_EQ(RecordingReader::open(scratch.path("nowhere")).error().kind, ErrorKind::io);
+    EXPECT_EQ(RecordingReader::open(scratch.path("")).error().kind, ErrorKind::io) << "a folder";
     auto other = hdf5::File::create(scratch.path("other.h5"));
     ASSERT_TRUE(other && other->close());
     EXPECT_THAT(RecordingReader::open(scratch.path("other.h5")).error().message,
@@ -238,7 +238,7 @@ TEST(Recording, TellsWhereItCannotBeMade) {
     const PlainRecording plain;
     const auto writer = RecordingWriter::create("/nowhere/at/all.h5", plain.head, Instant{0});
     ASSERT_FALSE(writer);
-    EXPECT_EQ(writer.error().trouble, ErrorKind::io);
+    EXPECT_EQ(writer.error().kind, ErrorKind::io);
     EXPECT_THAT(writer.error().text(), HasSubstr("/nowhere/at/all.h5"));
 }
 
@@ -249,7 +249,7 @@ TEST(Recording, TellsThatTheDiskIsFull) {
     if (writer) plain.write(*writer);
     const Result<void> closed = writer ? writer->close(plain.end) : tl::unexpected<Error>(writer.error());
     ASSERT_FALSE(closed);
-    EXPECT_EQ(closed.error().trouble, ErrorKind::io);
+    EXPECT_EQ(closed.error().kind, ErrorKind::io);
     EXPECT_THAT(closed.error().message, HasSubstr("No space left on device"));
     EXPECT_THAT(closed.error().message, ::testing::Not(HasSubstr("errno")));
 }

@@ -41,8 +41,8 @@ ReportData circle(std::size_t samples) {
     data.planned = {segment};
     data.axes[0].name = std::string("X");
     data.axes[1].name = std::string("Y");
-    data.axes[0].max_speed = 100;
-    data.axes[0].top_speed = 77;
+    data.axes[0].max_velocity = 100;
+    data.axes[0].peak_velocity = 77;
     data.axes[0].pulses_sent = 1234567;
     data.axes[0].lost_steps = 3;
     data.tolerance_mm = 0.01;
@@ -102,7 +102,7 @@ TEST(Report, SaysWhichLimitsAreOffTheChart) {
     EXPECT_NE(report_html(data).find("limit-words drawn\">limit \xC2\xB1"
                                      "100<"),
               std::string::npos);
-    data.axes[0].max_speed = 4000;
+    data.axes[0].max_velocity = 4000;
     EXPECT_NE(report_html(data).find("limit-words\">limit \xC2\xB1"
                                      "4000, off the chart<"),
               std::string::npos);
@@ -192,9 +192,9 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
         data.driven[i] = {not_a_number, infinity, 0};
         data.seconds[i] = i % 2 == 0 ? not_a_number : data.seconds[i];
     }
-    data.axes[0].max_speed = not_a_number;
+    data.axes[0].max_velocity = not_a_number;
     data.axes[1].max_position = infinity;
-    data.axes[0].top_accel = data.axes[0].real_end = data.tolerance_mm = infinity;
+    data.axes[0].peak_accel = data.axes[0].real_end = data.tolerance_mm = infinity;
     data.worst = ReportMaxDeviation{not_a_number, not_a_number, 0, {not_a_number, 0, 0}};
     data.blocks[0].duration = data.blocks[0].length = not_a_number;
     data.warnings[0].seconds = not_a_number;
@@ -267,7 +267,7 @@ TEST(Report, StaysBelowFourMegabytesWhateverComesIn) {
 TEST(Report, SaysThatItCouldNotBeWritten) {
     const auto written = write_report(circle(10), "/nowhere/at/all.html");
     ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().trouble, ErrorKind::io);
+    EXPECT_EQ(written.error().kind, ErrorKind::io);
     const Scratch scratch;
     ASSERT_TRUE(write_report(circle(10), scratch.path("r.html")));
     EXPECT_EQ(file_text(scratch.path("r.html")), report_html(circle(10)));

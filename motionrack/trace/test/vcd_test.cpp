@@ -92,7 +92,7 @@ TEST(VcdWriter, RefusesATimescaleThatVcdDoesNotHave) {
         settings.timescale = bad;
         const auto writer = VcdWriter::create(vcd_scratch.path("a.vcd"), settings);
         ASSERT_FALSE(writer);
-        EXPECT_EQ(writer.error().trouble, ErrorKind::refused);
+        EXPECT_EQ(writer.error().kind, ErrorKind::refused);
         const std::string seen = bad > Duration{0} ? std::to_string(bad.count() * 100) + " ps" : "this timescale";
         EXPECT_NE(writer.error().message.find(seen), std::string::npos);
     }
@@ -139,7 +139,7 @@ TEST(VcdWriter, SaysAtTheEndThatTheDiskIsFull) {
     for (int i = 0; i < 200'000; ++i) vcd.change(wire, static_cast<unsigned>(i + 1) & 1U, Instant{i * 1000});
     const auto closed = vcd.close(whole_seconds(1));
     ASSERT_FALSE(closed);
-    EXPECT_EQ(closed.error().trouble, ErrorKind::io);
+    EXPECT_EQ(closed.error().kind, ErrorKind::io);
     EXPECT_EQ(closed.error().file, "/dev/full");
     EXPECT_NE(closed.error().message.find("No space left"), std::string::npos);
     EXPECT_FALSE(vcd.close(whole_seconds(1))) << "changes were left out";
@@ -159,7 +159,7 @@ TEST(VcdWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
 TEST(VcdWriter, SaysThatAFileCannotBeMade) {
     const auto writer = VcdWriter::create("/nowhere/at/all/a.vcd");
     ASSERT_FALSE(writer);
-    EXPECT_EQ(writer.error().trouble, ErrorKind::io);
+    EXPECT_EQ(writer.error().kind, ErrorKind::io);
 }
 
 /// Changes of one random file: gaps between instants and values.

@@ -28,7 +28,7 @@ tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
 
 // ---- beginning and ending
 
-void HomeSearch::begin(const control::HomeOrder& order, const HomeFrame& frame, Instant now) {
+void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& frame, Instant now) {
     order_ = order;
     frame_ = frame;
     outcome_ = {};
@@ -86,8 +86,8 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
     outcome_.took_s = since(now);
     const double zero = zeroed_ ? home_way_ : 0, called = zeroed_ ? order_.position : frame_.offset;
     const auto place_of = [&](double way) { return called + (way - zero) / frame_.counts_per_unit; };
-    for (control::HomeStay& stay : outcome_.stays) stay.from = place_of(stay.from), stay.to = place_of(stay.to);
-    for (control::HomeEdge& edge : outcome_.edges) edge.position = place_of(edge.position);
+    for (control::HomingStateVisit& stay : outcome_.stays) stay.from = place_of(stay.from), stay.to = place_of(stay.to);
+    for (control::HomingEdge& edge : outcome_.edges) edge.position = place_of(edge.position);
     outcome_.position = place_of(way_);
     if (zeroed_) outcome_.moved_by = order_.position - place(home_way_);
 }
@@ -97,8 +97,8 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
 /// The events that make the counter 0 in the present state.
 std::uint8_t HomeSearch::marks() const {
     if (!marking()) return 0;
-    const bool index = order_.type == control::HomeType::index_after_switch ||
-                       (order_.type == control::HomeType::twice_and_index && state_ == State::slow);
+    const bool index = order_.type == control::HomingMethod::index_after_switch ||
+                       (order_.type == control::HomingMethod::twice_and_index && state_ == State::slow);
     return static_cast<std::uint8_t>(event::REF | (index ? event::ZERO : 0));
 }
 

@@ -34,7 +34,7 @@ class HomeSearch {
   public:
     HomeSearch(Driver& driver, Interrupt& host) : driver_(driver), host_(host) {}
 
-    void begin(const control::HomeOrder& order, const HomeFrame& frame, Instant now);
+    void begin(const control::HomingRequest& order, const HomeFrame& frame, Instant now);
     /// One look; commands take the card's time.
     void step(Instant now);
     /// Ends it: the output is 0 at once.
@@ -45,7 +45,7 @@ class HomeSearch {
     std::string_view state_name() const;
     /// What the counter's 0 is called once it is homed.
     double home_position() const { return order_.position; }
-    const control::HomeOutcome& outcome() const { return outcome_; }
+    const control::HomingResult& outcome() const { return outcome_; }
     /// How it failed. Only after it ended without success.
     const Error& error() const { return error_; }
 
@@ -53,7 +53,8 @@ class HomeSearch {
     enum class State : std::uint8_t { idle, back, back_stop, search, search_stop, slow, slow_stop, homed, failed };
 
     bool twice() const {
-        return order_.type == control::HomeType::twice_to_switch || order_.type == control::HomeType::twice_and_index;
+        return order_.type == control::HomingMethod::twice_to_switch ||
+               order_.type == control::HomingMethod::twice_and_index;
     }
     bool marking() const { return state_ == State::search || state_ == State::slow; }
     std::uint8_t marks() const;
@@ -79,7 +80,7 @@ class HomeSearch {
 
     Driver& driver_;
     Interrupt& host_;
-    control::HomeOrder order_;
+    control::HomingRequest order_;
     HomeFrame frame_;
     State state_ = State::idle;
     bool seen_ = false;        // BACK: the reference has been active
@@ -102,7 +103,7 @@ class HomeSearch {
     Instant entered_{};
     double entered_way_ = 0;
     Instant stop_seen_ = never;  // when the contacts of a stop are at rest
-    control::HomeOutcome outcome_;
+    control::HomingResult outcome_;
     Error error_;
 };
 

@@ -30,9 +30,9 @@ Result<void> PositionAxis::set_up() {
     const control::AxisLimits& limits = settings_.limits;
     const double scale = settings_.counts_per_unit;
     SlopeDemand demand;
-    demand.top_speed = limits.max_speed * scale;
+    demand.top_speed = limits.max_velocity * scale;
     demand.acceleration = demand.deceleration = limits.max_accel * scale;
-    demand.creep_speed = limits.start_speed < limits.max_speed ? limits.start_speed * scale : 0;
+    demand.creep_speed = limits.max_velocity_step < limits.max_velocity ? limits.max_velocity_step * scale : 0;
     demand.lag_s = settings_.lag_s;
     auto table = design_slope(demand, settings_.scale);
     if (!table) return refuse("Setting up", table.error().message);
@@ -54,9 +54,9 @@ tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& 
 }
 
 Result<int> PositionAxis::rate_of(const char* what, double speed) const {
-    if (!(std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_speed))
+    if (!(std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_velocity))
         return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit,
-                                        settings_.limits.max_speed));
+                                        settings_.limits.max_velocity));
     const int rate = settings_.scale.rate_for(speed * settings_.counts_per_unit * (1 + 1e-12));
     if (rate > 0) return rate;
     return refuse(what, fmt::format("the speed is {} {}/s, but the card's slowest rate gives {:.4g}", speed,
@@ -245,7 +245,8 @@ void PositionAxis::stop_now() {
 }
 
 void PositionAxis::ramp_down(Instant now) {
-    const double creep = std::min(settings_.limits.start_speed, settings_.limits.max_speed) * settings_.counts_per_unit;
+    const double creep =
+        std::min(settings_.limits.max_velocity_step, settings_.limits.max_velocity) * settings_.counts_per_unit;
     speed_ -= settings_.limits.max_accel * settings_.counts_per_unit * to_seconds(now - at_);
     at_ = now;
     const int rate = speed_ > creep ? settings_.scale.rate_for(speed_) : 0;
@@ -287,7 +288,7 @@ Result<void> PositionAxis::set_position(double position) {
     return {};
 }
 
-Result<void> PositionAxis::home(const control::HomeOrder& order, Instant now) {
+Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now) {
     MOTIONRACK_TRY(const int rate, rate_of("Homing", order.speed));
     MOTIONRACK_TRY(const int slow, rate_of("Homing", order.slow_speed));
     if (busy()) return refuse("Homing", "it moves; stop it and wait until it stands");

@@ -43,7 +43,7 @@ class PositionAxis final : public control::Axis {
     Result<void> move_to(double position, double speed) override;
     Result<void> move_by(double distance, double speed) override;
     Result<void> jog(double speed, Instant now) override;
-    Result<void> home(const control::HomeOrder& order, Instant now) override;
+    Result<void> home(const control::HomingRequest& order, Instant now) override;
     Result<void> set_position(double position) override;
     void stop() override;
     void stop_now() override;
@@ -52,13 +52,13 @@ class PositionAxis final : public control::Axis {
     Result<void> wait(Duration timeout) override;
 
     control::AxisState state() override;
-    bool trusted() const override { return trusted_; }
+    bool position_valid() const override { return trusted_; }
     double position() override;
     double measured_position() override { return position(); }
     /// The position where the card's counter is 0.
     double counter_origin() const { return offset_; }
     std::string_view home_state() const override { return search_.state_name(); }
-    control::HomeOutcome home_outcome() const override { return search_.outcome(); }
+    control::HomingResult home_outcome() const override { return search_.outcome(); }
 
     const SlopeTable& table() const { return table_; }
 

@@ -55,7 +55,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
 /// Ends the move after an error, and adds to it which stops are active.
 Result<void> Driver::end_move(const Error& error) {
     Error out = error;
-    if (out.trouble == ErrorKind::machine) {
+    if (out.kind == ErrorKind::machine) {
         (void)quit();
         if (const std::string stops = status().stops(); !stops.empty())
             out.message += fmt::format(" At present {}.", stops);

@@ -109,7 +109,7 @@ Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, in
         if (!(speed > 0))
             return fail(ErrorKind::refused,
                         fmt::format("At {} counts from the start the speed is 0, so the move would never end.", at));
-        const std::int64_t next = std::min({distance, faster.greatest + 1, distance - slower.least + 1});
+        const std::int64_t next = std::min({distance, faster.max + 1, distance - slower.min + 1});
         const double time = static_cast<double>(next - at) / speed;
         if (!motion.legs.empty() && motion.legs.back().rate == rate) {
             motion.legs.back().to = next;

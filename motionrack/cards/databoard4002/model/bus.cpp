@@ -44,7 +44,7 @@ void Bus::out(std::uint8_t port, std::uint8_t value) {
     if (Card* card = chosen()) card->out(port, value);
 }
 
-void Bus::act(Instant now) {
+void Bus::on_scheduled(Instant now) {
     on_wire(0, 0, now);
 }
 

@@ -31,7 +31,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return interrupt_; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 

@@ -49,7 +49,7 @@ void Card::begin() {
     const Instant now = kernel_.now();
     state_.begun = 1;
     for (std::size_t i = 0; i < 2; ++i) {
-        kernel_.want(wires_[i], id_, !connected());
+        kernel_.subscribe(wires_[i], id_, !connected());
         Line& line = state_.counter.lines[i];
         line.raw = line.taken = kernel_.level(wires_[i]) != 0;
     }
@@ -57,7 +57,7 @@ void Card::begin() {
     reset();
 }
 
-void Card::act(Instant now) {
+void Card::on_scheduled(Instant now) {
     begin();
     if (state_.watchdog_at <= now) watchdog();
     if (state_.reset_pulse_end <= now) {

@@ -40,10 +40,10 @@ class Card final : public sim::DeferringDevice,
 
     // ---- the machine's side
     /// FOUT as a position over time: pulses since power-up, signed by SIGN.
-    sim::Motion& pulses() { return train_; }
+    sim::PositionFunction& pulses() { return train_; }
     /// What turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel starts.
     /// Without it the wires o1 and o2 are counted.
-    void connect_encoder(sim::Motion& counts);
+    void connect_encoder(sim::PositionFunction& counts);
     /// Cuts what is connected off and forces the wires o1 and o2 to the levels that it has (`taken`), or releases them
     /// and puts it back. In between what the wires are forced to counts.
     void take_encoder(bool taken);
@@ -66,7 +66,7 @@ class Card final : public sim::DeferringDevice,
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return wires_[interrupt_pin]; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
@@ -166,7 +166,7 @@ class Card final : public sim::DeferringDevice,
     std::array<sim::WireId, pin_count> wires_{};
     State state_{};
     sim::PulseTrain train_;
-    sim::Motion* encoder_ = nullptr;
+    sim::PositionFunction* encoder_ = nullptr;
     int encoder_slot_ = 0;
 };
 

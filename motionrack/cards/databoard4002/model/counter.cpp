@@ -3,10 +3,10 @@
 
 namespace motionrack::databoard4002 {
 
-void Card::connect_encoder(sim::Motion& counts) {
+void Card::connect_encoder(sim::PositionFunction& counts) {
     MOTIONRACK_ASSERT(encoder_ == nullptr && !state_.begun);
     encoder_ = &counts;
-    encoder_slot_ = counts.listen(*this);
+    encoder_slot_ = counts.add_listener(*this);
 }
 
 std::int64_t Card::counter(Instant t) const {
@@ -48,7 +48,7 @@ void Card::take_encoder(bool taken) {
         const bool level = (levels >> i & 1) != 0;
         c.lines[i] = {};
         c.lines[i].raw = c.lines[i].taken = level;
-        kernel_.want(wires_[i], id_, taken);
+        kernel_.subscribe(wires_[i], id_, taken);
         if (taken)
             kernel_.force(wires_[i], level);
         else

@@ -117,10 +117,9 @@ void Card::aim(Instant now) {
             const std::int64_t travelled = signed24(u - move.start) * move.direction;
             const SlopeTable::Step slower = move.table.decelerating(to_go);
             const SlopeTable::Step faster = move.table.accelerating(std::max<std::int64_t>(0, travelled));
-            forward =
-                std::min({forward, to_go - slower.least + 1, faster.greatest + 1 - travelled, half_turn - travelled});
-            back = std::min({back, slower.greatest + 1 - to_go, travelled + half_turn + 1});
-            if (faster.least > 0) back = std::min(back, travelled - faster.least + 1);
+            forward = std::min({forward, to_go - slower.min + 1, faster.max + 1 - travelled, half_turn - travelled});
+            back = std::min({back, slower.max + 1 - to_go, travelled + half_turn + 1});
+            if (faster.min > 0) back = std::min(back, travelled - faster.min + 1);
         }
         above = std::min(above, u + (move.direction > 0 ? forward : back));
         below = std::max(below, u - (move.direction > 0 ? back : forward));

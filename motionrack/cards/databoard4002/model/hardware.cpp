@@ -27,7 +27,7 @@ std::uint8_t Card::inputs() const {
 
 /// A zero pulse that nobody waits for is not asked for, so that an encoder's costs nothing.
 void Card::set_wants() {
-    kernel_.want(wires_[zero_pin], id_, (state_.firmware.armed & event::ZERO) != 0);
+    kernel_.subscribe(wires_[zero_pin], id_, (state_.firmware.armed & event::ZERO) != 0);
 }
 
 void Card::on_wire(int pin, int level, Instant now) {

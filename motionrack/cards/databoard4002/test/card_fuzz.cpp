@@ -30,7 +30,7 @@ class Run {
         lines_ = {wire("o1"), wire("o2")};
         vout_ = wire("vout"), relay_ = wire("relay");
         ems_ = wire("ems"), esr_ = wire("esr"), esl_ = wire("esl");
-        host_.kernel.want(wire("fout"), host_.card.id(), feed.below(2) == 0);
+        host_.kernel.subscribe(wire("fout"), host_.card.id(), feed.below(2) == 0);
         listening_ = feed.below(2) == 0;
         if (listening_) host_.card.pulses().set_edge_listener(&edges_);
     }

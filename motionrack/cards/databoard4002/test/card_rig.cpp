@@ -28,7 +28,7 @@ Settings settings_of(const Strapping& s) {
 class Follower final : public sim::Device {
   public:
     explicit Follower(sim::Kernel& kernel) : id(kernel.add(*this, sim::Phase::observers, "follower")) {}
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int, int level, Instant now) override {
         if (level && now == last) ++doubled;
         last = now;
@@ -103,9 +103,9 @@ struct World final : sim::Kernel::WireObserver {
 Outcome run_on_card(const Program& program, const Way& way) {
     World world(program);
     Outcome out;
-    if (!way.follow_fout) world.kernel.want(world.kernel.find_wire("c.fout"), world.follower.id, false);
+    if (!way.follow_fout) world.kernel.subscribe(world.kernel.find_wire("c.fout"), world.follower.id, false);
     world.run(Instant{0});
-    if (way.follow_fout) world.kernel.want(world.kernel.find_wire("c.fout"), world.follower.id, true);
+    if (way.follow_fout) world.kernel.subscribe(world.kernel.find_wire("c.fout"), world.follower.id, true);
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
         world.run(slice_time * program.ops[i].slice);
         out.sights.push_back(world.apply(program.ops[i]));

@@ -158,7 +158,7 @@ TEST(Databoard4002Driver, TellsWhichStopWasMetAndWhere) {
             return rig.driver.move_to(5'000, whole_seconds(1), how);
         }();
         ASSERT_FALSE(moved);
-        EXPECT_EQ(moved.error().trouble, ErrorKind::machine);
+        EXPECT_EQ(moved.error().kind, ErrorKind::machine);
         EXPECT_THAT(moved.error().message, HasSubstr("the right end stop is active"));
         EXPECT_FALSE(rig.host.card.moving());
         ASSERT_TRUE(rig.driver.move_to(0, whole_seconds(1), how)) << "the other direction is free";
@@ -230,7 +230,7 @@ TEST(Databoard4002Driver, AStopOnRequestEndsTheMove) {
     rig.host.port.set_stop_flag(&stop);
     const auto moved = rig.driver.move_to(100'000, whole_seconds(20));
     ASSERT_FALSE(moved);
-    EXPECT_EQ(moved.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(moved.error().kind, ErrorKind::stopped);
     rig.host.wait_ready();
     EXPECT_FALSE(rig.host.card.moving());
 }

@@ -23,7 +23,7 @@ inline constexpr int demo_acceleration[24][2] = {
     {16330, 250}, {16332, 290}, {16334, 330}, {16336, 365}, {16338, 400}, {16340, 450}, {16342, 500}, {16344, 600}};
 
 struct Host {
-    explicit Host(const Settings& settings = {}, bool own_plant = true, sim::Motion* encoder = nullptr,
+    explicit Host(const Settings& settings = {}, bool own_plant = true, sim::PositionFunction* encoder = nullptr,
                   sim::Kernel* shared = nullptr)
         : kernel(shared ? *shared : own_kernel),
           card(kernel, "c1", settings),

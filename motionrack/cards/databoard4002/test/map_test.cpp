@@ -122,8 +122,8 @@ TEST(Databoard4002SlopeTable, FindsTheIntervalAndWhereItEnds) {
     EXPECT_EQ(table.decelerating(100).rate, 1'000);
     EXPECT_EQ(table.decelerating(101).rate, 1'001);
     EXPECT_EQ(table.decelerating(501).rate, 1'006);
-    EXPECT_EQ(table.decelerating(501).least, 501);
-    EXPECT_EQ(table.decelerating(501).greatest, 700);
+    EXPECT_EQ(table.decelerating(501).min, 501);
+    EXPECT_EQ(table.decelerating(501).max, 700);
     EXPECT_EQ(table.decelerating(2'401).rate, 2'023);
     EXPECT_EQ(table.accelerating(0).rate, 2'000);
     EXPECT_EQ(table.accelerating(9).rate, 2'000);

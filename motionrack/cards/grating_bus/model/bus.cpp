@@ -79,7 +79,7 @@ void Bus::begin() {
 
 // ---- one instant
 
-void Bus::act(Instant now) {
+void Bus::on_scheduled(Instant now) {
     if (state_.begun == 0) begin();
     if (state_.span != 0 && state_.published == 0 && state_.done == now)
         publish_span(now);

@@ -47,7 +47,7 @@ class Bus final : public sim::Device {
     bool in_span() const { return state_.span != 0; }
     Instant span_start() const { return state_.start; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
     void forced_changed(int pin, bool forced, int level, Instant now) override;

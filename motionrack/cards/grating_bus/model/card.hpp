@@ -89,7 +89,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
 
     void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }

@@ -26,7 +26,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     Decoder(sim::Kernel& kernel, const std::string& name, Bus& bus, const DecoderSettings& settings = {});
 
     /// Scale `n` counts what this one counts; nullptr: the wires a<n> and b<n>.
-    void connect(int n, sim::Motion* scale) { scales_[static_cast<std::size_t>(n)] = scale; }
+    void connect(int n, sim::PositionFunction* scale) { scales_[static_cast<std::size_t>(n)] = scale; }
     /// The count of scale `n` (0 .. scales - 1) now, not wrapped.
     std::int64_t position(int n, Instant now) const;
     std::uint32_t count(int n, Instant now) const { return static_cast<std::uint32_t>(position(n, now)); }
@@ -41,7 +41,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     /// It has no interrupt: always 1.
     sim::WireId interrupt_wire() const { return int_wire_; }
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     bool fault(std::string_view name, double value, Instant now) override;
@@ -79,7 +79,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     Bus& bus_;
     sim::DeviceId id_{};
     sim::WireId int_wire_{};
-    std::array<sim::Motion*, most_scales> scales_{};
+    std::array<sim::PositionFunction*, most_scales> scales_{};
     State state_{};
 };
 

@@ -29,14 +29,14 @@ constexpr Duration least_wait{1}, most_wait = microseconds(6);
 /// Each address in range and only once.
 Result<void> check_list(const std::vector<int>& addresses) {
     if (addresses.size() > most_scales)
-        return fail(ErrorKind::bad_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
-                                                      addresses.size(), most_scales));
+        return fail(ErrorKind::invalid_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
+                                                          addresses.size(), most_scales));
     for (auto at = addresses.begin(); at != addresses.end(); ++at) {
         if (*at < 0 || *at >= most_scales)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("The list has the address {}, but an address is 0 to {}.", *at, most_scales - 1));
         if (std::find(addresses.begin(), at, *at) != at)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("The list has the address {} twice; a frame reads each scale once.", *at));
     }
     return {};
@@ -72,7 +72,7 @@ Result<std::vector<int>> addresses_from_text(std::string_view text) {
         int address = -1;
         const auto [behind, bad] = std::from_chars(at, end, address);
         if (bad != std::errc())
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         fmt::format("Character {} of the list begins no whole number; a list is like "
                                     "\"5, 2, 9\".",
                                     at - text.data() + 1));
@@ -82,7 +82,7 @@ Result<std::vector<int>> addresses_from_text(std::string_view text) {
         if (at == end) break;
         if (*at != ',')
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format("Character {} of the list is no comma; a list is like \"5, 2, 9\".", at - text.data() + 1));
         ++at;
     }

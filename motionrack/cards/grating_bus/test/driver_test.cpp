@@ -132,7 +132,7 @@ TEST(GratingCardLibrary, AUserWhoStopsTheWaitingIsNotToldOfATimeOut) {
     bench.ports[1]->set_stop_flag(&stop);
     const auto reading = bench.libraries[1]->wait(driver_period);
     ASSERT_FALSE(reading);
-    EXPECT_EQ(reading.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(reading.error().kind, ErrorKind::stopped);
     EXPECT_THAT(reading.error().message, HasSubstr("stopped by the user"));
 }
 

@@ -9,13 +9,13 @@ namespace motionrack::grating_bus::twin {
 
 namespace {
 
-class StepMotion final : public sim::Motion {
+class StepMotion final : public sim::PositionFunction {
   public:
     explicit StepMotion(const Course& motion) : motion_(motion) {}
     std::int64_t count(Instant t) const override { return motion_.at(t.count()); }
     double rate(Instant) const override { return 0; }
     void watch(int, std::int64_t, std::int64_t) override {}
-    int listen(sim::PositionListener&) override { return 0; }
+    int add_listener(sim::PositionListener&) override { return 0; }
     void set_edge_listener(sim::EdgeListener*) override {}
     void deliver_edges() override {}
 

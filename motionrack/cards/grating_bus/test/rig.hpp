@@ -9,7 +9,7 @@
 namespace motionrack::grating_bus {
 
 /// Moves at an even speed of whole counts; count(t) = from + t * per_second / 1e10, rounded down.
-class EvenMotion final : public sim::Motion {
+class EvenMotion final : public sim::PositionFunction {
   public:
     EvenMotion(std::int64_t from, std::int64_t per_second) : from_(from), per_second_(per_second) {}
     std::int64_t count(Instant t) const override {
@@ -20,7 +20,7 @@ class EvenMotion final : public sim::Motion {
     }
     double rate(Instant) const override { return static_cast<double>(per_second_); }
     void watch(int, std::int64_t, std::int64_t) override {}
-    int listen(sim::PositionListener&) override { return 0; }
+    int add_listener(sim::PositionListener&) override { return 0; }
     void set_edge_listener(sim::EdgeListener*) override {}
     void deliver_edges() override {}
 
@@ -55,9 +55,9 @@ class Watcher final : public sim::Device {
         for (std::size_t i = 0; i < kernel_.wire_count(); ++i) kernel_.listen(static_cast<sim::WireId>(i), id_, 0);
     }
     void watch(bool on) {
-        for (std::size_t i = 0; i < kernel_.wire_count(); ++i) kernel_.want(static_cast<sim::WireId>(i), id_, on);
+        for (std::size_t i = 0; i < kernel_.wire_count(); ++i) kernel_.subscribe(static_cast<sim::WireId>(i), id_, on);
     }
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
 
   private:
     sim::Kernel& kernel_;

@@ -28,7 +28,7 @@ class Bus final : public sim::Device, public sim::RegisterDevice {
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return interrupt_; }
 
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:

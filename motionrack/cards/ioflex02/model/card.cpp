@@ -56,7 +56,7 @@ void Card::begin() {
     const Configuration& c = state_.configuration;
     if (c.error == CfgError::unknown_project) report(CardCondition::unknown_project, c.header.ident());
     for (std::size_t i = 0; i < line_pins; ++i) {
-        kernel_.want(wires_[i], id_, true);
+        kernel_.subscribe(wires_[i], id_, true);
         state_.axes[i % axis_count].lines[i / axis_count].raw = kernel_.level(wires_[i]) != 0;
     }
     catch_up(kernel_.now(), false);
@@ -86,7 +86,7 @@ void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
     kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
 }
 
-void Card::act(Instant now) {
+void Card::on_scheduled(Instant now) {
     begin();
     catch_up(now, false);
     await_illegal();

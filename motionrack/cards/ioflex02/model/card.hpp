@@ -48,7 +48,7 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     const Settings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     void sync(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }

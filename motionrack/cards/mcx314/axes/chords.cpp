@@ -34,7 +34,7 @@ double chords_of(const AxisMap& map, const control::Geometry& path, double cruis
     if (path.shape == control::PathShape::arc) {
         // From chord to chord the axes' speeds jump by speed * angle.
         const double jump =
-            joint_share * std::min(map.limits[path.first].start_speed, map.limits[path.second].start_speed);
+            joint_share * std::min(map.limits[path.first].max_velocity_step, map.limits[path.second].max_velocity_step);
         const double angle = std::min(tolerated_angle(map, path.radius), jump / cruise);
         const double quickest = std::min(least_seconds * cruise / path.radius, greatest_angle);
         return std::ceil(std::fabs(path.sweep) / std::max({angle, shortest_angle(map, path), quickest}));
@@ -52,7 +52,7 @@ double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
 
 void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
-    const double count = chords_of(map_, work.path, work.move.cruise, least_seconds_);
+    const double count = chords_of(map_, work.path, work.move.cruise_velocity, least_seconds_);
     const double half = arc ? std::fabs(work.path.sweep) / count / 2 : 0;
     const double deviation = arc ? work.path.radius * (1 - sin_cos(half).cos) : 0;
     if (work.auxiliary >= 0)
@@ -64,7 +64,7 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     const double step = work.path.length / count;
     // A auxiliary is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can
     // follow.
-    const double top_speed = work.move.cruise,
+    const double top_speed = work.move.cruise_velocity,
                  accel = work.auxiliary >= 0 ? companion_share * work.move.accel : work.move.accel;
     // First the speeds that the limits allow, from the start; then, from the end, what the chip can decelerate: the
     // basic pulses for a mm change from chord to chord, so this is counted in the chip's own pulses and speed units.
@@ -86,7 +86,7 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
         const double next =
             arc && !last ? units_along(work, control::tangent_at(work.path, chord.to + step / 2)) : units;
         const double raised =
-            work.auxiliary >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * chord.to) : top_speed;
+            work.auxiliary >= 0 ? std::sqrt(squared(work.move.entry_velocity) + 2 * accel * chord.to) : top_speed;
         chord.v = speed_units(std::min(units, next), std::min(top_speed, raised));
         chord.acceleration = acceleration_units(std::max(units, units_before), work.move.accel);
         units_before = units;

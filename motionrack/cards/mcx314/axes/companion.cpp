@@ -21,8 +21,8 @@ Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
         const control::AxisLimits& limits = map_.limits[i];
         const double units = limits.pulses_per_unit * range_ / rules::clock_hz;
         acceleration = limits.max_accel * units / rules::rate_unit;
-        start = 0.5 * limits.start_speed * units;
-        top = limits.max_speed * units;
+        start = 0.5 * limits.max_velocity_step * units;
+        top = limits.max_velocity * units;
     }
     auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, most_units)); };
     companion_start_speed_ = whole(start);

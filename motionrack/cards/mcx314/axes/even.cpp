@@ -36,7 +36,7 @@ void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
     double along = 0;
     for (std::size_t i = 0; i < control::axis_count; ++i)
         along += (work.move.move.end[i] - work.move.start[i]) * (next.move.move.end[i] - next.move.start[i]);
-    work.turns_back = work.move.even && along < 0;
+    work.turns_back = work.move.constant_accel && along < 0;
 }
 
 /// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the

@@ -27,7 +27,8 @@ double PathRule::max_junction_velocity(const control::Geometry& before, const co
         double jump = std::fabs(before.tangent_out[i] / a - after.tangent_in[i] / b) * std::min(a, b);
         if (i == before.first || i == before.second) jump += turn_before;
         if (i == after.first || i == after.second) jump += turn_after;
-        if (map_.channel[i] >= 0 && jump > 1e-9) speed = std::min(speed, reserve * map_.limits[i].start_speed / jump);
+        if (map_.channel[i] >= 0 && jump > 1e-9)
+            speed = std::min(speed, reserve * map_.limits[i].max_velocity_step / jump);
     }
     return speed;
 }

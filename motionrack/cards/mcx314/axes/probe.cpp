@@ -28,7 +28,7 @@ Result<control::ProbeResult> ChipAxisGroup::probe(const control::PlannedMove& mo
     control::ProbeResult outcome;
     outcome.hit = probe_hit();
     // A move that was cut short is no fault if the probe did it.
-    if (!driven && (!outcome.hit || driven.error().trouble != ErrorKind::machine || stopped_by_other())) {
+    if (!driven && (!outcome.hit || driven.error().kind != ErrorKind::machine || stopped_by_other())) {
         MOTIONRACK_CHECK(disarm_probe());
         return tl::unexpected<Error>(std::move(driven.error()));
     }

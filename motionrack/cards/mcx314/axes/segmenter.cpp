@@ -28,10 +28,11 @@ constexpr double accesses_of_piece = 28, piece_reserve = 1.5, counted_reserve = 
 std::int32_t Segmenter::best_range(const AxisMap& map) {
     double fastest = 1;
     for (std::size_t i = 0; i < map.channel.size(); ++i)
-        if (map.channel[i] >= 0) fastest = std::max(fastest, map.limits[i].max_speed * map.limits[i].pulses_per_unit);
+        if (map.channel[i] >= 0)
+            fastest = std::max(fastest, map.limits[i].max_velocity * map.limits[i].pulses_per_unit);
     const double range = rules::clock_hz * most_units / (fastest * 1.4143);
     return static_cast<std::int32_t>(
-        std::clamp(std::floor(range), static_cast<double>(param::R.least), static_cast<double>(param::R.greatest)));
+        std::clamp(std::floor(range), static_cast<double>(param::R.min), static_cast<double>(param::R.max)));
 }
 
 double Segmenter::least_seconds(const HostTimes& host) {
@@ -49,7 +50,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
 
 void Segmenter::add(const control::PlannedMove& move) {
     PendingMove work = classify(move);
-    if (waiting_ && work.move.even) look_at_next(*waiting_, work);
+    if (waiting_ && work.move.constant_accel) look_at_next(*waiting_, work);
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
     // A move's start is where the one before it really ends, which only emit knows.
     waiting_ = work;
@@ -76,7 +77,7 @@ Segmenter::PendingMove Segmenter::classify(const control::PlannedMove& move) {
     work.auxiliary = drawing.auxiliary;
     work.channels = drawing.channels;
     // From piece to piece of a ride a basic pulse must stay what it is: pulses of the longest axis.
-    work.constant_vector = drawing.constant_vector && !move.even;
+    work.constant_vector = drawing.constant_vector && !move.constant_accel;
     if (work.path.shape == control::PathShape::arc)
         work.shape = drawing.constant_vector ? Shape::chip_arc : Shape::chords;
     work.units_in = units_along(work, work.path.tangent_in);
@@ -105,7 +106,7 @@ double Segmenter::start_speed(const control::Point& tangent) const {
     double speed = 1e9;
     for (std::size_t i = 0; i < tangent.size(); ++i)
         if (map_.channel[i] >= 0 && std::fabs(tangent[i]) > 1e-12)
-            speed = std::min(speed, 0.5 * map_.limits[i].start_speed / std::fabs(tangent[i]));
+            speed = std::min(speed, 0.5 * map_.limits[i].max_velocity_step / std::fabs(tangent[i]));
     return speed;
 }
 
@@ -149,16 +150,16 @@ bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std
 
 void Segmenter::emit(const PendingMove& work, std::optional<double> next_units) {
     if (work.shape == Shape::pause) return emit_pause(work);
-    const bool rests = !next_units || work.move.exit <= 0 || work.turns_back;
+    const bool rests = !next_units || work.move.exit_velocity <= 0 || work.turns_back;
     if (rests && !chain_open_ && work.move.jerk > 0 && emit_s_curve(work)) return;
     const double units = std::min(work.units_in, work.units_out);
     Speeds speeds;
-    speeds.top = speed_units(units, work.move.cruise);
+    speeds.top = speed_units(units, work.move.cruise_velocity);
     speeds.exit = rests ? speed_units(work.units_out, start_speed(work.path.tangent_out))
-                        : speed_units(std::min(work.units_out, *next_units), work.move.exit);
+                        : speed_units(std::min(work.units_out, *next_units), work.move.exit_velocity);
     speeds.exit = std::min(speeds.exit, speeds.top);
     speeds.acceleration = acceleration_units(units, work.move.accel);
-    if (work.move.even) make_even(work, speeds);
+    if (work.move.constant_accel) make_even(work, speeds);
     speeds.fall_from = fall_from(work, units, speeds);
     switch (work.shape) {
         case Shape::chip_arc:
@@ -196,7 +197,7 @@ void Segmenter::close_chain() {
 }
 
 void Segmenter::emit_straight(const PendingMove& work, const Speeds& speeds) {
-    if (work.auxiliary >= 0 && !work.move.even) return emit_chords(work, speeds);
+    if (work.auxiliary >= 0 && !work.move.constant_accel) return emit_chords(work, speeds);
     if (speeds.fall_from > 0) {
         const Pulses4 middle = pulses_at(work, speeds.fall_from);
         Pulses4 fall = {};
@@ -225,7 +226,7 @@ bool Segmenter::emit_s_curve(const PendingMove& planned) {
     const double units = work.units_in;
     const double initial = std::floor(units * start_speed(work.path.tangent_in));
     const double k = std::ceil(rules::jerk_unit / (units * work.move.jerk));
-    if (k > static_cast<double>(param::K.greatest) || initial < 1) return false;
+    if (k > static_cast<double>(param::K.max) || initial < 1) return false;
     // The top speed for which two S-ramps with the acceleration limit (or without reaching it) take at most the move's
     // length.
     const double a = units * work.move.accel, j = rules::jerk_unit / std::max(1.0, k), v0 = initial;
@@ -236,7 +237,7 @@ bool Segmenter::emit_s_curve(const PendingMove& planned) {
     };
     const double whole = units * work.path.length;
     const double spare = (8 + 0.02 * whole * rules::clock_hz / range_) * range_ / rules::clock_hz + v0 * 1e-3;
-    double low = v0 + 1, high = std::min(most_units, units * work.move.cruise);
+    double low = v0 + 1, high = std::min(most_units, units * work.move.cruise_velocity);
     if (high <= low || 2 * ramp_length(low) + spare > whole) return false;
     if (2 * ramp_length(high) + spare > whole)
         for (int i = 0; i < 40; ++i)

@@ -129,8 +129,8 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
     const UnitLimits most = most_on(way, segment.constant_vector);
     segment.speed = std::min(segment.speed, most.speed);
     segment.acceleration = std::min(segment.acceleration, most.acceleration);
-    segment.even = work.move.even;
-    if (work.move.even) segment.braking = most.acceleration;
+    segment.even = work.move.constant_accel;
+    if (work.move.constant_accel) segment.braking = most.acceleration;
     append(segment, work, to);
 }
 
@@ -152,7 +152,7 @@ Segmenter::UnitLimits Segmenter::most_on(const Pulses4& way, bool constant_vecto
         auto at_most = [](double value) {
             return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, most_units));
         };
-        most.speed = std::min(most.speed, at_most(map_.limits[i].max_speed * units));
+        most.speed = std::min(most.speed, at_most(map_.limits[i].max_velocity * units));
         most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));
     }
     return most;
@@ -177,7 +177,7 @@ void Segmenter::append(Segment segment, const PendingMove& work, const Pulses4& 
         for (std::size_t i = 0; i < map_.channel.size(); ++i)
             if (map_.channel[i] == work.auxiliary)
                 segment.companion_speed =
-                    work.move.exit * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
+                    work.move.exit_velocity * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
     }
     at_ = to;
     ready_.push_back(segment);

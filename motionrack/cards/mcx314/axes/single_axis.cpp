@@ -13,8 +13,7 @@ namespace {
 
 constexpr Duration look_every = milliseconds(1);
 constexpr double pulse_slack = 1e-6;  // what is so little off a whole pulse is one
-constexpr double most_pulses = static_cast<double>(param::pulses.greatest),
-                 most_place = static_cast<double>(param::LP.greatest);
+constexpr double most_pulses = static_cast<double>(param::pulses.max), most_place = static_cast<double>(param::LP.max);
 
 }  // namespace
 
@@ -50,9 +49,9 @@ tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& wh
 }
 
 Result<void> SingleAxis::check_speed(const char* what, double speed) const {
-    if (std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_speed) return {};
+    if (std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_velocity) return {};
     return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit,
-                                    settings_.limits.max_speed));
+                                    settings_.limits.max_velocity));
 }
 
 Result<void> SingleAxis::check_free(const char* what) {
@@ -76,7 +75,7 @@ RealDrive SingleAxis::drive_at(double speed, bool with_jerk) const {
     const control::AxisLimits& limits = settings_.limits;
     RealDrive drive;
     drive.speed = speed;
-    drive.start_speed = std::min(speed, limits.start_speed);
+    drive.start_speed = std::min(speed, limits.max_velocity_step);
     drive.acceleration = limits.max_accel;
     drive.jerk = with_jerk ? limits.max_jerk : 0;
     return drive;
@@ -127,7 +126,7 @@ ManualTravel SingleAxis::travel() const {
 Result<void> SingleAxis::check_travel(double speed) {
     const bool negative = speed < 0;
     const std::int64_t at = driver_.ReadLPS(settings_.channel);
-    if (!trusted_ || (negative ? at > travel().least : at < travel().greatest)) return {};
+    if (!trusted_ || (negative ? at > travel().min : at < travel().max)) return {};
     return refuse("Jog", fmt::format("it stands at the {} end of its travel, {} {}; move it in {} direction",
                                      negative ? "-" : "+",
                                      negative ? settings_.limits.min_position : settings_.limits.max_position,
@@ -141,7 +140,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
     if (manual_.state() == ManualState::standing) {
         MOTIONRACK_CHECK(check_free("Jog"));
         MOTIONRACK_CHECK(check_travel(speed));
-        MOTIONRACK_TRY(const RealSetting setting, real_.set(drive_at(settings_.limits.max_speed, false)));
+        MOTIONRACK_TRY(const RealSetting setting, real_.set(drive_at(settings_.limits.max_velocity, false)));
         ManualSettings manual;
         manual.sv = setting.start_speed.value;
         manual.a = setting.acceleration.value;
@@ -158,7 +157,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
 
 // ---- homing
 
-Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) const {
+Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& order) const {
     const control::AxisLimits& limits = settings_.limits;
     MOTIONRACK_CHECK(check_speed("Homing", order.speed));
     const auto outside = [&](const char* what, double value, double least, double greatest) -> Result<void> {
@@ -170,9 +169,10 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, most_way));
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
     MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, most_way));
-    MOTIONRACK_CHECK(outside("the slow speed", order.slow_speed, 1e-9, std::min(order.speed, limits.start_speed)));
+    MOTIONRACK_CHECK(
+        outside("the slow speed", order.slow_speed, 1e-9, std::min(order.speed, limits.max_velocity_step)));
     const bool index =
-        order.type == control::HomeType::index_after_switch || order.type == control::HomeType::twice_and_index;
+        order.type == control::HomingMethod::index_after_switch || order.type == control::HomingMethod::twice_and_index;
     if (index && !(settings_.counts_per_unit > 0))
         return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
@@ -215,7 +215,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     return out;
 }
 
-Result<void> SingleAxis::home(const control::HomeOrder& order, Instant now) {
+Result<void> SingleAxis::home(const control::HomingRequest& order, Instant now) {
     MOTIONRACK_TRY(const HomeSettings settings, home_settings(order));
     MOTIONRACK_CHECK(check_free("Homing"));
     MOTIONRACK_CHECK(home_.start(settings, now));
@@ -224,7 +224,7 @@ Result<void> SingleAxis::home(const control::HomeOrder& order, Instant now) {
     return {};
 }
 
-control::HomeOutcome SingleAxis::home_outcome() const {
+control::HomingResult SingleAxis::home_outcome() const {
     const HomeReport& report = home_.report();
     const HomeSettings& settings = home_.settings();
     const double unit = 1 / settings_.limits.pulses_per_unit;
@@ -233,12 +233,12 @@ control::HomeOutcome SingleAxis::home_outcome() const {
         return static_cast<double>(report.homed ? report.relative(lp) : lp) * unit;
     };
     const auto since = [&](Instant at) { return to_seconds(at - report.from); };
-    control::HomeOutcome out;
-    out.type = static_cast<control::HomeType>(report.type);
+    control::HomingResult out;
+    out.type = static_cast<control::HomingMethod>(report.type);
     out.towards_plus = !report.negative;
     out.homed = report.homed;
     out.sentence = report.sentence;
-    for (const HomeEdge& edge : report.edges) {
+    for (const ChipHomingEdge& edge : report.edges) {
         const bool index = edge.input != report.input;
         out.edges.push_back({index         ? "index"
                              : edge.active ? "switch on"
@@ -246,7 +246,7 @@ control::HomeOutcome SingleAxis::home_outcome() const {
                              std::string(edge.state), place(edge.lp), static_cast<double>(edge.within) * unit,
                              edge.speed_hz * unit, since(edge.at)});
     }
-    for (const HomeStay& stay : report.stays)
+    for (const ChipHomingStateVisit& stay : report.stays)
         out.stays.push_back(
             {std::string(stay.state), since(stay.from), to_seconds(stay.took), place(stay.from_lp), place(stay.to_lp)});
     out.notes = report.notes;
@@ -296,7 +296,7 @@ void SingleAxis::stop_now() {
     driver_.QuickStop(mask());
     home_.stop();
     manual_.stop();
-    if (trusted_ && speed > settings_.limits.start_speed) trust(false);
+    if (trusted_ && speed > settings_.limits.max_velocity_step) trust(false);
     stopping_ = driver_.moving(mask());
 }
 

@@ -37,22 +37,22 @@ class SingleAxis final : public control::Axis {
     Result<void> move_to(double position, double speed) override;
     Result<void> move_by(double distance, double speed) override;
     Result<void> jog(double speed, Instant now) override;
-    Result<void> home(const control::HomeOrder& order, Instant now) override;
+    Result<void> home(const control::HomingRequest& order, Instant now) override;
     Result<void> set_position(double position) override;
     void stop() override;
     void stop_now() override;
     void step(Instant now) override;
     Result<void> wait(Duration timeout) override;
     control::AxisState state() override;
-    bool trusted() const override { return trusted_; }
+    bool position_valid() const override { return trusted_; }
     double position() override { return real_.position(); }
     double measured_position() override { return real_.encoder_position(); }
     std::string_view home_state() const override { return home_.state(); }
-    control::HomeOutcome home_outcome() const override;
+    control::HomingResult home_outcome() const override;
 
     int channel() const { return settings_.channel; }
     /// What an order becomes in registers. Errors: as home().
-    Result<HomeSettings> home_settings(const control::HomeOrder& order) const;
+    Result<HomeSettings> home_settings(const control::HomingRequest& order) const;
 
   private:
     unsigned mask() const { return 1u << settings_.channel; }

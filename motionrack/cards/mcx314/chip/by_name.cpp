@@ -26,7 +26,7 @@ Result<std::int64_t> value_by_name(const Chip& chip, const CardMap& map, std::st
     for (const RegisterInfo& reg : map.registers)
         if (reg.name == name && reg.access != Access::write) return chip.peek(reg.offset);
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", card,
                     quoted, fmt::join(Chip::inspected_names(false), ", "),
                     fmt::join(Chip::inspected_names(true), ", ")));

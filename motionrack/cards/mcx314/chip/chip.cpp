@@ -95,7 +95,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
     kernel_.schedule(id_, Instant{0});
 }
 
-int Chip::Output::listen(sim::PositionListener& listener) {
+int Chip::Output::add_listener(sim::PositionListener& listener) {
     chip->listened_ |= 1u << axis;
     return listeners.add(listener);
 }
@@ -147,7 +147,7 @@ void Chip::settle(Instant now) {
     kernel_.schedule(id_, next);
 }
 
-void Chip::act(Instant now) {
+void Chip::on_scheduled(Instant now) {
     if (!state_.begun) begin();
     work_to(tick_of(now));
     settle(now);
@@ -160,9 +160,9 @@ void Chip::begin() {
         set_wants(a);
         watch_encoder(a);
     }
-    kernel_.want(emgn_, id_, true);
+    kernel_.subscribe(emgn_, id_, true);
     state_.emergency_high = kernel_.level(emgn_) != 0;
-    kernel_.want(expls_n_, id_, true);
+    kernel_.subscribe(expls_n_, id_, true);
     hear_step_wire(kernel_.level(expls_n_));
     state_.emergency_filter.wire = state_.emergency_high;
     state_.step_filter.wire = state_.step_high;

@@ -52,9 +52,9 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void write_byte(std::uint32_t port, std::uint8_t value);
 
     /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
-    sim::Motion& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
+    sim::PositionFunction& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
     /// The encoder at xeca/xecb. Before the kernel starts.
-    void connect_encoder(int axis, sim::Motion& counts);
+    void connect_encoder(int axis, sim::PositionFunction& counts);
     /// Cuts the connected encoder off and forces xeca, xecb to the levels that it has (`taken`), or releases them and
     /// puts it back. EP goes on from where it is; in between it counts what the wires are forced to. Between runs.
     void take_encoder(int axis, bool taken);
@@ -73,7 +73,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return int_n_; }
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
@@ -88,12 +88,12 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
 
     /// One axis' pulses.
-    class Output final : public sim::Motion {
+    class Output final : public sim::PositionFunction {
       public:
         std::int64_t count(Instant t) const override { return chip->count_at(axis, t); }
         double rate(Instant t) const override { return chip->rate_of(axis, t); }
         void watch(int slot, std::int64_t below, std::int64_t above) override { chip->watch(axis, slot, below, above); }
-        int listen(sim::PositionListener& listener) override;
+        int add_listener(sim::PositionListener& listener) override;
         void set_edge_listener(sim::EdgeListener* listener) override { chip->set_edge_listener(axis, listener); }
         void deliver_edges() override { chip->deliver_edges(axis); }
 
@@ -117,7 +117,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         Chip* chip = nullptr;
         int axis = 0;
         int slot = -1;
-        sim::Motion* motion = nullptr;
+        sim::PositionFunction* motion = nullptr;
     };
 
     // chip.cpp: time, wires, listeners

@@ -20,11 +20,11 @@ sim::Edges edges_of(const Axis& axis) {
 
 }  // namespace
 
-void Chip::connect_encoder(int a, sim::Motion& counts) {
+void Chip::connect_encoder(int a, sim::PositionFunction& counts) {
     EncoderListener& ear = ears_[a];
     MOTIONRACK_ASSERT(ear.motion == nullptr);
     ear.motion = &counts;
-    ear.slot = counts.listen(ear);
+    ear.slot = counts.add_listener(ear);
     set_encoder_position(a, state_.axis[a].ep);
 }
 

@@ -15,7 +15,7 @@ void Chip::set_wants(int a) {
     auto set = [&](Pin pin, bool wanted) {
         const int i = static_cast<int>(pin);
         wanted = wanted || bit(also, i);
-        kernel_.want(inputs_[a][i], id_, wanted);
+        kernel_.subscribe(inputs_[a][i], id_, wanted);
         if (bit(filtered, i)) return;  // its level is the filter's
         set_level(axis.levels, i, !wanted || kernel_.level(inputs_[a][i]) != 0);
     };
@@ -26,7 +26,7 @@ void Chip::set_wants(int a) {
     set(Pin::alarm, wr2::ALME.test(axis.wr2));
     set(Pin::limit_plus, true);
     set(Pin::limit_minus, true);
-    for (int i = 0; i < 2; ++i) kernel_.want(encoder_wires_[a][i], id_, true);
+    for (int i = 0; i < 2; ++i) kernel_.subscribe(encoder_wires_[a][i], id_, true);
 }
 
 // ---- outputs

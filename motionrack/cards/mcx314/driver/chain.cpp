@@ -93,7 +93,7 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
         if (chain_.kept_back_v != 0) chain_.speeds.V = chain_.kept_back_v;
         const bool ramps = chain_.speeds.kind == Curve::t;
         CurveData curve = curve_of(generator, chain_.speeds, basic_pulses(piece));
-        if (ramps) curve.dec_point = param::DP.greatest;
+        if (ramps) curve.dec_point = param::DP.max;
         if (ramps && last) {
             MOTIONRACK_TRY(curve.dec_point, best_dec_point(curve));
         }

@@ -14,10 +14,9 @@ Result<void> check_axes(unsigned axes, const char* who) {
 
 Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value) {
     MOTIONRACK_CHECK(check_axes(axes, parameter.name));
-    if (value >= parameter.least && value <= parameter.greatest) return {};
-    return fail(ErrorKind::refused,
-                fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", parameter.name,
-                            axes_text(axes), value, parameter.least, parameter.greatest));
+    if (value >= parameter.min && value <= parameter.max) return {};
+    return fail(ErrorKind::refused, fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.",
+                                                parameter.name, axes_text(axes), value, parameter.min, parameter.max));
 }
 
 Result<void> check_switch(const char* who, int n, int greatest, const char* meanings) {

@@ -206,11 +206,11 @@ Result<void> check(const CurveData& data) {
                           {param::DP, data.dec_point.value_or(0), true},
                           {param::pulses, data.pulses.value_or(0), true}};
     for (const Item& item : items) {
-        const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.least;
-        if (item.used && (item.value < least || item.value > item.parameter.greatest))
+        const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.min;
+        if (item.used && (item.value < least || item.value > item.parameter.max))
             return fail(ErrorKind::refused,
                         fmt::format("{} of the plan is {}, but the chip takes {} to {}. Nothing was planned.",
-                                    item.parameter.name, item.value, least, item.parameter.greatest));
+                                    item.parameter.name, item.value, least, item.parameter.max));
     }
     return {};
 }
@@ -267,9 +267,9 @@ Result<std::int64_t> best_offset(const CurveData& data) {
         return Walk(tried, nobody).run().ends_slow();
     };
     std::int64_t low = -1, high = 0;  // too fast at low, slow at high
-    while (high < param::AO.greatest && !ends_slow(high)) {
+    while (high < param::AO.max && !ends_slow(high)) {
         low = high;
-        high = std::min(param::AO.greatest, 2 * high + 1);
+        high = std::min(param::AO.max, 2 * high + 1);
     }
     while (high - low > 1) {
         const std::int64_t middle = low + (high - low) / 2;

@@ -13,7 +13,7 @@ constexpr Duration reset_time = nanoseconds(875);
 constexpr std::uint16_t reset_word = field("WR0", "RESET").mask;
 
 std::int64_t range_of_multiple(std::int64_t multiple) {
-    return param::R.greatest / multiple;
+    return param::R.max / multiple;
 }
 
 }  // namespace
@@ -178,7 +178,7 @@ Result<void> Driver::SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second) {
                     fmt::format("SetMaxSpeed: the speed is {} pulses/s, but the chip makes 1 to {}. Nothing was "
                                 "written.",
                                 pulses_a_second, most_pulse_rate));
-    return SetMultiple(axes, rules::ceil_div(pulses_a_second, param::V.greatest));
+    return SetMultiple(axes, rules::ceil_div(pulses_a_second, param::V.max));
 }
 
 Result<void> Driver::WriteRange(unsigned axes, std::int64_t range) {

@@ -57,7 +57,7 @@ Driver::Speeds Driver::written_speeds(int axis) const {
     };
     Speeds out{s_bit.test(mode3(axis)) ? Curve::s : Curve::t};
     out.SV = last(param::SV, 1), out.V = last(param::V, 1), out.A = last(param::A, 1);
-    out.K = last(param::K, param::K.greatest);
+    out.K = last(param::K, param::K.max);
     if (kept(axis).asymmetric) out.D = last(param::D, out.A);
     return out;
 }

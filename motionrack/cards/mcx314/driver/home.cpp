@@ -58,7 +58,7 @@ void Home::note_braking(const Look& look, Instant now) {
     braking_ = edge_here(look, now);
 }
 
-HomeEdge Home::edge_here(const Look& look, Instant now) {
+ChipHomingEdge Home::edge_here(const Look& look, Instant now) {
     // At constant speed the chip stops at the edge itself; else it was after the last look, or within that look's own
     // accesses.
     const bool exact = state_->pace != HomingSpeed::fast;
@@ -274,7 +274,7 @@ void Home::wait_end(const Look& look, Instant now) {
 
 /// The input that was waited for ended the drive. Its level now may be a bounce; the chip's own word counts.
 void Home::drive_reached(const Look& look, Instant now) {
-    const HomeEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(look, now);
+    const ChipHomingEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(look, now);
     report_.edges.push_back(edge);
     if (state_->until == HomingStopInput::index) {
         report_.index_lp = edge.lp;
@@ -304,7 +304,7 @@ void Home::drive_reached(const Look& look, Instant now) {
 }
 
 /// Edges on the way towards the switch are compared with those before them.
-bool Home::is_edge_of_switch(const HomeEdge& edge) {
+bool Home::is_edge_of_switch(const ChipHomingEdge& edge) {
     const auto up = static_cast<double>(way_between(report_.stays.front().from_lp, edge.lp));
     const double way = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
     if (state_->until == HomingStopInput::off) edges_.released(way, within);
@@ -366,7 +366,7 @@ std::int64_t Home::run_up() const {
     const auto v = static_cast<double>(settings_.v), sv = static_cast<double>(settings_.sv);
     const double m = hertz(1) > 0 ? hertz(1) : 500;  // where nobody wrote R: the longest
     const double ramp = m * (v * (v + 1) - sv * (sv + 1)) / (250.0 * static_cast<double>(settings_.a));
-    return std::min(param::pulses.greatest, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
+    return std::min(param::pulses.max, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
 }
 
 /// Longest time that a drive can take: the way at its speed, two ramps, a second.

@@ -19,18 +19,18 @@ struct HomeSettings {
     /// 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index; 5 as 1, on
     /// to the index, then back and again, slowly, to the switch: the source's HomeType4.
     int type = 2;
-    bool negative = true;                          ///< direction in which the switch is searched
-    int input = 0;                                 ///< the home switch: IN0 .. IN3
-    bool active_high = false;                      ///< its level
-    int index_input = 2;                           ///< the encoder's index: IN0 .. IN3, types 3 to 5
-    bool index_high = true;                        ///< its level
-    std::int64_t range = 0;                        ///< R, 16,000 .. 8,000,000; 0: as it was written before
-    std::int64_t sv = 100;                         ///< 1 .. 8,000
-    std::int64_t v = 1000;                         ///< speed of the search, 1 .. 8,000
-    std::int64_t a = 100;                          ///< acceleration and deceleration, 1 .. 8,000
-    std::int64_t back_v = 0;                       ///< speed off the switch, 1 .. sv; 0: sv
-    std::int64_t slow_v = 0;                       ///< second approach and index, 1 .. sv; 0: half of sv
-    std::int64_t travel = param::pulses.greatest;  ///< longest way of a search, 1 .. 268,435,455
+    bool negative = true;                     ///< direction in which the switch is searched
+    int input = 0;                            ///< the home switch: IN0 .. IN3
+    bool active_high = false;                 ///< its level
+    int index_input = 2;                      ///< the encoder's index: IN0 .. IN3, types 3 to 5
+    bool index_high = true;                   ///< its level
+    std::int64_t range = 0;                   ///< R, 16,000 .. 8,000,000; 0: as it was written before
+    std::int64_t sv = 100;                    ///< 1 .. 8,000
+    std::int64_t v = 1000;                    ///< speed of the search, 1 .. 8,000
+    std::int64_t a = 100;                     ///< acceleration and deceleration, 1 .. 8,000
+    std::int64_t back_v = 0;                  ///< speed off the switch, 1 .. sv; 0: sv
+    std::int64_t slow_v = 0;                  ///< second approach and index, 1 .. sv; 0: half of sv
+    std::int64_t travel = param::pulses.max;  ///< longest way of a search, 1 .. 268,435,455
     std::int64_t index_after =
         -1;  ///< pulses from the switch to the index, within a quarter of `turn`; -1: wherever it is first
     std::int64_t turn = 0;  ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
@@ -90,7 +90,7 @@ class Home {
     Result<void> check_ready();
     void note_switch(const Look& look, Instant now);
     void note_braking(const Look& look, Instant now);
-    HomeEdge edge_here(const Look& look, Instant now);
+    ChipHomingEdge edge_here(const Look& look, Instant now);
     bool limit_in_way(const Look& look, SearchDirection way) const;
     void enter(std::string_view name, const Look& look, Instant now);
     bool leave_by(HomingTransition cause, const Look& look, Instant now);
@@ -98,7 +98,7 @@ class Home {
     void drive(const Look& look, Instant now);
     void wait_end(const Look& look, Instant now);
     void drive_reached(const Look& look, Instant now);
-    bool is_edge_of_switch(const HomeEdge& edge);
+    bool is_edge_of_switch(const ChipHomingEdge& edge);
     bool stopped_early() const;
     void zero(const Look& look, Instant now);
     void fail(HomeFault fault, const Look& look, Instant now);
@@ -126,12 +126,12 @@ class Home {
     std::optional<EdgeConflict> conflict_;
     bool running_ = false;
     bool stop_asked_ = false;
-    bool switch_on_ = false;           ///< as last seen, or as the chip's stop tells
-    bool edge_in_state_ = false;       ///< the change that the state waits for was seen; the rest is bounce
-    std::optional<HomeEdge> braking_;  ///< the first look at which a search was found to slow down
-    bool at_speed_ = false;            ///< V was reached in this drive
-    bool turned_ = false;              ///< at a limit
-    bool again_ = false;               ///< with a run-up
+    bool switch_on_ = false;                 ///< as last seen, or as the chip's stop tells
+    bool edge_in_state_ = false;             ///< the change that the state waits for was seen; the rest is bounce
+    std::optional<ChipHomingEdge> braking_;  ///< the first look at which a search was found to slow down
+    bool at_speed_ = false;                  ///< V was reached in this drive
+    bool turned_ = false;                    ///< at a limit
+    bool again_ = false;                     ///< with a run-up
     Instant steady_since_{};
     Instant deadline_ = never;
     std::int32_t last_lp_ = 0;

@@ -29,7 +29,7 @@ enum class HomeFault : std::uint8_t {
 };
 
 /// The home input or the index changed.
-struct HomeEdge {
+struct ChipHomingEdge {
     std::string_view state;  ///< in which it was seen
     int input = 0;           ///< IN0..IN3
     bool active = false;     ///< what it became
@@ -42,7 +42,7 @@ struct HomeEdge {
 };
 
 /// One stay in a state.
-struct HomeStay {
+struct ChipHomingStateVisit {
     std::string_view state;
     Instant from{};
     Duration took{};
@@ -58,8 +58,8 @@ struct HomeReport {
     HomeFault fault = HomeFault::none;
     bool homed = false;    ///< the position is trusted
     std::string sentence;  ///< how it ended
-    std::vector<HomeEdge> edges;
-    std::vector<HomeStay> stays;
+    std::vector<ChipHomingEdge> edges;
+    std::vector<ChipHomingStateVisit> stays;
     std::vector<std::string> notes;
     std::int64_t bounces = 0;               ///< changes of the home input that were no new edge
     std::optional<std::int32_t> switch_lp;  ///< where the home input became active, last

@@ -20,7 +20,7 @@ std::string grouped(std::int64_t value) {
 
 struct Bound {
     const char* name;
-    std::int64_t value, least, greatest;
+    std::int64_t value, min, max;
 };
 
 }  // namespace
@@ -82,27 +82,27 @@ Result<void> Home::check_ready() {
         {"the type", s.type, 1, 5},
         {"the home input", s.input, 0, 3},
         {"the index input", s.index_input, 0, 3},
-        {"the range R", s.range == 0 ? param::R.least : s.range, param::R.least, param::R.greatest},
-        {"the initial speed SV", s.sv, param::SV.least, param::SV.greatest},
-        {"the search speed V", s.v, param::V.least, param::V.greatest},
-        {"the acceleration A", s.a, param::A.least, param::A.greatest},
+        {"the range R", s.range == 0 ? param::R.min : s.range, param::R.min, param::R.max},
+        {"the initial speed SV", s.sv, param::SV.min, param::SV.max},
+        {"the search speed V", s.v, param::V.min, param::V.max},
+        {"the acceleration A", s.a, param::A.min, param::A.max},
         {"the speed off the switch (at most SV)", s.back_v == 0 ? 1 : s.back_v, 1, s.sv},
         {"the slow speed (at most SV)", s.slow_v == 0 ? 1 : s.slow_v, 1, s.sv},
-        {"the travel", s.travel, 1, param::pulses.greatest},
-        {"the pulses of a turn", s.turn, 0, param::pulses.greatest},
-        {"the hysteresis of the switch (-1: not known)", s.hysteresis, -1, param::pulses.greatest},
-        {"the way within which the switch repeats", s.repeats, 0, param::pulses.greatest},
+        {"the travel", s.travel, 1, param::pulses.max},
+        {"the pulses of a turn", s.turn, 0, param::pulses.max},
+        {"the hysteresis of the switch (-1: not known)", s.hysteresis, -1, param::pulses.max},
+        {"the way within which the switch repeats", s.repeats, 0, param::pulses.max},
         {"the clearance", s.clearance, 0, s.travel},
         {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
         {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
-        {"the way from the switch to the index (-1: any)", s.index_after, -1, param::pulses.greatest},
-        {"the home position", s.home_position, param::LP.least, param::LP.greatest},
-        {"the encoder's home position", s.home_counts, param::EP.least, param::EP.greatest},
+        {"the way from the switch to the index (-1: any)", s.index_after, -1, param::pulses.max},
+        {"the home position", s.home_position, param::LP.min, param::LP.max},
+        {"the encoder's home position", s.home_counts, param::EP.min, param::EP.max},
     };
     for (const Bound& bound : bounds)
-        if (bound.value < bound.least || bound.value > bound.greatest)
+        if (bound.value < bound.min || bound.value > bound.max)
             return refuse(fmt::format("{} is {}, but may be {} to {}", bound.name, grouped(bound.value),
-                                      grouped(bound.least), grouped(bound.greatest)));
+                                      grouped(bound.min), grouped(bound.max)));
     if (s.type >= 3 && s.input == s.index_input)
         return refuse(fmt::format("home switch and index are both IN{}", s.input));
     if (!(s.pulses_per_unit != 0) || !std::isfinite(s.pulses_per_unit))

@@ -51,19 +51,19 @@ Result<void> Manual::set(const ManualSettings& settings) {
     MOTIONRACK_CHECK(Driver::check_channel(axis_, "Manual operation"));
     struct Bound {
         const char* name;
-        std::int64_t value, least, greatest;
+        std::int64_t value, min, max;
     };
     const Bound bounds[] = {
-        {"the initial speed SV", settings.sv, param::SV.least, param::SV.greatest},
-        {"the acceleration A", settings.a, param::A.least, param::A.greatest},
-        {"the greatest speed", settings.most_v, param::V.least, param::V.greatest},
+        {"the initial speed SV", settings.sv, param::SV.min, param::SV.max},
+        {"the acceleration A", settings.a, param::A.min, param::A.max},
+        {"the greatest speed", settings.most_v, param::V.min, param::V.max},
         {"the time a jog is held, in ms,", settings.hold / milliseconds(1), 1, 10'000},
     };
     for (const Bound& bound : bounds)
-        if (bound.value < bound.least || bound.value > bound.greatest)
+        if (bound.value < bound.min || bound.value > bound.max)
             return fail(ErrorKind::refused,
                         fmt::format("Manual operation of {}: {} is {}, but may be {} to {}. Nothing was changed.",
-                                    name(), bound.name, bound.value, bound.least, bound.greatest));
+                                    name(), bound.name, bound.value, bound.min, bound.max));
     if (state_ != ManualState::standing)
         return fail(
             ErrorKind::refused,
@@ -102,7 +102,7 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
 /// Pulses to the end of the travel.
 std::int64_t Manual::way_left(bool negative) {
     const std::int64_t at = driver_.ReadLPS(axis_);
-    return negative ? at - settings_.travel->least : settings_.travel->greatest - at;
+    return negative ? at - settings_.travel->min : settings_.travel->max - at;
 }
 
 /// Within a travel the drive has the pulses to its end and no more: the chip itself cannot go beyond.
@@ -111,18 +111,18 @@ Result<void> Manual::begin_jog() {
     const bool negative = wanted_ < 0;
     const std::int64_t v = negative ? -wanted_ : wanted_;
     if (!settings_.travel) return driver_.TCurve_C(mask(), settings_.sv, v, settings_.a, negative);
-    const std::int64_t way = std::min(way_left(negative), param::pulses.greatest);
+    const std::int64_t way = std::min(way_left(negative), param::pulses.max);
     const double pulses_per_v = static_cast<double>(rules::speed_carry) / static_cast<double>(settings_.a) *
                                 driver_.multiple(axis_) / rules::clock_hz;
     reserve_ = RampReserve(settings_.sv, pulses_per_v, v);
-    MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.greatest)));
+    MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.max)));
     return driver_.TCurve_F(mask(), settings_.sv, v, settings_.a, negative ? -way : way);
 }
 
 Result<void> Manual::change_speed(std::int64_t v) {
     if (settings_.travel) {
         reserve_.change(driver_.ReadCV(axis_), v);
-        MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.greatest)));
+        MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.max)));
     }
     return driver_.SetV(mask(), v);
 }

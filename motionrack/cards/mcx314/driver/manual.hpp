@@ -15,7 +15,7 @@ namespace motionrack::mcx314 {
 
 /// Where a jog may go: values of LP.
 struct ManualTravel {
-    std::int64_t least = 0, greatest = 0;
+    std::int64_t min = 0, max = 0;
 };
 
 /// Speeds in V units, acceleration in A units, at the R that is written.

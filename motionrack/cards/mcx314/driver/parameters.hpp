@@ -9,15 +9,15 @@ namespace motionrack::mcx314 {
 
 struct Parameter {
     unsigned code = 0;
-    std::int64_t least = 0;
-    std::int64_t greatest = 0;
+    std::int64_t min = 0;
+    std::int64_t max = 0;
     const char* name = "";
 };
 
 /// A parameter with the range that the map documents.
 consteval Parameter documented(std::string_view command, const char* name) {
     const CommandInfo& info = command_named(map::commands, command);
-    return {info.code, info.least, info.greatest, name};
+    return {info.code, info.min, info.max, name};
 }
 
 namespace param {
@@ -39,7 +39,7 @@ inline constexpr Parameter pulses{cmd::P, -map::most_pulses, map::most_pulses, "
 /// Finish point of an interpolation: the same register as 24-bit number with sign.
 inline constexpr Parameter finish{cmd::P, map::least_24, map::greatest_24, "The finish point P"};
 /// R of the axes that give the second and third speed of constant vector speed: up to 8,000,000 * 1.732.
-inline constexpr Parameter vector_range{cmd::R, R.least, 13'856'407, "The range R"};
+inline constexpr Parameter vector_range{cmd::R, R.min, 13'856'407, "The range R"};
 }  // namespace param
 
 }  // namespace motionrack::mcx314

@@ -63,8 +63,8 @@ Result<void> check_drive(const Scale& scale, const RealDrive& drive, double mult
 }
 
 std::int64_t nearest(double value, const Parameter& parameter) {
-    const double inside = std::clamp(std::floor(value + 0.5), static_cast<double>(parameter.least),
-                                     static_cast<double>(parameter.greatest));
+    const double inside =
+        std::clamp(std::floor(value + 0.5), static_cast<double>(parameter.min), static_cast<double>(parameter.max));
     return static_cast<std::int64_t>(inside);
 }
 
@@ -107,19 +107,19 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
                                    drive.acceleration * pulses / accel_kind.most_per_multiple,
                                    drive.deceleration * pulses / decel_kind.most_per_multiple,
                                    drive.jerk * pulses / jerk_kind.most_per_multiple});
-    const double widest = std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.least),
-                                     static_cast<double>(param::R.greatest));
+    const double widest =
+        std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.min), static_cast<double>(param::R.max));
     // V is what fits into the widest range; R is then as much narrower as makes V the asked speed, rounded to reach it.
     const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_units);
     const double range =
-        std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.least), widest);
+        std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.min), widest);
     return with_range(scale, drive, static_cast<std::int64_t>(range));
 }
 
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range) {
-    if (range < param::R.least || range > param::R.greatest)
+    if (range < param::R.min || range > param::R.max)
         return fail(ErrorKind::refused, fmt::format("{} is {}, but the chip takes {} to {}. Nothing was set.",
-                                                    param::R.name, range, param::R.least, param::R.greatest));
+                                                    param::R.name, range, param::R.min, param::R.max));
     MOTIONRACK_CHECK(check_drive(scale, drive, clock_hz / static_cast<double>(range)));
     return with_range(scale, drive, range);
 }

@@ -21,7 +21,7 @@ constexpr ArgumentInfo number(std::string_view name, std::int64_t least, std::in
 }
 constexpr ArgumentInfo of(std::string_view name, const Parameter& parameter, std::string_view unit,
                           std::string_view meaning, std::int64_t start) {
-    return {name, parameter.least, parameter.greatest, unit, meaning, start};
+    return {name, parameter.min, parameter.max, unit, meaning, start};
 }
 template <std::size_t count>
 constexpr ArgumentInfo one_of(std::string_view name, const std::array<ValueInfo, count>& values,
@@ -56,7 +56,7 @@ constexpr ArgumentInfo k_of(std::string_view name) {
     return of(name, param::K, "", "the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3", 1000);
 }
 inline constexpr ArgumentInfo d_or_a =
-    number("D", 0, param::D.greatest, ramp_unit, "deceleration; 0: as the acceleration", 0);
+    number("D", 0, param::D.max, ramp_unit, "deceleration; 0: as the acceleration", 0);
 inline constexpr ArgumentInfo fixed_pulses =
     of("m_Pulse", param::pulses, pulse_unit, "the sign is the direction", 1000);
 constexpr ArgumentInfo finish_of(std::string_view name, std::string_view meaning, std::int64_t start) {

@@ -102,7 +102,7 @@ std::string diagnosis(const HomeReport& report) {
     out += fmt::format(" LP was {}, EP {}, where home is; the switch bounced {} times.", report.zero_lp, report.zero_ep,
                        report.bounces);
     if (const auto way = report.switch_to_index()) out += fmt::format(" From the switch to Z: {} pulses.", *way);
-    for (const HomeStay& stay : report.stays)
+    for (const ChipHomingStateVisit& stay : report.stays)
         if (stay.took > Duration{0}) out += fmt::format(" {} {:.3f} s.", stay.state, to_seconds(stay.took));
     return out;
 }

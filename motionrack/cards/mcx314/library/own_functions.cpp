@@ -19,9 +19,9 @@ constexpr std::array wait_data = {axes, number("milliseconds", 0, 60'000, "ms", 
 constexpr std::array asymmetric_data = {axes, one_of("on", off_on, "decelerations take D instead of A")};
 constexpr std::array output_data = {axes, number("output", 0, 7, "", "OUT0 to OUT7", 0),
                                     one_of("level", low_high, "level")};
-constexpr ArgumentInfo a_or_constant = number("A", 0, param::A.greatest, ramp_unit, "0: constant speed V", 0);
+constexpr ArgumentInfo a_or_constant = number("A", 0, param::A.max, ramp_unit, "0: constant speed V", 0);
 constexpr std::array contour_data = {sv_of("SV"), v_of("V"), a_or_constant, d_or_a};
-constexpr ArgumentInfo v_from_here = number("V", 0, param::V.greatest, speed_unit, "from here on; 0: unchanged", 0);
+constexpr ArgumentInfo v_from_here = number("V", 0, param::V.max, speed_unit, "from here on; 0: unchanged", 0);
 constexpr std::string_view of_segment = "from the segment's start";
 constexpr ArgumentInfo path_axes{"axis", 3, 14, {}, "two or three axes", 3, axis_values, true};
 constexpr ArgumentInfo px = finish_of("PX", of_segment, 1000), py = finish_of("PY", of_segment, 1000),

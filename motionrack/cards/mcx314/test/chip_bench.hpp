@@ -62,8 +62,8 @@ class Follower final : public sim::Device {
   public:
     explicit Follower(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::parts, "follower")) {}
     void listen(const std::string& wire) { kernel_.listen(kernel_.find_wire(wire), id_, 0); }
-    void follow(const std::string& wire, bool wanted) { kernel_.want(kernel_.find_wire(wire), id_, wanted); }
-    void act(Instant) override {}
+    void follow(const std::string& wire, bool wanted) { kernel_.subscribe(kernel_.find_wire(wire), id_, wanted); }
+    void on_scheduled(Instant) override {}
 
   private:
     sim::Kernel& kernel_;
@@ -71,12 +71,12 @@ class Follower final : public sim::Device {
 };
 
 /// A position that the test moves by hand: the encoder behind xeca and xecb.
-class HandWheel final : public sim::Motion {
+class HandWheel final : public sim::PositionFunction {
   public:
     std::int64_t count(Instant) const override { return count_; }
     double rate(Instant) const override { return 0; }
     void watch(int, std::int64_t below, std::int64_t above) override { below_ = below, above_ = above; }
-    int listen(sim::PositionListener& listener) override { return listener_ = &listener, 0; }
+    int add_listener(sim::PositionListener& listener) override { return listener_ = &listener, 0; }
     void set_edge_listener(sim::EdgeListener*) override {}
     void deliver_edges() override {}
     /// Moves count by count, telling of what is watched.

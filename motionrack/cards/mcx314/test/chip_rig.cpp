@@ -25,7 +25,7 @@ class Hand final : public sim::Device {
         kernel_.schedule(id_, at);
     }
     bool idle() const { return moves_.empty(); }
-    void act(Instant) override {
+    void on_scheduled(Instant) override {
         for (const auto& [wire, level] : moves_) kernel_.set_wire(wire, level);
         moves_.clear();
     }
@@ -69,8 +69,8 @@ class Follower final : public sim::Device {
     Follower(sim::Kernel& kernel, std::vector<Change>& changes)
         : kernel_(kernel), id_(kernel.add(*this, sim::Phase::parts, "follower")), changes_(changes) {}
     void listen(sim::WireId wire, int axis, int pin) { kernel_.listen(wire, id_, 16 * axis + pin); }
-    void want(sim::WireId wire) { kernel_.want(wire, id_, true); }
-    void act(Instant) override {}
+    void want(sim::WireId wire) { kernel_.subscribe(wire, id_, true); }
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override {
         changes_.push_back({now / (one_tick / 2), pin / 16, pin % 16, level != 0});
     }
@@ -84,10 +84,10 @@ class Follower final : public sim::Device {
 // Watches range after range of one axis' count.
 class Watcher final : public sim::PositionListener {
   public:
-    void begin(sim::Motion& motion, int axis) {
+    void begin(sim::PositionFunction& motion, int axis) {
         motion_ = &motion;
         axis_ = axis;
-        slot_ = motion.listen(*this);
+        slot_ = motion.add_listener(*this);
     }
     void watch(std::int64_t count) {
         const std::int64_t far = reach(axis_, list.size());
@@ -102,7 +102,7 @@ class Watcher final : public sim::PositionListener {
     std::vector<Crossing> list;
 
   private:
-    sim::Motion* motion_ = nullptr;
+    sim::PositionFunction* motion_ = nullptr;
     int axis_ = 0;
     int slot_ = 0;
 };

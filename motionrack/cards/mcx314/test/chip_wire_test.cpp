@@ -211,7 +211,7 @@ TEST(ChipEncoder, WithoutAnEncoderTheLinesThemselvesCount) {
 
 class Watcher final : public sim::PositionListener {
   public:
-    explicit Watcher(sim::Motion& motion) : motion_(motion), slot_(motion.listen(*this)) {}
+    explicit Watcher(sim::PositionFunction& motion) : motion_(motion), slot_(motion.add_listener(*this)) {}
     void watch(std::int64_t below, std::int64_t above) { motion_.watch(slot_, below, above); }
     void crossed(Instant now) override { crossings.push_back({now / tick, motion_.count(now)}); }
     void rate_changed(double before, double rate, Instant) override {
@@ -224,7 +224,7 @@ class Watcher final : public sim::PositionListener {
     std::vector<double> rates;
 
   private:
-    sim::Motion& motion_;
+    sim::PositionFunction& motion_;
     int slot_;
 };
 

@@ -233,7 +233,7 @@ TEST_F(Contract, ABitPatternOfTwoAxesGoesWhereItsBitsSay) {
     for (int i = 0; i < 3; ++i) done(card().BPStack(word));
     const Result<void> full = card().BPStack(word);
     ASSERT_FALSE(full);
-    EXPECT_EQ(full.error().trouble, ErrorKind::refused);
+    EXPECT_EQ(full.error().kind, ErrorKind::refused);
     done(card().BPStart());
     for (int i = 0; i < 9; ++i) done(card().BPStack(word, contract_patience));
     done(card().SetOutput(axis_x, 0, true));  // does not disturb it
@@ -312,7 +312,7 @@ TEST_F(Contract, SoftwareLimitsStopAndSayHowToGoOn) {
     done(card().TCurve_C(axis_x, 10, 500, 400));
     const Result<void> stopped = card().wait_until_done(axis_x, contract_patience);
     ASSERT_FALSE(stopped);
-    EXPECT_EQ(stopped.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(stopped.error().kind, ErrorKind::machine);
     EXPECT_THAT(stopped.error().message, HasSubstr("the + software limit was passed"));
     EXPECT_THAT(stopped.error().message, HasSubstr("Drive in - direction"));
     EXPECT_GT(card().ReadLPS(0), 1'000);

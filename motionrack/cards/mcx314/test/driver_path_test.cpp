@@ -96,7 +96,7 @@ TEST(DriverPaths, AChainThatALimitStopsSaysSo) {
     rig.port.pass(milliseconds(1));
     const Result<void> stopped = d.ContLine(0x3, {1'000, 10});
     ASSERT_FALSE(stopped);
-    EXPECT_EQ(stopped.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(stopped.error().kind, ErrorKind::machine);
     EXPECT_THAT(stopped.error().message, HasSubstr("The chain was stopped. X stands at LP"));
     EXPECT_THAT(stopped.error().message, HasSubstr("the + limit switch was reached"));
     EXPECT_FALSE(d.ContEnd(patience));

@@ -52,7 +52,7 @@ class Refused : public testing::Test {
     template <class T>
     void expect_refused(const Result<T>& result, const std::string& part) {
         ASSERT_FALSE(result) << part;
-        EXPECT_EQ(result.error().trouble, ErrorKind::refused);
+        EXPECT_EQ(result.error().kind, ErrorKind::refused);
         EXPECT_THAT(result.error().message, HasSubstr(part));
         EXPECT_THAT(result.error().message, testing::AnyOf(HasSubstr("Nothing was"), HasSubstr("was not changed")));
     }
@@ -65,7 +65,7 @@ class Refused : public testing::Test {
 struct Ranged {
     const char* name;
     std::function<Result<void>(Driver&, unsigned, std::int64_t)> call;
-    std::int64_t least, greatest;
+    std::int64_t min, max;
 };
 
 const std::vector<Ranged>& ranged() {
@@ -100,18 +100,18 @@ TEST_F(Refused, NumbersOutsideTheirRangeWithTheRangeInTheSentence) {
     forbid_writing();
     for (const Ranged& one : ranged()) {
         SCOPED_TRACE(one.name);
-        for (const std::int64_t wrong : {one.least - 1, one.greatest + 1, std::numeric_limits<std::int64_t>::min(),
+        for (const std::int64_t wrong : {one.min - 1, one.max + 1, std::numeric_limits<std::int64_t>::min(),
                                          std::numeric_limits<std::int64_t>::max()}) {
             const Result<void> result = one.call(driver_, axis_x, wrong);
             expect_refused(result, std::to_string(wrong));
-            expect_refused(result, std::to_string(one.greatest));
+            expect_refused(result, std::to_string(one.max));
         }
     }
 }
 
 TEST_F(Refused, EndsOfTheRangesAreTaken) {
     for (const Ranged& one : ranged())
-        for (const std::int64_t right : {one.least, one.greatest})
+        for (const std::int64_t right : {one.min, one.max})
             EXPECT_TRUE(one.call(driver_, xyzu, right)) << one.name << ' ' << right;
 }
 
@@ -119,8 +119,7 @@ TEST_F(Refused, AxisMasksThatNameNoAxes) {
     set_up();
     forbid_writing();
     for (const unsigned axes : {0u, 16u, 17u, 0xFFFFFFFFu}) {
-        for (const Ranged& one : ranged())
-            expect_refused(one.call(driver_, axes, one.greatest), "X is 1, Y 2, Z 4, U 8");
+        for (const Ranged& one : ranged()) expect_refused(one.call(driver_, axes, one.max), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.TCurve_F(axes, 1, 1, 1, 1), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.wait_until_stopped(axes, milliseconds(1)), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.wait_until_done(axes, milliseconds(1)), "X is 1, Y 2, Z 4, U 8");

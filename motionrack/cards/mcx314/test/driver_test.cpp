@@ -33,7 +33,7 @@ TEST(DriverMessages, TellTheCauseThePlaceAndWhatToDo) {
         rig.wire(one.pin, 0);
         const Result<void> stopped = d.wait_until_done(axis_x, patience);
         ASSERT_FALSE(stopped) << one.pin;
-        EXPECT_EQ(stopped.error().trouble, ErrorKind::machine);
+        EXPECT_EQ(stopped.error().kind, ErrorKind::machine);
         EXPECT_THAT(stopped.error().message, HasSubstr(one.why));
         EXPECT_THAT(stopped.error().message, HasSubstr(one.next));
         EXPECT_THAT(stopped.error().message, HasSubstr("X stands at LP " + std::to_string(d.ReadLPS(0))));

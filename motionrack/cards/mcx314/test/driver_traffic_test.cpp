@@ -277,7 +277,7 @@ TEST_F(Traffic, NoWaitIsEndless) {
         for (const auto& wait : waits) {
             const Result<void> result = wait();
             ASSERT_FALSE(result);
-            EXPECT_EQ(result.error().trouble, ErrorKind::machine);
+            EXPECT_EQ(result.error().kind, ErrorKind::machine);
             EXPECT_NE(result.error().message.find("0.010 s"), std::string::npos) << result.error().message;
         }
         EXPECT_LT(port_.now() - before, milliseconds(40));

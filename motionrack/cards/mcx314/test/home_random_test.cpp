@@ -19,8 +19,8 @@ using testing::HasSubstr;
 /// How far the rotor was beyond a range, pulses.
 class Beyond final : sim::PositionListener {
   public:
-    Beyond(sim::Motion& rotor, std::int64_t low, std::int64_t high)
-        : rotor_(rotor), from_(low), to_(high), low_(low), high_(high), slot_(rotor.listen(*this)) {}
+    Beyond(sim::PositionFunction& rotor, std::int64_t low, std::int64_t high)
+        : rotor_(rotor), from_(low), to_(high), low_(low), high_(high), slot_(rotor.add_listener(*this)) {}
     void begin() { rotor_.watch(slot_, low_ - 1, high_ + 1); }
     std::int64_t pulses() const { return std::max(from_ - low_, high_ - to_); }
 
@@ -32,7 +32,7 @@ class Beyond final : sim::PositionListener {
     }
     void rate_changed(double, double, Instant) override {}
 
-    sim::Motion& rotor_;
+    sim::PositionFunction& rotor_;
     std::int64_t from_, to_, low_, high_;
     int slot_;
 };

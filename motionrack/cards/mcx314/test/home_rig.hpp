@@ -63,11 +63,11 @@ class Cam final : public sim::Device, private sim::PositionListener {
           rotor_(machine.rotor()),
           low_(low),
           high_(high),
-          slot_(rotor_.listen(*this)) {
+          slot_(rotor_.add_listener(*this)) {
         kernel_.schedule(id_, Instant{0});
     }
     sim::WireId wire() const { return wire_; }
-    void act(Instant now) override { look(now); }
+    void on_scheduled(Instant now) override { look(now); }
 
   private:
     void crossed(Instant now) override { look(now); }
@@ -86,7 +86,7 @@ class Cam final : public sim::Device, private sim::PositionListener {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     sim::WireId wire_;
-    sim::Motion& rotor_;
+    sim::PositionFunction& rotor_;
     std::int64_t low_, high_;
     int slot_;
 };

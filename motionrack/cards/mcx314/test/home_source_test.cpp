@@ -15,8 +15,8 @@ constexpr unsigned origin_in0 = 0x0012;
 /// Where the switch of the rig acts, pulses from its start at 20 mm.
 constexpr std::int64_t origin = -19 * 640;
 
-const HomeStay& stay_in(const HomeReport& report, std::string_view state) {
-    for (const HomeStay& stay : report.stays)
+const ChipHomingStateVisit& stay_in(const HomeReport& report, std::string_view state) {
+    for (const ChipHomingStateVisit& stay : report.stays)
         if (stay.state == state) return stay;
     ADD_FAILURE() << state << " was not entered";
     return report.stays.front();
@@ -24,7 +24,7 @@ const HomeStay& stay_in(const HomeReport& report, std::string_view state) {
 
 /// Pulses a second of the chip's clock, in a state in which the speed is constant.
 double speed_in(const HomeReport& report, std::string_view state) {
-    const HomeStay& stay = stay_in(report, state);
+    const ChipHomingStateVisit& stay = stay_in(report, state);
     return std::fabs(static_cast<double>(way_between(stay.from_lp, stay.to_lp))) / to_seconds(stay.took);
 }
 

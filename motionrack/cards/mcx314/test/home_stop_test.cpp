@@ -41,7 +41,7 @@ TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotTrusted) {
             EXPECT_EQ(one.report().fault, HomeFault::stopped) << state.name;
             EXPECT_THAT(one.report().sentence, HasSubstr("stopped on request"));
             EXPECT_EQ(one.state(), "FAILED");
-            EXPECT_EQ(one.report().result().error().trouble, ErrorKind::stopped);
+            EXPECT_EQ(one.report().result().error().kind, ErrorKind::stopped);
         }
     }
 }
@@ -209,7 +209,7 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
         // The search's edge was where the report says, although contacts bounce and looks are rare.
         const std::int64_t edge = static_cast<std::int64_t>(axis.home_mm * pulses_per_mm) -
                                   static_cast<std::int64_t>(axis.start_mm * pulses_per_mm);
-        for (const HomeEdge& seen : report->edges) {
+        for (const ChipHomingEdge& seen : report->edges) {
             if (seen.input != 0 || !seen.active) continue;
             RC_ASSERT(seen.lp <= edge);
             RC_ASSERT(edge <= seen.lp + seen.within);

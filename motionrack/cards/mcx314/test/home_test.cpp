@@ -12,7 +12,7 @@ using testing::HasSubstr;
 /// The states that were gone through, without those that stand.
 std::string states_of(const HomeReport& report) {
     std::string out;
-    for (const HomeStay& stay : report.stays) {
+    for (const ChipHomingStateVisit& stay : report.stays) {
         if (stay.state.find("_START") != std::string_view::npos) continue;
         if (!out.empty()) out += ' ';
         out += stay.state;
@@ -169,7 +169,7 @@ TEST_P(EachType, ReportsASwitchThatIsMissing) {
     s.turn_at_limit = false;
     const Result<HomeReport> done = home(rig.driver, 0, s);
     ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().trouble, ErrorKind::machine);
+    EXPECT_EQ(done.error().kind, ErrorKind::machine);
     EXPECT_THAT(done.error().message, HasSubstr("the home switch (IN0, active Low) was not found"));
     EXPECT_THAT(done.error().message, HasSubstr("a limit switch ended the search in - direction"));
     EXPECT_THAT(done.error().message, HasSubstr("not trusted"));
@@ -321,7 +321,7 @@ TEST(Homing, RefusesWhatCannotBeDoneAndMovesNothing) {
         change(s);
         const Result<void> started = one.start(s, rig.port.now());
         EXPECT_FALSE(started);
-        EXPECT_EQ(started.error().trouble, ErrorKind::refused);
+        EXPECT_EQ(started.error().kind, ErrorKind::refused);
         return started ? std::string() : started.error().message;
     };
     EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 6; }), HasSubstr("the type is 6, but may be 1 to 5"));

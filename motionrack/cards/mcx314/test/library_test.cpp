@@ -73,7 +73,7 @@ TEST(ADeclaredLibrary, RefusesEachValueBesideItsRangeWithTheRange) {
     LibraryRig rig;
     for (const FunctionInfo& function : library_functions())
         for (const ArgumentInfo& one : function.arguments)
-            for (const std::int64_t wrong : {one.least - 1, one.greatest + 1}) {
+            for (const std::int64_t wrong : {one.min - 1, one.max + 1}) {
                 Arguments arguments = starts_of(function);
                 arguments[std::string(one.name)] = wrong;
                 const Result<CallAnswer> answer = rig.call(function.name, arguments);
@@ -187,7 +187,7 @@ TEST(ADeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
     ASSERT_TRUE(rig.call("TCurve_C", {{"axis", 5}, {"m_SV", 1}, {"m_V", 8000}, {"m_A", 1}}));
     const Result<CallAnswer> answer = rig.call("wait", {{"axis", 15}, {"milliseconds", 60'000}});
     ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().trouble, ErrorKind::stopped);
+    EXPECT_EQ(answer.error().kind, ErrorKind::stopped);
     EXPECT_LT(rig.kernel.now() - asked, milliseconds(2));
     EXPECT_FALSE(rig.library.moving());
 }

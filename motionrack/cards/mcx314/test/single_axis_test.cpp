@@ -21,9 +21,9 @@ SingleAxisSettings settings() {
     return s;
 }
 
-control::HomeOrder order(int type = 2) {
-    control::HomeOrder o;
-    o.type = static_cast<control::HomeType>(type);
+control::HomingRequest order(int type = 2) {
+    control::HomingRequest o;
+    o.type = static_cast<control::HomingMethod>(type);
     o.speed = 15;
     o.slow_speed = 0.5;
     o.position = 1;
@@ -47,12 +47,12 @@ struct AxisRig : HomeRig {
 
 TEST(SingleAxis, IsNotTrustedUntilItIsHomedAndThenCountsAsTheMachineStands) {
     AxisRig rig;
-    EXPECT_FALSE(rig.x.trusted());
+    EXPECT_FALSE(rig.x.position_valid());
     const Result<void> refused = rig.x.move_to(10, 20);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("not trusted; home it"));
     rig.home();
-    EXPECT_TRUE(rig.x.trusted());
+    EXPECT_TRUE(rig.x.position_valid());
     EXPECT_DOUBLE_EQ(rig.x.position(), 1.0);
     EXPECT_DOUBLE_EQ(rig.x.measured_position(), 1.0);
     EXPECT_NEAR(rig.position(), 1.0, 1e-9);
@@ -68,7 +68,7 @@ TEST(SingleAxis, IsNotTrustedUntilItIsHomedAndThenCountsAsTheMachineStands) {
 TEST(SingleAxis, TellsWhatTheHomingFoundInMillimetres) {
     AxisRig rig;
     rig.home(4);
-    const control::HomeOutcome out = rig.x.home_outcome();
+    const control::HomingResult out = rig.x.home_outcome();
     EXPECT_TRUE(out.homed);
     ASSERT_EQ(out.edges.size(), 4u);
     EXPECT_EQ(out.edges[3].what, "index");
@@ -77,7 +77,7 @@ TEST(SingleAxis, TellsWhatTheHomingFoundInMillimetres) {
     EXPECT_EQ(out.stays.front().state, "CHECK_START");
     EXPECT_EQ(out.stays.back().state, "HOMED");
     double sum = 0;
-    for (const control::HomeStay& stay : out.stays) sum += stay.took_s;
+    for (const control::HomingStateVisit& stay : out.stays) sum += stay.took_s;
     EXPECT_NEAR(sum, out.took_s, 1e-9);
     EXPECT_NEAR(out.moved_by, 1.0 + 20.0, 1e-9) << "the counter said -20 mm at the place that is 1 mm";
 }
@@ -91,10 +91,10 @@ TEST(SingleAxis, SoftwareLimitsAreInForceExactlyWhileItIsTrusted) {
     EXPECT_EQ(rig.driver.mode2(0) & 3, 0);
     rig.x.stop();
     EXPECT_FALSE(rig.x.wait(whole_seconds(5)));
-    EXPECT_FALSE(rig.x.trusted());
+    EXPECT_FALSE(rig.x.position_valid());
     EXPECT_EQ(rig.driver.mode2(0) & 3, 0);
     ASSERT_TRUE(rig.x.set_position(7.5));
-    EXPECT_TRUE(rig.x.trusted());
+    EXPECT_TRUE(rig.x.position_valid());
     EXPECT_DOUBLE_EQ(rig.x.position(), 7.5);
     EXPECT_DOUBLE_EQ(rig.x.measured_position(), 7.5);
 }
@@ -111,7 +111,7 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
     EXPECT_THAT(message(rig.x.move_to(10, 51)), HasSubstr("the speed is 51 mm/s, but may be above 0 and up to 50"));
     for (const double bad : {nan, inf, -inf, 0.0, -1.0}) {
         EXPECT_FALSE(rig.x.move_to(10, bad));
-        control::HomeOrder o = order();
+        control::HomingRequest o = order();
         o.speed = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
         o = order();
@@ -123,7 +123,7 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
         EXPECT_FALSE(rig.x.move_by(bad, 10));
         EXPECT_FALSE(rig.x.set_position(bad));
         EXPECT_FALSE(rig.x.jog(bad, rig.port.now()));
-        control::HomeOrder o = order();
+        control::HomingRequest o = order();
         o.position = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
         o = order();
@@ -133,7 +133,7 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
         o.travel = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
     }
-    EXPECT_TRUE(rig.x.trusted());
+    EXPECT_TRUE(rig.x.position_valid());
     EXPECT_DOUBLE_EQ(rig.x.position(), 1.0);
     SingleAxisSettings blind = settings();
     blind.counts_per_unit = 0;
@@ -154,13 +154,13 @@ TEST(SingleAxis, ADeceleratingStopKeepsTheTrustAndAnImmediateOneAtSpeedTakesIt) 
     rig.x.stop();
     EXPECT_EQ(rig.x.state(), AxisState::stopping);
     ASSERT_TRUE(rig.x.wait(whole_seconds(5)));
-    EXPECT_TRUE(rig.x.trusted());
+    EXPECT_TRUE(rig.x.position_valid());
     EXPECT_NEAR(rig.position(), rig.x.position(), 1e-9);
     ASSERT_TRUE(rig.x.move_to(200, 50));
     rig.port.pass(milliseconds(500));
     rig.x.stop_now();
     ASSERT_TRUE(rig.x.wait(whole_seconds(5)));
-    EXPECT_FALSE(rig.x.trusted());
+    EXPECT_FALSE(rig.x.position_valid());
     rig.port.pass(milliseconds(5));
     EXPECT_NE(rig.machines[0]->lost_steps(), 0) << "and rightly so";
 }
@@ -175,7 +175,7 @@ TEST(SingleAxis, AnEmergencyStopTakesTheTrust) {
     ASSERT_FALSE(ended);
     EXPECT_THAT(ended.error().message, HasSubstr("Its position is not trusted; home it."));
     EXPECT_EQ(rig.x.state(), AxisState::error);
-    EXPECT_FALSE(rig.x.trusted());
+    EXPECT_FALSE(rig.x.position_valid());
 }
 
 TEST(SingleAxis, JogsInMillimetresAndOnlyWhileItIsRenewed) {
@@ -203,7 +203,7 @@ TEST(SingleAxis, AMoveIntoALimitIsTold) {
     const Result<void> ended = rig.x.wait(whole_seconds(20));
     ASSERT_FALSE(ended);
     EXPECT_THAT(ended.error().message, HasSubstr("+ limit switch"));
-    EXPECT_TRUE(rig.x.trusted()) << "it decelerated";
+    EXPECT_TRUE(rig.x.position_valid()) << "it decelerated";
     EXPECT_FALSE(rig.x.move_to(60, 20));
     EXPECT_TRUE(rig.x.move_to(20, 20));
 }
@@ -220,7 +220,7 @@ TEST(SingleAxis, WaitGivesUpAfterItsTimeAndSaysWhereItIs) {
 
 RC_GTEST_PROP(SingleAxisProperty, AfterHomingTheCounterIsTheMachine, ()) {
     AxisRig rig({.start_mm = *rc::gen::inRange(0, 200) / 10.0, .bounce = milliseconds(1)});
-    control::HomeOrder o = order();
+    control::HomingRequest o = order();
     o.speed = *rc::gen::inRange(1, 51);
     o.slow_speed = *rc::gen::inRange(1, 11) / 10.0;
     RC_ASSERT(bool(rig.x.home(o, rig.port.now())));

@@ -80,7 +80,7 @@ static_assert(sizeof(Command) == 40);
 
 /// Range of a parameter; outside it is clipped or the command is refused.
 struct KindInfo {
-    double least = 0, greatest = 0;
+    double min = 0, max = 0;
     bool clipped = false;  ///< false: refused
     bool whole = true;
     std::string_view unit;

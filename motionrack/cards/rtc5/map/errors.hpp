@@ -26,7 +26,7 @@ consteval std::uint32_t error_bit(std::string_view name) {
 /// Of a command that ended so.
 constexpr std::uint32_t error_bits_of(ErrorKind trouble) {
     switch (trouble) {
-        case ErrorKind::bad_input:
+        case ErrorKind::invalid_input:
         case ErrorKind::refused:
         case ErrorKind::io:
             return error_bit("PARAM_ERROR");

@@ -60,7 +60,7 @@ void Card::laser(std::int64_t at, bool on) {
         lines_.changes[static_cast<std::size_t>(lines_.change_count++)] = (at * half_us).count();
 }
 
-void Card::act(Instant now) {
+void Card::on_scheduled(Instant now) {
     catch_up(now);
     put_out();
     plan(now);

@@ -34,7 +34,7 @@ class Card final : public sim::DeferringDevice, private Sink {
     sim::DeviceId id() const { return id_; }
     sim::WireId busy_wire() const;
 
-    void act(Instant now) override;
+    void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;

@@ -59,8 +59,7 @@ Result<void> Engine::set_delays(const Delays& d) {
         MOTIONRACK_CHECK(check_parameter("", item.name, static_cast<double>(item.ticks), Kind::ticks));
     const KindInfo laser = kind_info(Kind::half_us);
     MOTIONRACK_CHECK(check_parameter("", "LaserOnDelay", static_cast<double>(d.laser_on), Kind::half_us));
-    MOTIONRACK_CHECK(
-        check_parameter("", "LaserOffDelay", static_cast<double>(d.laser_off), 0, laser.greatest, laser.unit));
+    MOTIONRACK_CHECK(check_parameter("", "LaserOffDelay", static_cast<double>(d.laser_off), 0, laser.max, laser.unit));
     MOTIONRACK_CHECK(check_parameter("", "JumpLengthLimit", d.jump_limit, 0, 16777215, "bits"));
     state_.delays = d;
     return {};

@@ -27,11 +27,11 @@ constexpr double least_32 = -2147483648.0, greatest_32 = 2147483647, greatest_pl
 
 constexpr ControlParam centre(std::string_view name) {
     constexpr KindInfo range = kind_info(Kind::centre);
-    return {name, range.least, range.greatest, range.unit};
+    return {name, range.min, range.max, range.unit};
 }
 constexpr ControlParam scale(std::string_view name, std::string_view unit) {
     constexpr KindInfo range = kind_info(Kind::scale);
-    return {name, range.least, range.greatest, unit, false};
+    return {name, range.min, range.max, unit, false};
 }
 constexpr ControlParam up_to(std::string_view name, double greatest, std::string_view unit = "") {
     return {name, 0, greatest, unit};
@@ -259,9 +259,9 @@ constexpr ControlCommand commands[] = {
 
 std::uint32_t error_bits_of(const Error& error, Refusal refusal, const Engine& engine) {
     const bool moves = (engine.status() & (status_bit("BUSY") | status_bit("INTERNAL_BUSY"))) != 0;
-    if (error.trouble == ErrorKind::refused && refusal == Refusal::rejected) return error_bit("REJECTED");
-    if (error.trouble == ErrorKind::refused && refusal == Refusal::busy && moves) return error_bit("BUSY");
-    return error_bits_of(error.trouble);
+    if (error.kind == ErrorKind::refused && refusal == Refusal::rejected) return error_bit("REJECTED");
+    if (error.kind == ErrorKind::refused && refusal == Refusal::busy && moves) return error_bit("BUSY");
+    return error_bits_of(error.kind);
 }
 
 Result<void> ControlCommand::check(std::span<const double> parameters) const {
@@ -271,7 +271,7 @@ Result<void> ControlCommand::check(std::span<const double> parameters) const {
                                                     wanted.size(), parameters.size()));
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const ControlParam& param = wanted[i];
-        MOTIONRACK_CHECK(check_parameter(name, param.name, parameters[i], param.least, param.greatest, param.unit));
+        MOTIONRACK_CHECK(check_parameter(name, param.name, parameters[i], param.min, param.max, param.unit));
         if (param.whole && parameters[i] != std::floor(parameters[i]))
             return fail(ErrorKind::refused, fmt::format("{}: {} is {}, but must be whole; nothing was changed", name,
                                                         param.name, parameters[i]));
@@ -282,7 +282,7 @@ Result<void> ControlCommand::check(std::span<const double> parameters) const {
 std::string ControlCommand::ranges() const {
     std::string out;
     for (const ControlParam& param : params())
-        out += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, param.least, param.greatest,
+        out += fmt::format(" {} {:.10g} to {:.10g}{}{}.", param.name, param.min, param.max,
                            param.unit.empty() ? "" : " ", param.unit);
     return out;
 }

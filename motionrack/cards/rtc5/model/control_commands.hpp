@@ -14,7 +14,7 @@ namespace motionrack::rtc5 {
 
 struct ControlParam {
     std::string_view name;  ///< "": there is none
-    double least = 0, greatest = 4294967295.0;
+    double min = 0, max = 4294967295.0;
     std::string_view unit = "";
     bool whole = true;
 };

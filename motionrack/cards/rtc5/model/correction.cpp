@@ -44,7 +44,7 @@ int strange_node(const std::vector<std::int32_t>& nodes) {
 }
 
 tl::unexpected<Error> refusal(const std::string& name, std::string_view why) {
-    return fail(ErrorKind::bad_input, fmt::format("{}: {}. The file was not loaded", name, why));
+    return fail(ErrorKind::invalid_input, fmt::format("{}: {}. The file was not loaded", name, why));
 }
 
 bool is_one_to_one(const CorrectionFile& file) {

@@ -51,20 +51,20 @@ Result<Points> points_of(std::string_view text, const std::string& section, cons
         if (!inside || line.empty()) continue;
         if (whole.size() > 255)
             return fail(
-                ErrorKind::bad_input,
+                ErrorKind::invalid_input,
                 fmt::format("the line has {} characters; 255 are possible. The table was not loaded", whole.size()),
                 {number, 0}, file);
         const auto values = four_numbers(line);
         if (!values)
-            return fail(ErrorKind::bad_input,
+            return fail(ErrorKind::invalid_input,
                         "a line of a compensation table has four whole numbers: Enc0 Enc1 dEnc0 dEnc1. The table was "
                         "not loaded",
                         {number, 0}, file);
         points[{(*values)[1], (*values)[0]}] = {static_cast<double>((*values)[2]), static_cast<double>((*values)[3])};
     }
     if (!seen)
-        return fail(ErrorKind::bad_input, fmt::format("there is no section {}; the table was not loaded", section), {},
-                    file);
+        return fail(ErrorKind::invalid_input, fmt::format("there is no section {}; the table was not loaded", section),
+                    {}, file);
     return points;
 }
 
@@ -92,7 +92,7 @@ Result<FlyTable> FlyTable::read(std::string_view text, unsigned number, const st
     }
     const std::size_t nodes = out.columns_.size() * out.rows_.size();
     if (out.columns_.size() < 2 || out.rows_.size() < 2 || nodes != points.size())
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("{} points with {} different Enc0 and {} different Enc1 are no full grid (at least 2 "
                                 "by 2); the table was not loaded",
                                 points.size(), out.columns_.size(), out.rows_.size()),

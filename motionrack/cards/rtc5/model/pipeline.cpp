@@ -82,7 +82,7 @@ void Engine::check_flags(std::size_t n) {
     struct Bound {
         std::uint32_t flag;
         const Doubles* values;
-        double bound, least, greatest;
+        double bound, min, max;
         bool upper;
     };
     const auto limit = [&](std::size_t i) { return static_cast<double>(m[i]); };
@@ -97,7 +97,7 @@ void Engine::check_flags(std::size_t n) {
         {marking_bit("LIMIT_Y_MAX"), &b.y, limit(3), e.least_y, e.greatest_y, true},
     };
     for (const Bound& c : bounds) {
-        if (!(c.upper ? c.greatest > c.bound : c.least < c.bound) || (state_.marking_info & c.flag)) continue;
+        if (!(c.upper ? c.max > c.bound : c.min < c.bound) || (state_.marking_info & c.flag)) continue;
         std::size_t i = 0;
         while (!(c.upper ? (*c.values)[i] > c.bound : (*c.values)[i] < c.bound)) ++i;
         raise(c.flag, state_.tick + static_cast<std::int64_t>(i));

@@ -23,9 +23,9 @@ class Listener final : public sim::Device {
         id_ = id;
     }
     void want(sim::Kernel& kernel) {
-        for (const sim::WireId wire : wires_) kernel.want(wire, id_, true);
+        for (const sim::WireId wire : wires_) kernel.subscribe(wire, id_, true);
     }
-    void act(Instant) override {}
+    void on_scheduled(Instant) override {}
     void on_wire(int pin, int level, Instant now) override { heard.push_back({pin, level, now}); }
 
     struct Heard {

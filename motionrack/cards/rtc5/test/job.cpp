@@ -16,7 +16,7 @@ double JobMaker::count_scale() {
 }
 
 double JobMaker::value_of(Op op, const ParamInfo& param) {
-    if (one_of(60)) return one_of(2) ? kind_info(param.kind).least : kind_info(param.kind).greatest;
+    if (one_of(60)) return one_of(2) ? kind_info(param.kind).min : kind_info(param.kind).max;
     switch (param.kind) {
         case Kind::coordinate:
             return coordinate();

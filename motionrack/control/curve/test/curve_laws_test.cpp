@@ -142,7 +142,7 @@ TEST(CurveLaws, CurvesBeginAndEndWhereTheProgramDoes) {
 
 /// What the program allows on a move, mm/s (degrees/s).
 double programmed(const Move& move, const Geometry& path) {
-    if (move.kind == MoveKind::traverse) return std::numeric_limits<double>::infinity();
+    if (move.kind == MoveKind::rapid) return std::numeric_limits<double>::infinity();
     if (move.feed_mode == FeedMode::units_per_second) return move.feed;
     return move.feed * (path.length + 4e-6);  // moves before it that were left out
 }

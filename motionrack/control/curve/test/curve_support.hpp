@@ -115,7 +115,7 @@ class ProgramMaker {
             mode_.path = static_cast<PathControl>(one_of(8) == 0 ? 1 : one_of(3) == 0 ? 0 : 2);
             mode_.feed = size_between(1, 1000);
             if (one_of(6) == 0) mode_.feed_mode = FeedMode::inverse_time;
-            if (one_of(6) == 0) mode_.kind = MoveKind::traverse, mode_.rapid_override = one_of(2) == 0 ? 1 : 0.5;
+            if (one_of(6) == 0) mode_.kind = MoveKind::rapid, mode_.rapid_override = one_of(2) == 0 ? 1 : 0.5;
             section(moves);
         }
         return numbered(moves);

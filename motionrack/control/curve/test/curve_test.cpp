@@ -247,7 +247,7 @@ TEST(Curve, LeavesOutMovesThatAreTooShortButEndsWhereTheyDo) {
 TEST(Curve, FeedsAreThoseOfTheProgram) {
     std::vector<Move> moves = {line_to({10, 0, 0}), line_to({20, 1, 0}), line_to({30, 1, 0}), line_to({40, 0, 0})};
     moves[1].feed = 20;
-    moves[2].kind = MoveKind::traverse;
+    moves[2].kind = MoveKind::rapid;
     moves[3].feed_mode = FeedMode::inverse_time;
     moves[3].feed = 2;
     moves.push_back(arc_from({40, 0, 0}, -0.099668652491162038, 5, 2));

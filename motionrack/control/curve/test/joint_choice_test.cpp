@@ -26,7 +26,7 @@ ChoiceRow random_row(unsigned seed, std::size_t legs) {
         joint.can_pass = i + 1 < legs;
         joint.can_stop = !joint.can_pass || random() % 4 > 0;
         joint.speed = between(0.1, 30);
-        joint.half = between(0, 0.3);
+        joint.half_blend_length = between(0, 0.3);
         joint.gain = between(0, 0.01);
         out.joints.push_back(joint);
     }
@@ -76,7 +76,7 @@ TEST(ALeg, WithoutRoomForItsTurnsIsNoWay) {
     const LegLimits leg{0.1, 100, 1000, 20'000};
     Junction turn;
     turn.speed = 10;
-    turn.half = 0.1;
+    turn.half_blend_length = 0.1;
     EXPECT_GT(leg_duration_s(leg, turn, false, Junction{}, true), 1e9);
     EXPECT_LT(leg_duration_s(leg, Junction{}, true, Junction{}, true), 0.1);
 }

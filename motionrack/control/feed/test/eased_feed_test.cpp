@@ -56,7 +56,7 @@ TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutJumpsAndIsNoSlowerThanByCells) {
             while (at + 1 < line.size() && middle > end) end += line[++at].length;
             const LimitInterval& limits = line[at];
             const PathMotion first = piece.at(0), last = piece.last();
-            ASSERT_NEAR(first.place, before.place, 1e-9 * length);
+            ASSERT_NEAR(first.u, before.u, 1e-9 * length);
             ASSERT_NEAR(first.speed, before.speed, 1e-7 * limits.speed);
             ASSERT_NEAR(first.accel, before.accel, 1e-7 * limits.accel);
             ASSERT_LE(std::fabs(first.jerk), limits.jerk * (1 + 1e-9));
@@ -64,7 +64,7 @@ TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutJumpsAndIsNoSlowerThanByCells) {
             ASSERT_LE(std::max(first.speed, last.speed), limits.speed * (1 + 1e-9));
             before = last;
         }
-        ASSERT_NEAR(before.place, length, 1e-9 * length);
+        ASSERT_NEAR(before.u, length, 1e-9 * length);
         ASSERT_NEAR(before.speed, 0, 1e-7);
         std::vector<LimitInterval> cut = line;  // a span of its own kind keeps it from being recognized
         cut.push_back(cut.back());

@@ -56,7 +56,7 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
     const double length = length_of(spans);
     PathMotion last;
     const auto jump = [&](const PathMotion& state) {
-        out.jump = std::max({out.jump, std::fabs(state.place - last.place) / length,
+        out.jump = std::max({out.jump, std::fabs(state.u - last.u) / length,
                              std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
                              std::fabs(state.accel - last.accel) / spans.front().accel});
     };
@@ -66,10 +66,10 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
         for (int i = 0; i <= 6; ++i) {
             const PathMotion state = piece.at(piece.seconds * i / 6);
             if (i == 0) jump(state);
-            while (k + 1 < spans.size() && state.place > end + 1e-10 * length) end += spans[++k].length;
+            while (k + 1 < spans.size() && state.u > end + 1e-10 * length) end += spans[++k].length;
             // Where two spans meet those of either hold.
             LimitInterval span = spans[k];
-            if (k + 1 < spans.size() && state.place > end - 1e-10 * length)
+            if (k + 1 < spans.size() && state.u > end - 1e-10 * length)
                 span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel),
                         std::max(span.jerk, spans[k + 1].jerk), std::max(span.brake, spans[k + 1].brake)};
             out.speed = std::max(out.speed, state.speed / span.speed);
@@ -175,7 +175,7 @@ TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
     double slowest = 100, fastest = 0;
     for (const ProfileSegment& piece : planner.plan(spans)) {
         const PathMotion state = piece.at(0);
-        if (state.place > 50.2 && state.place < 51.8) slowest = std::min(slowest, state.speed);
+        if (state.u > 50.2 && state.u < 51.8) slowest = std::min(slowest, state.speed);
         fastest = std::max(fastest, state.speed);
     }
     EXPECT_NEAR(slowest, 20, 1e-6);
@@ -205,7 +205,7 @@ TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
         const auto a = used.plan(spans), b = fresh.plan(spans);
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t i = 0; i < a.size(); ++i) {
-            ASSERT_EQ(a[i].square, b[i].square);
+            ASSERT_EQ(a[i].velocity2, b[i].velocity2);
             ASSERT_EQ(a[i].seconds, b[i].seconds);
         }
     }
@@ -235,8 +235,8 @@ TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::uint64_t fold = 0;
     VelocityPlanner planner;
     for (const ProfileSegment& piece : planner.plan(spans))
-        for (const double value : {piece.begin, piece.length, piece.seconds, piece.square, piece.slope, piece.bend,
-                                   piece.jerk, piece.at(0.3 * piece.seconds).place})
+        for (const double value : {piece.begin, piece.length, piece.seconds, piece.velocity2, piece.velocity2_slope,
+                                   piece.velocity2_curvature, piece.jerk, piece.at(0.3 * piece.seconds).u})
             fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
     EXPECT_EQ(fold, 713957576561859831u);
 }
@@ -249,11 +249,11 @@ TEST(AFeedProfile, OfNothingIsEmpty) {
 TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
     const ProfileSegment cell = feed_cell(5, 2, 100, 30, 8);
     EXPECT_NEAR(cell.at(0).speed, 10, 1e-12);
-    EXPECT_NEAR(cell.at(cell.seconds).place, 7, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).u, 7, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).speed, std::sqrt(100 + 60 + 16), 1e-12);
     const double time = 0.3 * cell.seconds, step = 1e-5;
     const auto before = cell.at(time - step), here = cell.at(time), after = cell.at(time + step);
-    EXPECT_NEAR((after.place - before.place) / (2 * step), here.speed, 1e-6);
+    EXPECT_NEAR((after.u - before.u) / (2 * step), here.speed, 1e-6);
     EXPECT_NEAR((after.speed - before.speed) / (2 * step), here.accel, 1e-6);
     EXPECT_NEAR((after.accel - before.accel) / (2 * step), here.jerk, 1e-6);
 }
@@ -285,7 +285,7 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
         std::size_t k = 0;
         while (time > plan[k].seconds) time -= plan[k++].seconds;
         const PathMotion state = plan[k].at(time);
-        const std::vector<LimitInterval> rest = spans_from(spans, state.place);
+        const std::vector<LimitInterval> rest = spans_from(spans, state.u);
         const std::span<const ProfileSegment> next =
             on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
         const bool is_steady = state.accel > -1 && state.jerk > -1;
@@ -318,7 +318,7 @@ TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
 
 TEST(ACell, ThatSlowsDownAndSpeedsUpAgainTakesItsTime) {
     const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // least 2.25 at the half
-    EXPECT_NEAR(cell.at(cell.seconds).place, 1, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).speed, 2, 1e-9);
     EXPECT_GT(cell.seconds, 0.5);
 }

@@ -19,7 +19,7 @@ bool between(int number, int first, int last) {
     return number >= first && number <= last;
 }
 
-double unit_of(const Modes& modes, int axis) {
+double unit_of(const ModalState& modes, int axis) {
     return axis < 3 && modes.inch ? 25.4 : 1.0;
 }
 
@@ -121,8 +121,8 @@ bool MachineParameters::is_read_only(std::string_view name) {
 
 double MachineParameters::numbered(int number) const {
     if (!is_read_only(number)) return interpreter_.parameters().numbered(number);
-    const Frame& frame = interpreter_.frame();
-    const Modes& modes = interpreter_.modes();
+    const WorkFrame& frame = interpreter_.frame();
+    const ModalState& modes = interpreter_.modes();
     if (between(number, 5161, 5169)) return of_axis(frame.g28, number - 5161);
     if (between(number, 5181, 5189)) return of_axis(frame.g30, number - 5181);
     if (number == 5210) return frame.g92 != Point{} ? 1 : 0;
@@ -131,7 +131,7 @@ double MachineParameters::numbered(int number) const {
     if (between(number, first_system, first_system + (work_offset_count - 1) * system_size + turn_place)) {
         const auto system = static_cast<std::size_t>((number - first_system) / system_size);
         const int place = (number - first_system) % system_size;
-        return place == turn_place ? frame.turn[system] : of_axis(frame.work[system], place);
+        return place == turn_place ? frame.rotation_deg[system] : of_axis(frame.work[system], place);
     }
     if (number == 5400) return std::max(0, modes.tool_loaded);
     if (between(number, 5401, 5409)) return of_axis(frame.tool, number - 5401);

@@ -35,7 +35,7 @@ void ProgramFlow::place(Problem& problem) const {
     problem.file = source_->file;
 }
 
-void ProgramFlow::refused(std::string_view text, Problem& problem) {
+void ProgramFlow::line_rejected(std::string_view text, Problem& problem) {
     place(problem);
     see_end(text);
 }

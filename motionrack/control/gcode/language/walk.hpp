@@ -34,7 +34,7 @@ class ProgramFlow {
         if (block.percent || !end_.begun()) see_end(block.text);
         if (block.flow) return follow(interpreter);
         if (block.has_m(m_program)) return follow_program(interpreter);
-        if (interpreter.turns()) return follow_contour(interpreter);
+        if (interpreter.is_lathe_cycle()) return follow_contour(interpreter);
         if (block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30)) end();
         return {};
     }
@@ -49,7 +49,7 @@ class ProgramFlow {
     const std::string& file() const { return sources_.front()->file; }  ///< of the program
     bool at_end() const { return lines_.at_end(); }
     /// The last line was refused: fills in where the problem is, and sees whether the program is over.
-    void refused(std::string_view text, Problem& problem);
+    void line_rejected(std::string_view text, Problem& problem);
 
     /// O words that do not fit together: once they are found, nothing more is walked.
     bool has_faults() const { return !faults_.empty(); }
@@ -63,7 +63,7 @@ class ProgramFlow {
         std::string file;
         std::optional<OWordIndex> index;
     };
-    struct Frame {
+    struct CallFrame {
         ProgramLines back;
         Source* source = nullptr;
         std::size_t repeats = 0;
@@ -131,7 +131,7 @@ class ProgramFlow {
     SubprogramSource subprogram_;
     std::vector<std::unique_ptr<Source>> sources_;
     Source* source_;
-    std::vector<Frame> frames_;
+    std::vector<CallFrame> frames_;
     std::vector<Repeat> repeats_;
     std::vector<Problem> faults_;
     Problem problem_;

@@ -157,7 +157,7 @@ bool ProgramFlow::load(const OWordLocation& place, const std::string& label, boo
     if (!text) {
         fail(place, place.column,
              fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
-        problem_.trouble = text.error().trouble;
+        problem_.kind = text.error().kind;
         return false;
     }
     auto source = std::make_unique<Source>();
@@ -195,7 +195,7 @@ bool ProgramFlow::end_call(const OWordLocation& place, Interpreter& interpreter,
 }
 
 void ProgramFlow::back_to_caller() {
-    const Frame& frame = frames_.back();
+    const CallFrame& frame = frames_.back();
     lines_ = frame.back;
     counted_from_ = lines_.number();
     source_ = frame.source;
@@ -249,7 +249,7 @@ bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpr
                     "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return "
                     "leaves it before that");
     const bool good = end_call(place, interpreter, std::nullopt);
-    Frame& frame = frames_.back();
+    CallFrame& frame = frames_.back();
     if (--frame.left == 0) {
         back_to_caller();
         return good;

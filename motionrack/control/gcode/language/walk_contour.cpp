@@ -27,7 +27,7 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     Target target{};
     if (!within_budget(here) || !find_sub(here, interpreter.contour_label(), false, target)) return failed();
-    Interpreter reader = interpreter.draws_contour();
+    Interpreter reader = interpreter.contour_interpreter();
     if (!reader.parameters().enter({})) {
         fail(here, here.column,
              fmt::format("{} stands in {} calls; does the sub call itself without end?", name_of_g(block.g[g_motion]),
@@ -68,7 +68,7 @@ bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourSegment>&
         }
         const Block& block = reader.block();
         const OWordLocation here = this_line(block, 0);
-        if (reader.turns())
+        if (reader.is_lathe_cycle())
             return fail(here, block.g_column[g_motion],
                         fmt::format("{} stands within the contour of another cycle; end that first",
                                     name_of_g(block.g[g_motion])));
@@ -84,7 +84,7 @@ bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourSegment>&
 /// What the last line moves; the first move leads to where the contour begins.
 bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour,
                               Point& at, bool& begun) {
-    while (const Step* step = reader.pull()) {
+    while (const CanonCall* step = reader.pull()) {
         const Move& move = step->move;
         if (step->kind != CanonCallKind::move || move.kind == MoveKind::dwell) continue;
         if (contour.size() >= most_pieces)

@@ -206,8 +206,8 @@ std::uint64_t bits_of_travels(std::uint64_t seed, int count) {
     const auto fold = [&sum](double x) { sum = fnv_step(sum, std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x)); };
     for (int i = 0; i < count; ++i) {
         const Task t = i % 3 == 0 ? tasks.outside() : i % 3 == 1 ? tasks.any() : tasks.usual();
-        const auto one = travel(t.from, t.to, t.limits);
-        const auto two = change_speed(t.from, t.to.speed, t.to.accel, t.limits);
+        const auto one = time_optimal_profile(t.from, t.to, t.limits);
+        const auto two = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
         for (const auto* out : {&one, &two}) {
             if (!*out) continue;
             for (const AxisProfile::Phase& p : (*out)->phases())

@@ -13,7 +13,7 @@ namespace {
 using namespace travel_test;
 
 double seconds_of(const Task& t) {
-    return travel(t.from, t.to, t.limits).value().duration();
+    return time_optimal_profile(t.from, t.to, t.limits).value().duration();
 }
 
 /// Durations are compared to this.
@@ -31,7 +31,7 @@ TEST(AxisProfile, FromRestToRestIsTheSCurve) {
     for (int i = 0; i < 3000; ++i) {
         const double speed = std::fabs(tasks.of_magnitude(1e-2, 1e3)), accel = std::fabs(tasks.of_magnitude(1e-2, 1e3));
         const double jerk = std::fabs(tasks.of_magnitude(1e-2, 1e3)), distance = tasks.of_magnitude(1e-6, 1e4);
-        const auto out = travel({}, {distance}, {speed, accel, jerk});
+        const auto out = time_optimal_profile({}, {distance}, {speed, accel, jerk});
         ASSERT_TRUE(out);
         const SCurveProfile curve(std::fabs(distance), speed, accel, jerk);
         ASSERT_NEAR(out->duration(), curve.duration(), 1e-13 * curve.duration()) << i;
@@ -44,7 +44,7 @@ TEST(AxisProfile, HoldsItsLimitsGoesOnWithoutJumpsAndEndsExactly) {
     Tasks tasks(2);
     for (int i = 0; i < 20'000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
     }
@@ -79,7 +79,7 @@ TEST(AxisProfile, FoundAgainOnTheWayTakesWhatIsLeft) {
     for (int i = 0; i < 20'000; ++i) {
         Task t = tasks.usual();
         t.to.speed = t.to.accel = 0;
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out);
         const double at = tasks.part() * out->duration();
         t.from = state_at(*out, at);
@@ -94,7 +94,7 @@ TEST(AxisProfile, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) 
     int longer = 0;
     for (int i = 0; i < 20'000; ++i) {
         Task t = tasks.usual();
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out);
         const double at = tasks.part() * out->duration();
         t.from = state_at(*out, at);
@@ -108,7 +108,8 @@ TEST(AxisProfile, UpsideDownTakesAsLong) {
     for (int i = 0; i < 5000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
         const auto turned = [](const KinematicState& s) { return KinematicState{-s.position, -s.speed, -s.accel}; };
-        ASSERT_EQ(travel(turned(t.from), turned(t.to), t.limits)->duration(), seconds_of(t)) << text_of(t);
+        ASSERT_EQ(time_optimal_profile(turned(t.from), turned(t.to), t.limits)->duration(), seconds_of(t))
+            << text_of(t);
     }
 }
 
@@ -119,7 +120,7 @@ TEST(AxisProfile, ToWhereItStandsTakesNoTime) {
         t.from = t.to;
         ASSERT_EQ(seconds_of(t), 0) << text_of(t);
     }
-    const auto out = travel({5, 0, 0}, {5, 0, 0}, {1, 1, 1});
+    const auto out = time_optimal_profile({5, 0, 0}, {5, 0, 0}, {1, 1, 1});
     EXPECT_EQ(out->sample(0).position, 5);
     EXPECT_EQ(out->sample(1).position, 5);
     EXPECT_TRUE(out->phases().empty());
@@ -138,7 +139,7 @@ TEST(AxisProfile, StartsAndEndsAtItsLimits) {
                             return 2 * speed - speed * accel * accel * 0.125;
                         };
                         const Task t = {{0, kept(v, a), a}, {distance, kept(w, b), b}, limits};
-                        const auto out = travel(t.from, t.to, t.limits);
+                        const auto out = time_optimal_profile(t.from, t.to, t.limits);
                         ASSERT_TRUE(out) << text_of(t);
                         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
                         ASSERT_LE(out->duration(), slowly_found_duration(t, 2000) + 1e-8) << text_of(t);
@@ -156,7 +157,7 @@ TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
                         t.limits = {speed, accel, jerk};
                         t.from = {0, speed * tasks.between(-0.5, 0.5), 0};
                         t.to = {tasks.one_in(2) ? distance : -distance, speed * tasks.between(-0.5, 0.5), 0};
-                        const auto out = travel(t.from, t.to, t.limits);
+                        const auto out = time_optimal_profile(t.from, t.to, t.limits);
                         ASSERT_TRUE(out) << text_of(t);
                         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
                         const double referee = slowly_found_duration(t);
@@ -167,10 +168,10 @@ TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
 TEST(AxisProfile, ThatMustTurnBackDoes) {
     // at full speed past a place just ahead: it overshoots, returns and stands
     const KinematicLimits limits = {10, 20, 100};
-    const auto out = travel({0, 10, 0}, {1, 0, 0}, limits);
+    const auto out = time_optimal_profile({0, 10, 0}, {1, 0, 0}, limits);
     double farthest = 0;
     for (int i = 0; i <= 1000; ++i) farthest = std::max(farthest, out->sample(out->duration() * i / 1000).position);
-    EXPECT_NEAR(farthest, stop({0, 10, 0}, limits)->target().position, 0.2);
+    EXPECT_NEAR(farthest, stop_profile({0, 10, 0}, limits)->target().position, 0.2);
     EXPECT_EQ(out->sample(out->duration()).position, 1);
 }
 
@@ -178,7 +179,7 @@ TEST(AxisProfile, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
     Tasks tasks(9);
     for (int i = 0; i < 3000; ++i) {
         Task t = tasks.outside();
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         const double entry = entry_of(*out, t.limits);
         ASSERT_EQ(fault_of(*out, t, entry * (1 + 1e-12)), "") << text_of(t);
@@ -199,13 +200,13 @@ TEST(AxisProfile, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
 
 TEST(AxisProfile, IsRefusedToATargetThatCannotBeKept) {
     const KinematicLimits limits = {2, 4, 8};
-    EXPECT_TRUE(travel({}, {1, 2, 0}, limits));
-    EXPECT_TRUE(travel({}, {1, 1, 4}, limits));
-    EXPECT_FALSE(travel({}, {1, 2.001, 0}, limits));
-    EXPECT_FALSE(travel({}, {1, 0, 4.001}, limits));
-    EXPECT_FALSE(travel({}, {1, 1.001, 4}, limits));
-    EXPECT_FALSE(travel({}, {1, 1.001, -4}, limits));
-    EXPECT_FALSE(change_speed({}, -2.001, 0, limits));
+    EXPECT_TRUE(time_optimal_profile({}, {1, 2, 0}, limits));
+    EXPECT_TRUE(time_optimal_profile({}, {1, 1, 4}, limits));
+    EXPECT_FALSE(time_optimal_profile({}, {1, 2.001, 0}, limits));
+    EXPECT_FALSE(time_optimal_profile({}, {1, 0, 4.001}, limits));
+    EXPECT_FALSE(time_optimal_profile({}, {1, 1.001, 4}, limits));
+    EXPECT_FALSE(time_optimal_profile({}, {1, 1.001, -4}, limits));
+    EXPECT_FALSE(velocity_change_profile({}, -2.001, 0, limits));
     EXPECT_TRUE(is_feasible_end(-1, 4, limits));
     EXPECT_FALSE(is_feasible_end(-1.001, 4, limits));
 }
@@ -215,28 +216,28 @@ TEST(AxisProfile, IsRefusedForWhatIsNoNumber) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         for (const KinematicState& state :
              {KinematicState{bad, 0, 0}, KinematicState{0, bad, 0}, KinematicState{0, 0, bad}}) {
-            EXPECT_FALSE(travel(state, {1}, limits));
-            EXPECT_FALSE(travel({}, state, limits));
-            EXPECT_FALSE(stop(state, limits));
-            EXPECT_FALSE(change_speed(state, 1, 0, limits));
+            EXPECT_FALSE(time_optimal_profile(state, {1}, limits));
+            EXPECT_FALSE(time_optimal_profile({}, state, limits));
+            EXPECT_FALSE(stop_profile(state, limits));
+            EXPECT_FALSE(velocity_change_profile(state, 1, 0, limits));
         }
-        EXPECT_FALSE(change_speed({}, bad, 0, limits));
-        EXPECT_FALSE(change_speed({}, 0, bad, limits));
+        EXPECT_FALSE(velocity_change_profile({}, bad, 0, limits));
+        EXPECT_FALSE(velocity_change_profile({}, 0, bad, limits));
         for (const KinematicLimits& of_none :
              {KinematicLimits{bad, 1, 1}, KinematicLimits{1, bad, 1}, KinematicLimits{1, 1, bad}})
-            EXPECT_FALSE(travel({}, {1}, of_none));
+            EXPECT_FALSE(time_optimal_profile({}, {1}, of_none));
     }
     for (const double bad : {0.0, -1.0})
         for (const KinematicLimits& of_none :
              {KinematicLimits{bad, 1, 1}, KinematicLimits{1, bad, 1}, KinematicLimits{1, 1, bad}})
-            EXPECT_FALSE(travel({}, {1}, of_none));
+            EXPECT_FALSE(time_optimal_profile({}, {1}, of_none));
 }
 
 TEST(AChangeOfSpeed, HoldsItsLimitsAndEndsExactly) {
     Tasks tasks(10);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto out = change_speed(t.from, t.to.speed, t.to.accel, t.limits);
+        const auto out = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         t.to.position = out->target().position;
         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
@@ -249,7 +250,7 @@ TEST(AChangeOfSpeed, IsTheQuickestOfAllTravelsToItsSpeed) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
         std::optional<double> seconds;
         if (i % 4 == 3) seconds = tasks.motion(t);
-        const double quickest = change_speed(t.from, t.to.speed, t.to.accel, t.limits).value().duration();
+        const double quickest = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits).value().duration();
         if (i % 4 != 3) seconds = seconds_of(t);
         if (seconds) {
             ASSERT_LE(quickest, *seconds + 1e-7 * std::max(1.0, *seconds)) << text_of(t);
@@ -262,7 +263,7 @@ TEST(AChangeOfSpeed, IsTheTravelToWhereItEnds) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto out = change_speed(t.from, t.to.speed, t.to.accel, t.limits);
+        const auto out = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
         t.to = out.value().target();
         ASSERT_NEAR(seconds_of(t), out->duration(), exactness(out->duration())) << text_of(t);
     }
@@ -272,11 +273,11 @@ TEST(AStop, EndsAtRestAndIsTheChangeOfSpeedToIt) {
     Tasks tasks(13);
     for (int i = 0; i < 5000; ++i) {
         const Task t = tasks.outside();
-        const auto out = stop(t.from, t.limits);
+        const auto out = stop_profile(t.from, t.limits);
         ASSERT_TRUE(out);
         EXPECT_EQ(out->target().speed, 0);
         EXPECT_EQ(out->target().accel, 0);
-        EXPECT_EQ(out->duration(), change_speed(t.from, 0, 0, t.limits)->duration());
+        EXPECT_EQ(out->duration(), velocity_change_profile(t.from, 0, 0, t.limits)->duration());
         const ProfileSample before = out->sample(out->duration() * (1 - 1e-12));
         EXPECT_NEAR(before.position, out->target().position, 1e-9 * (1 + std::fabs(before.position))) << text_of(t);
         EXPECT_NEAR(

@@ -75,7 +75,7 @@ TEST(AnAccelBound, OfALineIsItsTrapezoid) {
     const MachineLimits limits = machine();
     const auto bound = [&](const Move& move) { return seconds_of({move}, limits).bound; };
     Move slow = line_to({50, 0}), traverse = line_to({30, 40});
-    traverse.kind = MoveKind::traverse;
+    traverse.kind = MoveKind::rapid;
     EXPECT_NEAR(bound(slow), 50.0 / 100 + 100.0 / 2000, 1e-12);  // way / speed + speed / acceleration
     EXPECT_NEAR(bound(traverse), 40.0 / 200 + 200.0 / 2000, 1e-12);
     EXPECT_NEAR(bound(line_to({0, 2})), 2 * std::sqrt(2.0 / 2000), 1e-12);

@@ -44,7 +44,7 @@ inline std::vector<Move> program(std::mt19937& random) {
         }
         if (exact) move.path = PathControl::exact_path;
         move.feed = between(5, 120);
-        if (one_of(8)) move.kind = MoveKind::traverse;
+        if (one_of(8)) move.kind = MoveKind::rapid;
         move.line = static_cast<int>(out.size()) + 1;
         out.push_back(move);
         if (!one_of(25)) continue;
@@ -75,7 +75,7 @@ class Driven {
         }
         const double pass = std::min(seconds, rider.left());
         for (const double part : {0.005, 0.505}) look(part * pass);
-        rider.pass(pass);
+        rider.advance(pass);
         now += pass;
         return true;
     }
@@ -93,10 +93,10 @@ class Driven {
         const double gap = now + seconds - at_;
         for (std::size_t i = 0; i < limits.size(); ++i) {
             const AxisLimits& most = limits[i];
-            speed = std::max(speed, std::fabs(state.speed[i]) / most.max_speed);
+            speed = std::max(speed, std::fabs(state.speed[i]) / most.max_velocity);
             accel = std::max(accel, std::fabs(state.accel[i]) / most.max_accel);
             jerk = std::max(jerk, std::fabs(state.jerk[i]) / most.max_jerk);
-            jump = std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * most.max_speed * gap + 1e-5),
+            jump = std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * most.max_velocity * gap + 1e-5),
                              std::fabs(state.speed[i] - last.speed[i]) / (slack * most.max_accel * gap + 1e-4),
                              std::fabs(state.accel[i] - last.accel[i]) / (slack * most.max_jerk * gap + 1e-2)});
         }

@@ -67,7 +67,7 @@ class Oracle {
     double cap(const Point& tangent, double feed) const {
         double speed = std::min(feed, 1e100);
         for (std::size_t i = 0; i < tangent.size(); ++i)
-            if (tangent[i] != 0) speed = std::min(speed, limits_[i].max_speed / std::fabs(tangent[i]));
+            if (tangent[i] != 0) speed = std::min(speed, limits_[i].max_velocity / std::fabs(tangent[i]));
         return speed * speed;
     }
 

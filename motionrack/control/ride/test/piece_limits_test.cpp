@@ -56,7 +56,7 @@ TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
             const double a = k % 2 == 0 ? span.accel : -span.brake;
             const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
             for (std::size_t i = 0; i < 3; ++i) {
-                ASSERT_LE(std::fabs(tangent[i] * v), machine[i].max_speed * (1 + 1e-9)) << run;
+                ASSERT_LE(std::fabs(tangent[i] * v), machine[i].max_velocity * (1 + 1e-9)) << run;
                 ASSERT_LE(std::fabs(tangent[i] * a + curvature[i] * v * v), machine[i].max_accel * (1 + 1e-9)) << run;
                 ASSERT_LE(std::fabs(tangent[i] * j + 3 * curvature[i] * v * a + piece.curvature_rate[i] * v * v * v),
                           piece.jerk_share * machine[i].max_jerk * (1 + 1e-9))

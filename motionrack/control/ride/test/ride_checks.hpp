@@ -113,13 +113,13 @@ class RideChecks {
         const double step = (time - last_time_) * slack + hair;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const AxisLimits& axis = limits_[i];
-            hold("speed", std::fabs(state.speed[i]), axis.max_speed * slack, kept, time, state);
+            hold("speed", std::fabs(state.speed[i]), axis.max_velocity * slack, kept, time, state);
             hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack, kept, time, state);
             if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack, kept, time, state);
-            hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_speed * step + 3e-9, kept, time,
-                 state);
+            hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_velocity * step + 3e-9, kept,
+                 time, state);
             hold("jump of speed", std::fabs(state.speed[i] - last_.speed[i]),
-                 axis.max_accel * step + 1e-6 * axis.max_speed, kept, time, state);
+                 axis.max_accel * step + 1e-6 * axis.max_velocity, kept, time, state);
             if (axis.max_jerk > 0)
                 hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]),
                      axis.max_jerk * slack * step + (slack - 1) * axis.max_accel, kept, time, state);
@@ -133,7 +133,7 @@ class RideChecks {
     /// What the program allows on a move; a left out move before it may have made it a little longer.
     double programmed(std::size_t i) const {
         const Move& move = program_.moves[i];
-        if (move.kind == MoveKind::traverse || move.kind == MoveKind::dwell)
+        if (move.kind == MoveKind::rapid || move.kind == MoveKind::dwell)
             return std::numeric_limits<double>::infinity();
         return move.feed_mode == FeedMode::units_per_second
                    ? move.feed
@@ -179,8 +179,8 @@ class RideChecks {
     void check_rest(const KeptStretch& kept) {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double jerk = effective_jerk(limits_[i]);
-            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_,
-                 kept, last_time_, last_);
+            hold("rest: speed", std::fabs(last_.speed[i]),
+                 1e-7 * limits_[i].max_velocity + limits_[i].max_accel * hair_, kept, last_time_, last_);
             hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_,
                  kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
@@ -235,8 +235,8 @@ inline std::string text_of(const WildProgram& program) {
     std::string out = fmt::format("start {:.17g}\n", fmt::join(program.start, " "));
     for (std::size_t i = 0; i < program.limits.size(); ++i) {
         const AxisLimits& axis = program.limits[i];
-        out += fmt::format("{}: speed {:.9g} accel {:.9g} jerk {:.9g} pulses {:.9g}\n", axis_letters[i], axis.max_speed,
-                           axis.max_accel, axis.max_jerk, axis.pulses_per_unit);
+        out += fmt::format("{}: speed {:.9g} accel {:.9g} jerk {:.9g} pulses {:.9g}\n", axis_letters[i],
+                           axis.max_velocity, axis.max_accel, axis.max_jerk, axis.pulses_per_unit);
     }
     for (const Move& move : program.moves) {
         out += fmt::format("{} kind {} path {} mode {} feed {:.9g} rapid_override {:.3g} tolerance {:.9g} end {:.17g}",

@@ -45,16 +45,16 @@ std::vector<Move> curvy() {
 TEST(TheMovesOfARide, MeetInPlaceAndSpeedAndBeginAndEndAtRest) {
     const std::vector<PlannedMove> moves = moves_of(curvy());
     ASSERT_GT(moves.size(), 100U);
-    EXPECT_EQ(moves.front().entry, 0);
-    EXPECT_EQ(moves.back().exit, 0);
+    EXPECT_EQ(moves.front().entry_velocity, 0);
+    EXPECT_EQ(moves.back().exit_velocity, 0);
     for (std::size_t i = 0; i < moves.size(); ++i) {
         const PlannedMove& move = moves[i];
-        EXPECT_TRUE(move.even);
+        EXPECT_TRUE(move.constant_accel);
         EXPECT_GT(move.length, 0);
-        EXPECT_EQ(move.cruise, std::max(move.entry, move.exit));
+        EXPECT_EQ(move.cruise_velocity, std::max(move.entry_velocity, move.exit_velocity));
         if (i == 0) continue;
         EXPECT_EQ(move.start, moves[i - 1].move.end);
-        EXPECT_NEAR(move.entry, moves[i - 1].exit, 1e-6 + 1e-3 * move.entry);
+        EXPECT_NEAR(move.entry_velocity, moves[i - 1].exit_velocity, 1e-6 + 1e-3 * move.entry_velocity);
         EXPECT_GE(move.number, moves[i - 1].number);
     }
     EXPECT_EQ(moves.back().move.end, curvy().back().end);
@@ -110,10 +110,10 @@ TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
             const auto speed = [&](const PlannedMove& move, double along) {
                 return along * (move.move.end[axis] - move.start[axis]) / move.length;
             };
-            greatest =
-                std::max(greatest, std::fabs(speed(moves[i], moves[i].entry) - speed(moves[i - 1], moves[i - 1].exit)));
+            greatest = std::max(greatest, std::fabs(speed(moves[i], moves[i].entry_velocity) -
+                                                    speed(moves[i - 1], moves[i - 1].exit_velocity)));
         }
-    EXPECT_LT(greatest, machine()[0].start_speed);
+    EXPECT_LT(greatest, machine()[0].max_velocity_step);
     EXPECT_GT(greatest, 0.1);
 }
 
@@ -131,10 +131,10 @@ TEST(TheMovesOfARide, LetACardThatKeepsTheAccelerationsOnEachOfThemComeSlowIntoA
             for (std::size_t axis = 0; axis < 3; ++axis)
                 accel = std::min(accel, limits[axis].max_accel * move.length /
                                             std::max(1e-9, std::fabs(move.move.end[axis] - move.start[axis])));
-            speed = std::max(move.exit, std::sqrt(std::max(0.0, speed * speed - 2 * accel * move.length)));
-            greatest = std::max(greatest, speed - move.exit);
+            speed = std::max(move.exit_velocity, std::sqrt(std::max(0.0, speed * speed - 2 * accel * move.length)));
+            greatest = std::max(greatest, speed - move.exit_velocity);
         }
-        EXPECT_LT(greatest, limits[0].start_speed) << "height " << height;
+        EXPECT_LT(greatest, limits[0].max_velocity_step) << "height " << height;
     }
 }
 
@@ -146,7 +146,7 @@ TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
     const auto drive = [&] {
         while (rider.next(false) == NextMotion::motion) {
             const double pass = std::min(0.01, rider.left());
-            rider.pass(pass);
+            rider.advance(pass);
             ride += pass;
         }
     };
@@ -208,7 +208,7 @@ TEST(TheMovesOfARide, StandBeforeACornerThatWouldTakeMoreAxesThanTheCardDraws) {
     settings.drive = &rule;
     const auto stands = [&](const std::vector<Move>& program) {
         int count = 0;
-        for (const PlannedMove& move : moves_of(program, settings)) count += move.exit == 0;
+        for (const PlannedMove& move : moves_of(program, settings)) count += move.exit_velocity == 0;
         return count;
     };
     EXPECT_EQ(stands({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 0}, 0.5)}), 1);

@@ -38,7 +38,7 @@ Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
         for (int i = 0; i <= steps; ++i) {
             const TrajectoryPoint state = view.at(stretch.seconds * i / steps);
             for (std::size_t axis = 0; axis < limits.size(); ++axis) {
-                out.speed = std::max(out.speed, std::fabs(state.speed[axis]) / limits[axis].max_speed);
+                out.speed = std::max(out.speed, std::fabs(state.speed[axis]) / limits[axis].max_velocity);
                 out.accel = std::max(out.accel, std::fabs(state.accel[axis]) / limits[axis].max_accel);
                 out.jerk = std::max(out.jerk, std::fabs(state.jerk[axis]) / limits[axis].max_jerk);
             }

@@ -53,7 +53,7 @@ class WildMaker {
         const double pulses = size_between(100, 1e5);
         for (AxisLimits& axis : limits) {
             axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, pulses};
-            axis.max_speed *= size_between(1 / apart, apart);
+            axis.max_velocity *= size_between(1 / apart, apart);
             axis.max_accel *= size_between(1 / apart, apart);
             axis.max_jerk *= no_jerk ? 0 : size_between(1 / apart, apart);
         }
@@ -61,7 +61,7 @@ class WildMaker {
 
     void make_mode() {
         mode_ = Move{};
-        mode_.kind = one_of(6) == 0 ? MoveKind::traverse : MoveKind::feed;
+        mode_.kind = one_of(6) == 0 ? MoveKind::rapid : MoveKind::feed;
         mode_.rapid_override = one_of(2) == 0 ? 1 : between(0.01, 1);
         mode_.path = static_cast<PathControl>(one_of(5) < 3 ? 2 : one_of(2));
         mode_.tolerance_mm = one_of(8) == 0 ? 0 : size_between(1e-5, 2);

@@ -48,7 +48,7 @@ std::map<std::string, Declared> declared_commands() {
 
 std::vector<double> least_of(const ControlCommand& command) {
     std::vector<double> out;
-    for (const ControlParam& param : command.params()) out.push_back(param.least);
+    for (const ControlParam& param : command.params()) out.push_back(param.min);
     return out;
 }
 
@@ -77,7 +77,7 @@ TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
         for (std::size_t i = 0; i < least.size(); ++i) {
             const ControlParam& param = command.params()[i];
             SCOPED_TRACE(param.name);
-            for (const double end : {param.least, param.greatest}) {
+            for (const double end : {param.min, param.max}) {
                 std::vector<double> given = least;
                 given[i] = end;
                 if (command.name == "set_mcbsp_out") given = {7, end == 0 ? 0.0 : 45.0};
@@ -87,7 +87,7 @@ TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
                 EXPECT_TRUE(done || command.refusal == rtc5::Refusal::rejected) << done.error().message;
             }
             for (const double beyond :
-                 {param.least - 1, param.greatest + 1, std::nan(""), std::numeric_limits<double>::infinity()}) {
+                 {param.min - 1, param.max + 1, std::nan(""), std::numeric_limits<double>::infinity()}) {
                 std::vector<double> given = least;
                 given[i] = beyond;
                 const auto checked = command.check(given);

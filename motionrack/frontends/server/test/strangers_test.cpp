@@ -152,7 +152,7 @@ TEST(AStranger, PairsWithAShortNameOnly) {
 }
 
 TEST(AStranger, SendsShortMessagesOnly) {
-    Running running([](ServerSettings& settings) { settings.loopback_role = authority::Role::nobody; });
+    Running running([](ServerSettings& settings) { settings.loopback_role = authority::Role::none; });
     WebClient client = running.client();
     ASSERT_EQ(client.upgrade().status, 101);
     client.send_frame(1, std::string(5'000, 'x'));

@@ -31,7 +31,7 @@ TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
     int equal = 0;
     for (int i = 0; i < tasks_of_a_part; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
         const double seconds = out->duration();
@@ -50,7 +50,7 @@ TEST_P(DeepTravels, AreNeverSlowerThanMotionsThatHappen) {
         Task t;
         const auto seconds = tasks.motion(t);
         if (!seconds || *seconds < 1e-3) continue;
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
         ASSERT_LE(out->duration(), *seconds + exactness(*seconds)) << text_of(t);
@@ -61,7 +61,7 @@ TEST_P(DeepTravels, FromOutsideAreAllRightAndQuickestFromWithin) {
     Tasks tasks(seed() + 2000);
     for (int i = 0; i < tasks_of_a_part; ++i) {
         const Task t = tasks.outside();
-        const auto out = travel(t.from, t.to, t.limits);
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         const double entry = entry_of(*out, t.limits);
         ASSERT_EQ(fault_of(*out, t, entry * (1 + 1e-12)), "") << text_of(t);
