@@ -80,7 +80,7 @@ class Machines {
             all_[a]->connect(chip.pulses(a));
         }
     }
-    sim::Motion& encoder(int axis) { return all_[axis]->encoder(); }
+    sim::PositionFunction& encoder(int axis) { return all_[axis]->encoder(); }
 
   private:
     std::array<std::unique_ptr<parts::AxisMechanics>, 4> all_;

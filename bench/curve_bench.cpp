@@ -115,7 +115,7 @@ void ride(benchmark::State& state, const std::vector<Move>& moves) {
     double cells = 0;
     for (auto _ : state) {
         OfflineTrajectory ride(machine(), Point{},
-                               [&](const Stretch& stretch) { cells += static_cast<double>(stretch.feed.size()); });
+                               [&](const PathSection& stretch) { cells += static_cast<double>(stretch.feed.size()); });
         for (const Move& move : moves) ride.push(move);
         ride.flush();
     }
@@ -138,7 +138,7 @@ void rider(benchmark::State& state, const std::vector<Move>& moves) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Clock::time_point begin = Clock::now();
-        while (!rider.has_room() && rider.next(false) == NextMotion::motion) rider.pass(std::min(0.05, rider.left()));
+        while (!rider.has_room() && rider.next(false) == NextMotion::motion) rider.advance(std::min(0.05, rider.left()));
         rider.push({moves[i]});
         seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
         if (++i < moves.size()) continue;

@@ -85,7 +85,7 @@ void s_curve_plan(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const SCurve p(t.distance, t.speed, t.accel, t.jerk);
+        const SCurveProfile p(t.distance, t.speed, t.accel, t.jerk);
         benchmark::DoNotOptimize(p);
     }
 }
@@ -126,8 +126,8 @@ void sample_four_axes(benchmark::State& state, const std::array<Profile, 4>& axe
 }
 
 void sample_s_curve(benchmark::State& state) {
-    sample_four_axes<SCurve>(state, {SCurve(20, 100, 1000, 2e4), SCurve(15, 80, 800, 2e4), SCurve(12, 90, 900, 1e4),
-                                     SCurve(30, 120, 1500, 3e4)});
+    sample_four_axes<SCurveProfile>(state, {SCurveProfile(20, 100, 1000, 2e4), SCurveProfile(15, 80, 800, 2e4), SCurveProfile(12, 90, 900, 1e4),
+                                     SCurveProfile(30, 120, 1500, 3e4)});
 }
 BENCHMARK(sample_s_curve);
 
@@ -139,7 +139,7 @@ BENCHMARK(sample_trapezoid);
 
 /// The plain way: run through the phases from the start at every sample.
 void sample_s_curve_through_all_phases(benchmark::State& state) {
-    const SCurve p(20, 100, 1000, 2e4);
+    const SCurveProfile p(20, 100, 1000, 2e4);
     const auto ends = p.phase_ends();
     const double jerks[7] = {2e4, 0, -2e4, 0, -2e4, 0, 2e4};
     double t = 0;
@@ -193,11 +193,11 @@ void look_ahead(benchmark::State& state, double step) {
     std::size_t i = 0;
     double top = 0;
     for (auto _ : state) {
-        while (!planner.has_room() && planner.pull(planned)) top = std::max(top, planned.cruise);
+        while (!planner.has_room() && planner.pull(planned)) top = std::max(top, planned.cruise_velocity);
         if (!planner.push(moves[i])) state.SkipWithError("refused");
         if (++i == moves.size()) {
             planner.flush();
-            while (planner.pull(planned)) top = std::max(top, planned.cruise);
+            while (planner.pull(planned)) top = std::max(top, planned.cruise_velocity);
             planner = LookAheadPlanner(machine(), Point{}, {1024});
             i = 0;
         }

@@ -50,12 +50,12 @@ void solve_all(benchmark::State& state, const std::vector<Task>& work, Solve sol
 }
 
 auto travel_of(const Task& t) {
-    return travel(t.from, t.to, t.limits);
+    return time_optimal_profile(t.from, t.to, t.limits);
 }
 
 void s_curve_from_rest_to_rest(benchmark::State& state) {
     solve_all(state, tasks(0), [](const Task& t) {
-        return SCurve(std::fabs(t.to.position - t.from.position), t.limits.speed, t.limits.accel, t.limits.jerk);
+        return SCurveProfile(std::fabs(t.to.position - t.from.position), t.limits.speed, t.limits.accel, t.limits.jerk);
     });
 }
 BENCHMARK(s_curve_from_rest_to_rest);
@@ -87,12 +87,12 @@ void travel_from_outside(benchmark::State& state) {
 BENCHMARK(travel_from_outside);
 
 void change_of_speed(benchmark::State& state) {
-    solve_all(state, tasks(1), [](const Task& t) { return change_speed(t.from, t.to.speed, t.to.accel, t.limits); });
+    solve_all(state, tasks(1), [](const Task& t) { return velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits); });
 }
 BENCHMARK(change_of_speed);
 
 void stop_of_any_motion(benchmark::State& state) {
-    solve_all(state, tasks(1), [](const Task& t) { return stop(t.from, t.limits); });
+    solve_all(state, tasks(1), [](const Task& t) { return stop_profile(t.from, t.limits); });
 }
 BENCHMARK(stop_of_any_motion);
 

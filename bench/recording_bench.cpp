@@ -82,7 +82,7 @@ void run_example_part(benchmark::State& state) {
     const std::string path = scratch("run");
     if (state.range(0) == 1) {
         watchers.waves.emplace().path = path;
-        watchers.waves->timescale = Duration{1};
+        watchers.waves->unit = Duration{1};
     }
     if (state.range(0) == 2) watchers.recording = path;
     double written = 0;

@@ -75,7 +75,7 @@ class PortWords final : public WordAccess {
 Result<void> check_ports(const PortSpec& spec, std::uint64_t length) {
     if (spec.offset >= first_of_cards && spec.offset <= end_of_ports && length <= end_of_ports - spec.offset) return {};
     return fail(
-        ErrorKind::bad_input,
+        ErrorKind::invalid_input,
         fmt::format("The card's registers are {} bytes from the I/O port {:#x} on (offset, stride), but cards are "
                     "at 0x100 to 0xffff. Nothing was opened. Give the card's first port as offset=, such as "
                     "offset=0x300.",

@@ -45,7 +45,7 @@ std::string_view card_in(std::string_view line) {
 }
 
 tl::unexpected<Error> wrong(std::string message, std::string_view file, int line) {
-    return fail(ErrorKind::bad_input, std::move(message), Place{line, 1}, std::string(file));
+    return fail(ErrorKind::invalid_input, std::move(message), Place{line, 1}, std::string(file));
 }
 
 Result<std::vector<std::string>> read_cards(std::string_view text, std::string_view file) {
@@ -166,7 +166,7 @@ Result<void> ChipsAlone::set_wire(std::string_view name, double value) {
     const sim::WireId wire =
         driven.empty() ? sim::WireId::none : kernel_.find_wire(fmt::format("{}.{}", driven.front()->name(), pin));
     if (wire == sim::WireId::none)
-        return fail(ErrorKind::bad_input,
+        return fail(ErrorKind::invalid_input,
                     fmt::format("There is no wire {}; inputs are CARD.PIN, as {}.xlmtp, and estop. "
                                 "Nothing was done.",
                                 in_quotes(name), cards_.front()->name()));
